@@ -18,6 +18,7 @@ from conformance.runtime import (
     modbus,
     quantities,
     reading,
+    traffic,
     uss,
     words,
 )
@@ -34,6 +35,7 @@ _THEMES = (
     descriptors,
     memory,
     reading,
+    traffic,
     modbus,
     can,
     uss,

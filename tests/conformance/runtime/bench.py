@@ -43,11 +43,15 @@ class Memory:
         self.words = words
         self.asked: list[tuple[int, int, int]] = []
         self.fails: BaseException | None = None
+        self.errors: list[BaseException] = []
+        """Of the next requests, the last one first."""
 
     def exchange(self, request: bytes) -> bytes:
         """The answer to a request."""
         if self.fails is not None:
             raise self.fails
+        if self.errors:
+            raise self.errors.pop()
         if request[0] == 0:
             self.asked.append((request[1], *self._pair(request)))
             return b""

@@ -54,6 +54,8 @@ class Decoder(Receiver):
         self._in_order = self._places == list(range(first, first + len(self._places)))
         points = [one for one in device.POINTS.values() if one.facts.at.telegram == telegram and exists(one, variants)]
         self._layouts = layouts_of(device.PROFILE, telegram, points, whole=self._in_order)
+        self._lacks = [bool(layout.needs) for layout in self._layouts]
+        """Whether something that its scales need has not come yet, for each frame."""
         apart = [one for one in points if not any(one in layout.points for layout in self._layouts)]
         self._apart = [self._parts(number, apart) for number in range(len(self._layouts))]
 
@@ -83,8 +85,10 @@ class Decoder(Receiver):
             self._known.update(layout.wanted(data))
         if raws is not NO_RAWS:
             known = self._with(raws)
+        if self._lacks[number]:
+            self._lacks[number] = not layout.needs <= known.keys()
         values: dict[str, Value] | None = None
-        if not layout.needs or layout.needs <= known.keys():
+        if not self._lacks[number]:
             try:
                 values = layout.decoder(data, known)
             except CodecError:

@@ -1,0 +1,150 @@
+"""What people see of a device beside its values: counters, what is sent again, the log, rows, limits and names."""
+
+from __future__ import annotations
+
+import json
+import logging
+from typing import Any
+
+from conformance.package import Package
+from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, table
+from conformance.scripts import now
+
+
+def _made(package: Package) -> list[tuple[Any, Any]]:
+    """Both flavours of a device, and their lines."""
+    runtime = package.runtime
+    word = runtime.Integer(runtime.U16)
+    codes = runtime.Codes({"off": 7, "over": (9, 12)})
+    points = {
+        "PROFILE": runtime.Profile(functions={3: 4, 6: 1}),
+        "a": runtime.ReadWrite(word, at=runtime.holding(0), code="A1", unit="Hz"),
+        "b": runtime.ReadOnly(runtime.WithCodes(word, codes), at=runtime.holding(1)),
+        "store": runtime.Command(at=runtime.holding(5), value=1),
+    }
+    kinds = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
+    lines = Memory({0: 3, 1: 7}), AsyncMemory({0: 3, 1: 7})
+    return [(kind(line, 1), line) for kind, line in zip(kinds, lines, strict=True)]
+
+
+def check_retries(package: Package) -> None:
+    """What the line loses is sent again so often; a refusal, a mistake and a command are not."""
+    lost, wrong = TimeoutError("nothing came"), package.runtime.FrameError("bad_crc", "wrong")
+    refused = package.runtime.ExceptionReplyError(2)
+    for device, memory in _made(package):
+        for retries, errors, status, counted in (
+            (0, [lost], "timeout", {"timeout": 1}),
+            (1, [lost], None, {"timeout": 1}),
+            (2, [lost, wrong], None, {"bad_crc": 1, "timeout": 1}),
+            (2, [lost, lost], None, {"timeout": 2}),
+            (1, [wrong, lost], "bad_crc", {"bad_crc": 1, "timeout": 1}),
+            (2, [refused], "exception", {"exception": 1}),
+        ):
+            device.retries, memory.errors = retries, list[BaseException](errors)
+            device.traffic.clear()
+            if status is None:
+                assert now(device.a.read()) == 3
+            else:
+                assert refusal(device.a.read).status == status
+            answered = status is None
+            assert (device.traffic.requests, device.traffic.replies) == (len(errors) + answered, answered)
+            assert device.traffic.errors == counted
+        device.retries, memory.errors = 5, [lost]
+        assert refusal(device.store.send).status == "timeout"
+        assert device.retries == 5
+        now(device.store.send())
+        assert memory.words[5] == 1
+
+
+def check_times(package: Package) -> None:
+    """Replies are timed from their requests on."""
+    for device, _ in _made(package):
+        traffic = device.traffic
+        assert (traffic.mean, traffic.longest, repr(traffic)) == (
+            0.0,
+            0.0,
+            "<Traffic 0 requests, 0 replies; 0.0 ms each, 0.0 ms at most>",
+        )
+        for _ in range(3):
+            now(device.a.read())
+        assert 0 < traffic.mean <= traffic.longest <= traffic.total < 60
+        assert traffic.total == traffic.mean * 3
+        traffic.total, traffic.longest, traffic.errors = 0.006, 0.004, {"timeout": 2}
+        assert repr(traffic) == "<Traffic 3 requests, 3 replies, 2 timeout; 2.0 ms each, 4.0 ms at most>"
+
+
+def check_log(package: Package) -> None:
+    """Frames stand in the log with the points that they are about, if the log takes debug messages."""
+    messages: list[str] = []
+    handler = logging.Handler()
+    handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]
+    logger = logging.getLogger("fieldscribe")
+    level = logger.level
+    logger.addHandler(handler)
+    try:
+        for device, memory in _made(package):
+            logger.setLevel(logging.INFO)
+            now(device.a.read())
+            assert messages == []
+            logger.setLevel(logging.DEBUG)
+            now(device.a.read())
+            now(device.read_at("holding", 1))
+            memory.fails = TimeoutError("nothing came")
+            refusal(device.store.send)
+            memory.fails = None
+            sent, came, by_address, _, command, failed = messages
+            assert sent == "unit 1 -> 01 03 00 00 00 01 84 0A (A1 a)"
+            assert came.startswith("unit 1 <- 01 03 02 00 03 F8 45 after ")
+            assert by_address.endswith("(holding 0x0001)")
+            assert command.endswith("(store)")
+            assert failed == "unit 1: timeout: unit 1 did not reply to function 06h: nothing came"
+            messages.clear()
+    finally:
+        logger.setLevel(level)
+        logger.removeHandler(handler)
+
+
+def check_rows(package: Package) -> None:
+    """Values become rows with units, and JSON with the names of special codes."""
+    for device, _ in _made(package):
+        values = now(device.read_many(["a", "b"]))
+        assert device.rows(values) == [
+            {"name": "a", "code": "A1", "value": 3, "unit": "Hz"},
+            {"name": "b", "code": None, "value": device.b.special.off, "unit": ""},
+        ]
+        assert json.dumps(values, default=str) == '{"a": 3, "b": "off"}'
+
+
+def check_limits(package: Package) -> None:
+    """Limits in the unit, whatever stands around the form; none where other points decide them."""
+    runtime = package.runtime
+    tenths, at = runtime.Rule(num=10), runtime.holding(0)
+    falling, moved = runtime.Rule(num=-10, offset=(5, 1)), runtime.Rule(factors=(runtime.Factor("other"),))
+    u16 = runtime.U16
+    cases: list[tuple[Any, dict[str, Any], tuple[Any, Any]]] = [
+        (runtime.Integer(u16), {}, (0, 65535)),
+        (runtime.Integer(u16), {"allowed": ((3, 5), (1, 2))}, (1, 5)),
+        (runtime.Scaled(u16, tenths, decimals=1), {"allowed": ((10, 4000),)}, (1.0, 400.0)),
+        (runtime.Scaled(u16, falling, decimals=1), {"allowed": ((0, 105),)}, (-10.0, 0.5)),
+        (runtime.Scaled(u16, moved, decimals=0), {"allowed": ((0, 105),)}, (None, None)),
+        (runtime.Floating(runtime.F32), {}, (None, None)),
+        (runtime.Floating(runtime.F32, units=((5.0, 9.0), (-1.0, 2.0))), {}, (-1.0, 9.0)),
+        (runtime.Bit(), {}, (None, None)),
+        (runtime.WithCodes(runtime.Integer(u16), runtime.Codes({"off": 0})), {"allowed": ((0, 8),)}, (0, 8)),
+        (runtime.Integer(u16), {"fixed": (1, 1), "allowed": ((1, 9),)}, (1, 9)),
+    ]
+    for form, facts, expected in cases:
+        point = table(package, some_point_2=runtime.ReadWrite(form, at=at, unit="V", **facts)).some_point_2
+        assert (point.minimum, point.maximum) == expected, (form, facts)
+        assert (point.title, point.unit) == ("Some point 2", "V")
+
+
+def check_completion(package: Package) -> None:
+    """Completion lists what people use, of a point that can do it, and the names of special codes."""
+    for device, _ in _made(package):
+        both, reads = set(dir(device.a)), set(dir(device.b))
+        assert {"read", "write", "write_raw", "read_raw", "encode", "decode", "facts", "minimum"} <= both
+        assert both - reads == {"write", "write_raw", "encode", "encode_count", "check"}
+        assert not [name for name in both if name.startswith("_") or not hasattr(device.a, name)]
+        assert (dir(device.b.special), dir(device.a.special)) == (["off", "over"], [])
+        assert "read" not in dir(type(device).a)
