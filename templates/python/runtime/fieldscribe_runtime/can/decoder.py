@@ -85,10 +85,9 @@ class Decoder(Receiver):
             self._known.update(layout.wanted(data))
         if raws is not NO_RAWS:
             known = self._with(raws)
-        if self._lacks[number]:
-            self._lacks[number] = not layout.needs <= known.keys()
+        lacks = self._lacks[number] = self._lacks[number] and not layout.needs <= known.keys()
         values: dict[str, Value] | None = None
-        if not self._lacks[number]:
+        if not lacks:
             try:
                 values = layout.decoder(data, known)
             except CodecError:
