@@ -461,13 +461,18 @@ typedef struct fieldscribe_u128 {
 
 static inline fieldscribe_u128 fieldscribe_product(uint64_t a, uint64_t b)
 {
-    const uint64_t half_word = UINT64_C(0xFFFFFFFF);
-    const uint64_t lowest = (a & half_word) * (b & half_word);
-    const uint64_t cross = ((a >> 32) * (b & half_word)) + (lowest >> 32);
-    const uint64_t middle = ((a & half_word) * (b >> 32)) + (cross & half_word);
     fieldscribe_u128 product;
-    product.high = ((a >> 32) * (b >> 32)) + (cross >> 32) + (middle >> 32);
-    product.low = ((middle & half_word) << 32) | (lowest & half_word);
+    if ((((a | b) >> 32) == 0U) || (((a >> 16) | (b >> 48)) == 0U)) {
+        product.high = 0U;
+        product.low = a * b;
+    } else {
+        const uint64_t half_word = UINT64_C(0xFFFFFFFF);
+        const uint64_t lowest = (a & half_word) * (b & half_word);
+        const uint64_t cross = ((a >> 32) * (b & half_word)) + (lowest >> 32);
+        const uint64_t middle = ((a & half_word) * (b >> 32)) + (cross & half_word);
+        product.high = ((a >> 32) * (b >> 32)) + (cross >> 32) + (middle >> 32);
+        product.low = ((middle & half_word) << 32) | (lowest & half_word);
+    }
     return product;
 }
 
@@ -485,6 +490,68 @@ static inline uint64_t fieldscribe_quotient_bit(fieldscribe_u128 *number, uint64
     return bit;
 }
 
+/* The next bits of a quotient, at most 32. `rest` is what is left over: it is below the divisor, that below 2^63. */
+static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t divisor, int32_t bits)
+{
+    uint64_t left = *rest;
+    uint32_t quotient = 0U;
+    int32_t more;
+    for (more = bits; more > 0; --more) {
+        left <<= 1;
+        quotient = (quotient & 0x7FFFFFFFU) << 1;
+        if (left >= divisor) {
+            left -= divisor;
+            quotient |= 1U;
+        }
+    }
+    *rest = left;
+    return quotient;
+}
+
+/* fieldscribe_twice_ratio of number / divisor in 64 bits; false, and nothing stored, if they may not be enough. */
+static inline bool fieldscribe_short_ratio(
+    uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
+{
+    uint64_t rest = number;
+    uint64_t over = divisor;
+    uint64_t quotient = 0U;
+    uint32_t shifts = 0U;
+    int32_t bits;
+    if (((number | divisor) > (uint64_t)INT64_MAX) || (shift < -63) || (shift > 62)) {
+        return false;
+    }
+    if ((divisor & (divisor - 1U)) == 0U) {
+        for (; over > 0xFU; over >>= 4) {
+            shifts += 4U;
+        }
+        for (; over > 1U; over >>= 1) {
+            ++shifts;
+        }
+        bits = shift + 1 - (int32_t)(shifts & 0x3FU); /* at most 62 */
+        if ((bits < -63) || ((bits > 0) && (number > (UINT64_MAX >> bits)))) {
+            return false;
+        }
+        quotient = (bits < 0) ? (number >> -bits) : (number << bits);
+        rest = (bits < 0) ? (number - (quotient << -bits)) : 0U;
+    } else {
+        for (; over <= rest; over <<= 1) {
+            ++shifts;
+        }
+        bits = shift + 1 + (int32_t)(shifts & 0x3FU); /* at most 63 */
+        if ((over > (uint64_t)INT64_MAX) || (bits > 64)) {
+            return false;
+        }
+        if (bits > 32) {
+            quotient = (uint64_t)fieldscribe_quotient_bits(&rest, over, bits - 32) << 32;
+            bits = 32;
+        }
+        quotient |= fieldscribe_quotient_bits(&rest, over, bits);
+    }
+    *twice = quotient;
+    *left_over = rest != 0U;
+    return true;
+}
+
 /*
  * Twice a * b / divisor * 2^shift, rounded down, and whether that left something over; false beyond 64 bits.
  * The divisor is in 1..2^63.
@@ -497,10 +564,8 @@ static inline bool fieldscribe_twice_ratio(
     uint64_t quotient = 0U;
     int32_t bit = -129;
     bool fits = true;
-    if ((number.high == 0U) && (shift >= -65)) { /* 64 bits that are 0 change nothing */
-        number.high = number.low;
-        number.low = 0U;
-        bit = -65;
+    if ((number.high == 0U) && fieldscribe_short_ratio(number.low, divisor, shift, twice, left_over)) {
+        return true;
     }
     while (fits && (bit < shift)) {
         const uint64_t next = fieldscribe_quotient_bit(&number, &rest, divisor);
@@ -583,7 +648,16 @@ static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den
 /* a * b; false when that is no int64_t. */
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
-    const fieldscribe_u128 size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
+    fieldscribe_u128 size;
+    if ((a == 1) && (b > INT64_MIN)) {
+        *product = b;
+        return true;
+    }
+    if ((a >= INT32_MIN) && (a <= INT32_MAX) && (b >= INT32_MIN) && (b <= INT32_MAX)) {
+        *product = a * b;
+        return true;
+    }
+    size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
     if ((size.high != 0U) || (size.low > (uint64_t)INT64_MAX)) {
         return false;
     }
@@ -607,6 +681,65 @@ static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
     }
     *sum = a + b;
     return true;
+}
+
+/* ---- Patterns of binary32 numbers, and counts of them, in integers ---- */
+
+/* The size of the number is a mantissa times two to an exponent, which is above 104 for infinity and NaN alone. */
+static inline uint32_t fieldscribe_f32_mantissa(uint32_t bits)
+{
+    return (bits & 0x7FFFFFU) | (((bits & 0x7F800000U) != 0U) ? 0x800000U : 0U);
+}
+
+static inline int32_t fieldscribe_f32_exponent(uint32_t bits)
+{
+    const uint32_t power = (bits >> 23) & 0xFFU;
+    return (int32_t)((power != 0U) ? power : 1U) - 150;
+}
+
+/* The count of a pattern, where `tens` counts are one unit: 1 to 10^12; an overflow beyond -(2^63 - 1)..2^63 - 1. */
+FIELDSCRIBE_STATUS fieldscribe_count_of_f32(uint32_t bits, int64_t tens, int64_t *count)
+{
+    const int32_t exponent = fieldscribe_f32_exponent(bits);
+    uint64_t size = (uint64_t)fieldscribe_f32_mantissa(bits) * (uint64_t)tens;
+    bool fits = exponent < 40; /* from there on, 2^23 or more times 2^40 or more */
+    if (fits && (exponent < 0)) {
+        size = (exponent < -64) ? 0U : (size >> (-1 - exponent));
+        size = (size / 2U) + (size & 1U);
+    } else if (fits) {
+        fits = size <= ((uint64_t)INT64_MAX >> exponent);
+        size = fits ? (size << exponent) : 0U;
+    } else {
+        size = 0U;
+    }
+    if ((!fits) || (size > (uint64_t)INT64_MAX)) {
+        return ((exponent > 104) && ((bits & 0x7FFFFFU) != 0U)) ? FIELDSCRIBE_NOT_A_NUMBER : FIELDSCRIBE_OVERFLOW;
+    }
+    *count = (bits > 0x7FFFFFFFU) ? -(int64_t)size : (int64_t)size;
+    return FIELDSCRIBE_OK;
+}
+
+/* The pattern nearest to a count, ties to even, where `tens` counts are one unit: 1 to 10^18. */
+static inline fieldscribe_whole fieldscribe_f32_of_count(int64_t count, int64_t tens)
+{
+    uint64_t rest = fieldscribe_magnitude(count);
+    uint64_t over = fieldscribe_magnitude(tens);
+    uint32_t mantissa;
+    int32_t power = 126;
+    if (rest == 0U) {
+        return fieldscribe_whole_of(0);
+    }
+    for (; (over <= (rest >> 1)) && (power < 200); over <<= 1) {
+        ++power;
+    }
+    for (; (rest < over) && (power > 50); rest <<= 1) {
+        --power;
+    }
+    rest -= over; /* the leading bit; 24 more, of which the last rounds */
+    mantissa = 0x1000000U | fieldscribe_quotient_bits(&rest, over, 24);
+    mantissa += ((rest != 0U) || ((mantissa & 2U) != 0U)) ? 1U : 0U;
+    mantissa = (mantissa >> 1) + ((uint32_t)power << 23);
+    return fieldscribe_whole_of((int64_t)((count < 0) ? (mantissa | 0x80000000U) : mantissa));
 }
 
 /* ---- Rules: scales and limits that need the raw numbers of other points ---- */
@@ -661,7 +794,9 @@ static inline fieldscribe_rule fieldscribe_rule_within(fieldscribe_rule rule, in
 /* Multiply a limit by a factor, which may be zero. */
 static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, int64_t factor)
 {
-    const bool fits = fieldscribe_multiply(rule.num, factor, &rule.num);
+    int64_t num = rule.num;
+    const bool fits = fieldscribe_multiply(num, factor, &num);
+    rule.num = num;
     return fieldscribe_rule_if(rule, fits);
 }
 
@@ -675,9 +810,11 @@ static inline fieldscribe_rule fieldscribe_rule_times(fieldscribe_rule rule, int
 /* Divide by a factor other than zero. */
 static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int64_t factor)
 {
-    fieldscribe_rule divided = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
-    const bool fits = fieldscribe_multiply(rule.den, factor, &divided.den);
-    return fieldscribe_rule_if(divided, fits);
+    const fieldscribe_status status = (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK;
+    int64_t den = rule.den;
+    const bool fits = fieldscribe_multiply(den, factor, &den);
+    rule.den = den;
+    return fieldscribe_rule_if(fieldscribe_rule_fails(rule, status), fits);
 }
 
 /* Multiply by ten to the power of an exponent. */
@@ -697,12 +834,9 @@ static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, in
 /* The number of a binary32 pattern: its mantissa and a power of two; zero, infinity and NaN are no factors. */
 static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides)
 {
-    const uint32_t power = (bits >> 23) & 0xFFU;
-    const uint32_t fraction = bits & 0x7FFFFFU;
-    const int64_t size = (int64_t)((power != 0U) ? (fraction | 0x800000U) : fraction);
-    const int64_t mantissa = (bits > 0x7FFFFFFFU) ? -size : size;
-    const int32_t exponent = (int32_t)((power != 0U) ? power : 1U) - 150;
-    const int64_t factor = (power == 0xFFU) ? 0 : mantissa;
+    const int32_t exponent = fieldscribe_f32_exponent(bits);
+    const int32_t size = (exponent > 104) ? 0 : (int32_t)fieldscribe_f32_mantissa(bits);
+    const int64_t factor = (bits > 0x7FFFFFFFU) ? -size : size;
     rule.shift += divides ? -exponent : exponent;
     return divides ? fieldscribe_rule_over(rule, factor) : fieldscribe_rule_times(rule, factor);
 }
@@ -754,6 +888,36 @@ static inline fieldscribe_whole fieldscribe_ruled_count(
     }
     return fieldscribe_apply_rule(&rule, count, tens, &raw) ? fieldscribe_whole_in(raw, low, high)
                                                             : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
+}
+
+/* The same by a rule without an offset. */
+static inline fieldscribe_whole fieldscribe_ratio_count(
+    fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
+{
+    int64_t den = 0;
+    int64_t raw = 0;
+    if (rule.status != FIELDSCRIBE_OK) {
+        return fieldscribe_no_whole(rule.status);
+    }
+    return (fieldscribe_multiply(rule.den, tens, &den) && fieldscribe_ratio_of(count, rule.num, den, rule.shift, &raw))
+        ? fieldscribe_whole_in(raw, low, high)
+        : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
+}
+
+/* The count of a raw number by a rule without an offset. */
+FIELDSCRIBE_STATUS fieldscribe_decode_ratio(fieldscribe_rule rule, int64_t raw, int64_t tens, int64_t *count)
+{
+    int64_t den = 0;
+    int64_t number = 0;
+    if (rule.status != FIELDSCRIBE_OK) {
+        return rule.status;
+    }
+    if ((!fieldscribe_multiply(rule.den, tens, &den)) ||
+        (!fieldscribe_ratio_of(raw, den, rule.num, -rule.shift, &number))) {
+        return FIELDSCRIBE_OVERFLOW;
+    }
+    *count = number;
+    return FIELDSCRIBE_OK;
 }
 
 /* The count of a raw number. */

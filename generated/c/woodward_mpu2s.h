@@ -160,7 +160,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode_count(
     int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
     int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 10000,
+    return fieldscribe_decode_ratio(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 10000,
         count);
 }
 static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t raw, uint16_t words[1])
@@ -1235,7 +1235,7 @@ static inline fieldscribe_rule woodward_mpu2s_generator_voltage_setpoint_100v_ru
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -1245,7 +1245,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1284,7 +1284,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -1294,7 +1294,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1333,7 +1333,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -1343,7 +1343,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1382,7 +1382,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -1392,7 +1392,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3024,7 +3024,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
@@ -3035,7 +3035,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3075,7 +3075,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
@@ -3086,7 +3086,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3148,7 +3148,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
@@ -3159,7 +3159,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3199,7 +3199,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
@@ -3210,7 +3210,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3291,7 +3291,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
@@ -3302,7 +3302,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3342,7 +3342,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
@@ -3353,7 +3353,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3415,7 +3415,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
@@ -3426,7 +3426,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3466,7 +3466,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
@@ -3477,7 +3477,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3661,7 +3661,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
@@ -3672,7 +3672,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3712,7 +3712,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
@@ -3723,7 +3723,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3783,7 +3783,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
@@ -3794,7 +3794,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3834,7 +3834,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_check(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
+    const fieldscribe_whole whole = fieldscribe_ratio_count(
         woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
@@ -3845,7 +3845,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -4713,13 +4713,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode_coun
     int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
         (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
@@ -4756,13 +4756,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode_co
     int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
         (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
@@ -4823,13 +4823,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode_coun
     int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
         (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
@@ -4866,13 +4866,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode_co
     int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
         (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])

@@ -154,6 +154,8 @@ void prove_128_bits(void)
     const fieldscribe_status status = fieldscribe_exact_count(coin != 0U, big, big, coin != 0U, big, big, &an_s64);
     (void)status;
     (void)fieldscribe_quotient_bit(&product, &rest, big);
+    (void)fieldscribe_quotient_bits(&rest, big, between(0, 32));
+    (void)fieldscribe_short_ratio(big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_twice_ratio(big, big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_ratio_of(wide, wide, wide, narrow, &an_s64);
     (void)fieldscribe_multiply(wide, wide, &an_s64);
@@ -191,12 +193,15 @@ void prove_ruled(void)
     const fieldscribe_rule rule = any_rule();
     fieldscribe_whole whole = fieldscribe_ruled_count(rule, wide, between_wide(1, INT64_MAX), wide, wide);
     fieldscribe_status status = fieldscribe_decode_count(rule, wide, between_wide(1, INT64_MAX), &an_s64);
+    fieldscribe_whole plain = fieldscribe_ratio_count(rule, wide, between_wide(1, INT64_MAX), wide, wide);
     const int64_t fits = between_wide(INT64_MIN / 1000000000, INT64_MAX / 1000000000);
+    status = fieldscribe_decode_ratio(rule, wide, between_wide(1, INT64_MAX), &an_s64);
     status = fieldscribe_decode_power(fits, narrow, between(0, 9), &an_s64);
     (void)fieldscribe_apply_rule(&rule, wide, between_wide(1, INT64_MAX), &an_s64);
     (void)fieldscribe_lifted(&rule, wide, between_wide(-INT64_MAX, INT64_MAX), &an_s64);
     (void)status;
     (void)whole;
+    (void)plain;
 }
 
 void prove_names(void)
@@ -249,8 +254,14 @@ void prove_text(void)
 
 void prove_patterns(void)
 {
+    fieldscribe_whole whole;
     fieldscribe_status status = fieldscribe_check_f32(pattern, narrow, narrow);
     status = fieldscribe_check_f64(big, wide, wide);
+    status = fieldscribe_count_of_f32(pattern, between_wide(1, INT64_MAX), &an_s64);
+    whole = fieldscribe_f32_of_count(wide, between_wide(1, INT64_MAX));
+    (void)fieldscribe_f32_mantissa(pattern);
+    (void)fieldscribe_f32_exponent(pattern);
+    (void)whole;
     (void)fieldscribe_f32_order(pattern);
     (void)fieldscribe_f64_order(big);
     (void)status;

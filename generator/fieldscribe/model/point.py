@@ -158,6 +158,7 @@ class Point:
     held = _Shared(lambda point: point.shape.held)
     readable = _Shared(lambda point: point.shape.readable)
     writable = _Shared(lambda point: point.shape.writable)
+    has_counts = _Shared(lambda point: point.shape.has_counts)
     fixed_scale = _Shared(lambda point: point.shape.fixed_scale)
     scale_arguments = _Shared(lambda point: point.shape.scale_arguments)
 

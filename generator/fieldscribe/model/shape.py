@@ -102,6 +102,11 @@ class Shape:
         return next((form for holds, form in forms if holds), "integer")
 
     @cached_property
+    def has_counts(self) -> bool:
+        """Return True if integer code counts the value in 10^-decimals units; an f32 point must say in which."""
+        return bool(self.decimals) if self.type == "f32" else self.form == "scaled" and self.decimals is not None
+
+    @cached_property
     def fixed_scale(self) -> Linear | None:
         """Return the rule of a scale that depends on no other point; else None."""
         return self.scale[0].rule if self.scale is not None and not self.scale_arguments else None

@@ -74,9 +74,12 @@ def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bou
     stated: int | None = facts.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if stated and "scale" not in facts.failed and facts.layer("scale") is None and not facts.floating:
+        if facts.get("type") == "f32":
+            return Paths(stated or 0)
+        if stated and "scale" not in facts.failed and facts.layer("scale") is None:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
-            report.error("integer-path", message, facts.span("decimals"), "leave it out, or give the `scale`")
+            hint = "leave it out: only an f32 has counts" if facts.floating else "leave it out, or give the `scale`"
+            report.error("integer-path", message, facts.span("decimals"), hint)
         return Paths(0)
     span = facts.span("decimals" if stated is not None else "scale")
     if stated is None and any(bounds.scales.floats(case.rule) for case in cases):

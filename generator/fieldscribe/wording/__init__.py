@@ -180,10 +180,10 @@ def resolution_text(point: Point) -> str:
 
 
 def count_text(point: Point) -> str:
-    """Return the unit of one count of a scaled point: `0.01 Hz`; empty if it has no counts."""
-    if point.form != "scaled" or point.decimals is None:
+    """Return the unit of one count: `0.01 Hz`; empty if the point has no counts."""
+    if not point.has_counts:
         return ""
-    return with_unit(exact(1, 10**point.decimals), point)
+    return with_unit(exact(1, 10 ** (point.decimals or 0)), point)
 
 
 def width_texts(point: Point) -> tuple[str, ...]:

@@ -89,10 +89,11 @@ KEYS = (
     Key(
         "decimals",
         FACTS,
-        "The resolution of integer code: it counts in 10^-decimals units. Computed from the scale by default.",
+        "The resolution of integer code: it counts in 10^-decimals units. Computed from the scale by default. An f32 "
+        "with it has counts in C.",
         [3],
         Whole(0, 12),
-        of=WHOLE_NUMBERS,
+        of=NUMBERS,
     ),
     Key(
         "enum",

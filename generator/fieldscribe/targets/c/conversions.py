@@ -178,12 +178,14 @@ class Writer:
             yield Function(self.rule.name, self.rule.text)
         tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
         counts = point.decimals is not None
+        lifts = any(case.rule.offset for case in point.scale or ())
         if point.writable and counts:
             rule = self._rule(point.arguments)
-            body_of = self._whole(f"fieldscribe_ruled_count({rule}, count, {tens}, {limits})")
+            body_of = self._whole(f"fieldscribe_{'ruled' if lifts else 'ratio'}_count({rule}, count, {tens}, {limits})")
             yield self._encode("encode_count", "int64_t count", *body_of)
         if point.readable and counts:
-            core = self._powers() or f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)"
+            how = "count" if lifts else "ratio"
+            core = self._powers() or f"fieldscribe_decode_{how}({{}}, (int64_t)raw, {tens}, count)"
             yield self._by_rule("decode_count", "int64_t *count", core)
         if point.writable and point.encodes_values:
             rule = self._rule(point.arguments)
@@ -242,11 +244,24 @@ class Writer:
         """Yield the functions of a point whose raw number is the bit pattern of a floating-point number."""
         point, bits = self.point, self.point.info.bits
         real = "fieldscribe_real" if bits == 32 else "double"
+        if point.has_counts:
+            yield from self._counted_floats(bare(10 ** (point.decimals or 0)))
         if point.writable:
             body = self._whole(f"fieldscribe_bits_of_f{bits}(value)")
             yield self._encode("encode", f"{real} value", *body, floating=True)
         if point.readable:
             yield self._decode("decode", real, f"fieldscribe_f{bits}_of_bits(raw)", floating=True)
+
+    def _counted_floats(self, tens: str) -> Iterator[Function]:
+        """Yield the functions of an f32 point that says how fine its counts are."""
+        point = self.point
+        if point.writable:
+            yield self._encode(
+                "encode_count", "int64_t count", *self._whole(f"fieldscribe_f32_of_count(count, {tens})")
+            )
+        if point.readable:
+            body = f"return {self._unless_code(f'fieldscribe_count_of_f32(raw, {tens}, count)')};"
+            yield function(STATUS, f"{self.name}_decode_count", (f"{self.type} raw", "int64_t *count"), body)
 
 
 _KEPT = {

@@ -76,7 +76,7 @@ def range_words(point: Point) -> str:
 
 def _steps(point: Point) -> Iterator[str]:
     """Yield the unit of one count, and the steps of the device where they are coarser."""
-    if point.form != "scaled":
+    if point.form not in ("scaled", "float"):
         return
     count, step = wording.count_text(point), wording.resolution_text(point)
     if step and step != count:
@@ -134,7 +134,7 @@ def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Defin
     elif point.writable and not point.info.floating:
         yield f"{macro}_RAW_MIN", fields.low_signed
         yield f"{macro}_RAW_MAX", fields.high_signed
-    if point.form == "scaled" and point.decimals is not None:
+    if point.has_counts:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
     if point.display is not None:
         yield f"{macro}_DISPLAY_DECIMALS", f"{point.display}"

@@ -131,7 +131,8 @@ def _resolution(point: Point) -> Iterator[str]:
     """Yield the unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
-    resolution, scale, count = wording.resolution_text(point), wording.scale_text(point), wording.count_text(point)
+    resolution, scale = wording.resolution_text(point), wording.scale_text(point)
+    count = wording.count_text(point) if point.form == "scaled" else ""
     if resolution and resolution != count:
         yield f"steps of {rust_code(resolution)}{' (for information, not checked)' if point.steps else ''}"
     elif scale and not resolution:
