@@ -51,6 +51,7 @@ if [ "$purpose" = tests ]; then
     need avr-gcc "gcc-avr avr-libc"
     need_that gcc-multilib links gcc -m32
     need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h
+    need_that libmodbus-dev has_file /usr/include/modbus/modbus.h
     need cargo "cargo-web rustc-web"
     need frama-c frama-c-base
     need cppcheck cppcheck

@@ -39,6 +39,7 @@ _PACKAGES = {
     "chromium-headless-shell": "chromium-headless-shell",
 }
 _LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
+_LIBMODBUS = Path("/usr/include/modbus")
 
 LIMIT = 300
 """Seconds after which a tool is taken to hang."""
@@ -69,6 +70,13 @@ def gcc_for_32_bits() -> str:
     if done.returncode != 0:
         _do_without("gcc -m32", "gcc-multilib")
     return path
+
+
+def libmodbus() -> tuple[str, ...]:
+    """Return the flags with which gcc compiles and links libmodbus; without it as for `tool`."""
+    if not (_LIBMODBUS / "modbus.h").is_file():
+        _do_without("libmodbus", "libmodbus-dev")
+    return f"-isystem{_LIBMODBUS}", "-lmodbus"
 
 
 def crates(project: Path) -> None:
