@@ -43,7 +43,14 @@ RTU = {
     "without it": "bad_crc*3 timeout*4",
     "twice": "bad_crc*6 ok",
 }
-ERRORS = {"tcp": TCP, "rtu": RTU}
+USS = {
+    "broken": "wrong_start timeout wrong_check*14",
+    "cut": "timeout*16",
+    "without it": "wrong_start*2 timeout*14",
+    "twice": "wrong_start wrong_check*14 ok",
+}
+ERRORS = {"tcp": TCP, "rtu": RTU, "uss": USS}
+SIZES = {"tcp": 11, "rtu": 7, "uss": 16}
 
 
 def late(reply: bytes) -> Iterator[bytes]:
@@ -59,7 +66,9 @@ def noise(_: bytes) -> Iterator[bytes]:
 
 def of_another(reply: bytes) -> bytes:
     """The reply of unit 9, or with TCP to another request."""
-    return b"\x09" + reply[1:] if len(reply) == 11 else with_word(b"\x09" + reply[1:2], reply[-3])
+    if len(reply) == SIZES["uss"]:
+        return reply[:2] + b"\x09" + reply[3:-1] + bytes((reply[-1] ^ reply[2] ^ 9,))
+    return b"\x09" + reply[1:] if len(reply) == SIZES["tcp"] else with_word(b"\x09" + reply[1:2], reply[-3])
 
 
 WHOLE: dict[str, tuple[Fault, dict[str, str]]] = {
@@ -67,11 +76,11 @@ WHOLE: dict[str, tuple[Fault, dict[str, str]]] = {
     "late": (late, {"": "timeout"}),
     "doubled": (lambda reply: iter((reply + reply,)), {"": "ok"}),
     "in pieces": (lambda reply: iter([bytes((byte,)) for byte in reply]), {"": "ok"}),
-    "foreign": (lambda reply: iter((of_another(reply),)), {"rtu": "wrong_unit", "tcp": "wrong_transaction"}),
+    "foreign": (lambda reply: iter((of_another(reply),)), {"": "wrong_unit", "tcp": "wrong_transaction"}),
     "behind a foreign one": (lambda reply: iter((of_another(reply), reply)), {"": "ok"}),
     "joined to a foreign one": (lambda reply: iter((of_another(reply) + reply,)), {"": "ok"}),
     "noise without end": (noise, {"": "timeout", "tcp": "long_frame"}),
-    "too many bytes": (lambda _: iter((b"\x55" * 3000,)), {"": "long_frame"}),
+    "too many bytes": (lambda _: iter((b"\x55" * 3000,)), {"": "long_frame", "uss": "wrong_start"}),
 }
 
 
@@ -81,12 +90,17 @@ class Ends:
     fault: Fault | None = None
     noise = False
     number = 0
+    mm4 = UssDrive()
 
     def answer(self, request: bytes) -> Iterator[bytes]:
         self.number = self.number % 250 + 1
-        is_tcp = request[2:4] == b"\0\0"
-        head = request[:4] + b"\0\5" + request[6:8] + b"\2\0"
-        reply = head + bytes((self.number,)) if is_tcp else with_word(request, self.number)
+        if request[0] == 2:
+            self.mm4.ram[1, 0] = (self.number,)
+            reply = self.mm4.exchange(request)
+        elif request[2:4] == b"\0\0":
+            reply = request[:4] + b"\0\5" + request[6:8] + b"\2\0" + bytes((self.number,))
+        else:
+            reply = with_word(request, self.number)
         fault, self.fault = self.fault, None
         return iter((reply,)) if fault is None else fault(reply)
 
@@ -118,6 +132,11 @@ def reads() -> Iterator[dict[str, Callable[[], Any]]]:
             line = tcp.AsyncTcpLine("127.0.0.1", port, framing=framing, timeout=TIMEOUT)
             awaiting = behind_a_gateway(l200.HitachiL200Async)(line, 1)
             made[f"AsyncTcpLine {framing}"] = partial(awaited, awaiting)
+        siemens = stack.enter_context(contextmanager(imported)(PACKAGES, "siemens_mm4")).SiemensMm4
+        link = importlib.import_module("fieldscribe_runtime.uss").Link(4, 2)
+        pty = stack.enter_context(pty_end(ends.answer))
+        line = stack.enter_context(transport("serial").UssLine(pty, 115200, "8N1", timeout=TIMEOUT))
+        made["UssLine uss"] = partial(siemens(line, 1, link).read_at, "parameter", 1)
         yield made
 
 
@@ -144,6 +163,7 @@ LINES = (
     "SerialLine socket:// rtu",
     "AsyncTcpLine tcp",
     "AsyncTcpLine rtu",
+    "UssLine uss",
 )
 
 
@@ -151,7 +171,7 @@ LINES = (
 @pytest.mark.parametrize("kind", AT_EACH_BYTE)
 @pytest.mark.parametrize("line", LINES)
 def test_each_byte_of_a_reply(line: str, kind: str, reads: dict[str, Callable[[], Any]]) -> None:
-    found = [spoiled(reads[line], partial(_spoiled_at, kind, at)) for at in range(11 if line[-3:] == "tcp" else 7)]
+    found = [spoiled(reads[line], partial(_spoiled_at, kind, at)) for at in range(SIZES[line[-3:]])]
     assert found == _each(ERRORS[line[-3:]][kind])
 
 
@@ -251,3 +271,40 @@ def test_what_is_sent_once() -> None:
         drive.retries = 2
         assert status(drive.write_at, "task", 1, 5)[0] == "timeout"
         assert (drive.transport.sent, drive.traffic.errors) == (1, {"timeout": 1})
+
+
+CAN_FAULTS: dict[str, Callable[[bytes, int], list[bytes]]] = {
+    "broken": lambda data, at: [data[:at] + bytes((data[at] ^ 0xFF,)) + data[at + 1 :]],
+    "cut": lambda data, at: [data[:at]],
+    "doubled": lambda data, _: [data, data],
+    "missing": lambda _data, _at: [],
+    "behind others": lambda data, at: [bytes((0xDD, at, 0, 0, 0, 0, 0, 0)), data[:2] + bytes(6), data],
+}
+
+
+class SpoilingUnit(CanUnit):
+    """A unit whose answer to the next request is spoiled."""
+
+    kind, at = "", 0
+
+    def send(self, frame: Any) -> None:
+        super().send(frame)
+        if self.kind:
+            answers = CAN_FAULTS[self.kind](self.waiting.pop().data, self.at)
+            self.waiting += [self.frame(0x320 + self.number, data) for data in answers]
+        self.kind = ""
+
+    def receive_waiting(self) -> Any:
+        return self.waiting.pop(0) if self.waiting else None
+
+
+@pytest.mark.parametrize("kind", CAN_FAULTS)
+def test_answers_on_a_can_bus(kind: str) -> None:
+    with contextmanager(imported)(PACKAGES, "woodward_mpu2s") as package:
+        unit = SpoilingUnit(importlib.import_module("fieldscribe_runtime.can").Frame, 1)
+        point = package.WoodwardMpu2s(unit, 1).generator_frequency_setpoint
+        for at in range(8):
+            unit.parameters[11], unit.kind, unit.at = at, kind, at
+            assert status(point.read_raw)[0] == ("ok" if kind in ("doubled", "behind others") else "timeout"), at
+            unit.parameters[11] = 99
+            assert point.read_raw() == 99
