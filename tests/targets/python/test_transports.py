@@ -54,6 +54,20 @@ def test_a_socket(framing: str, l200: Any) -> None:
         asyncio.run(asynchronous())
 
 
+def test_a_socket_where_there_is_no_poll(l200: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Windows has select alone."""
+    tcp = transport("tcp")
+    monkeypatch.delattr(tcp.select, "poll")
+    with socket_end(lambda request: with_word(request, 7)) as port:
+        line = tcp.TcpLine("127.0.0.1", port, framing="rtu", timeout=0.1)
+        drive = l200.HitachiL200(line, unit=1)
+        assert drive.read_at("holding", STATUS) == drive.read_at("holding", STATUS) == (7,)
+        line.close()
+    with socket_end(lambda _: b"") as port:
+        line = tcp.TcpLine("127.0.0.1", port, framing="rtu", timeout=0.1)
+        assert error(l200.HitachiL200(line, unit=1).read_at, "holding", STATUS).status == "timeout"
+
+
 @pytest.mark.full(seconds=1)
 def test_a_client_of_pymodbus(l200: Any) -> None:
     with server(FramerType.RTU) as port:

@@ -21,70 +21,29 @@ R = TypeVar("R")
 W = TypeVar("W")
 
 
+_AS_IN_THE_FORM = (
+    *("wire", "needs", "decimals", "codes", "names", "refused", "quick_decode", "sure_decode", "decode_count"),
+    *("converted_count", "checked", "limits", "bounds", "shown", "same", "choices", "name_of"),
+)
+
+
 class _Around(Form[R, W]):
-    """Another form as it is; subclasses change some of it."""
+    """Another form as it is, but for what a subclass defines."""
 
     def __init__(self, form: Form[Any, W]) -> None:
         self.form = form
-        self.wire = form.wire
-        self.needs = form.needs
-        self.decimals = form.decimals
-        self.codes = form.codes
-        self.names = form.names
-        self.refused = form.refused
-
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """As in the form."""
-        return self.form.quick_decode(low, high, slow)
-
-    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """As in the form."""
-        return self.form.sure_decode(low, high, slow)
+        for name in _AS_IN_THE_FORM:
+            if getattr(type(self), name, None) is getattr(Form, name, None):
+                setattr(self, name, getattr(form, name))
 
     def decode(self, raw: int, raws: Raws) -> R:
         """As in the form."""
         value: R = self.form.decode(raw, raws)
         return value
 
-    def decode_count(self, raw: int, raws: Raws) -> int:
-        """As in the form."""
-        return self.form.decode_count(raw, raws)
-
     def converted(self, value: W, raws: Raws) -> int | None:
         """As in the form."""
         return self.form.converted(value, raws)
-
-    def converted_count(self, count: int, raws: Raws) -> int:
-        """As in the form."""
-        return self.form.converted_count(count, raws)
-
-    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form."""
-        return self.form.checked(raw, allowed, raws)
-
-    def limits(self, width: int) -> tuple[int, int]:
-        """As in the form."""
-        return self.form.limits(width)
-
-    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
-        """As in the form."""
-        return self.form.bounds(low, high)
-
-    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """As in the form."""
-        return self.form.shown(raw, raws, display)
-
-    def same(self, raw: int, other: int) -> bool:
-        """As in the form."""
-        return self.form.same(raw, other)
-
-    def choices(self, unit: str) -> str | None:
-        """As in the form."""
-        return self.form.choices(unit)
-
-    def name_of(self, raw: int) -> str | None:
-        """As in the form."""
-        return self.form.name_of(raw)
 
 
 class _Coded(_Around[R | Special, W]):
@@ -98,11 +57,11 @@ class _Coded(_Around[R | Special, W]):
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return the special code, else as in the form."""
-        return coded(self.codes.finder, super().quick_decode(low, high, slow), slow)
+        return coded(self.codes.finder, self.form.quick_decode(low, high, slow), slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return the same."""
-        return surely_coded(self.codes.finder, super().sure_decode(low, high, slow))
+        return surely_coded(self.codes.finder, self.form.sure_decode(low, high, slow))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """As in the form, where that gives no special code."""
@@ -110,7 +69,7 @@ class _Coded(_Around[R | Special, W]):
 
     def decode(self, raw: int, raws: Raws) -> R | Special:
         """Return the special code, else as in the form."""
-        return self.codes(raw) or super().decode(raw, raws)
+        return self.codes(raw) or self.form.decode(raw, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """As in the form; raises SpecialCodeError, because a count has no room for a code."""
@@ -119,23 +78,23 @@ class _Coded(_Around[R | Special, W]):
             raise SpecialCodeError(
                 code.name, f"raw {raw} is the special code {code}, which has no count: decode gives it"
             )
-        return super().decode_count(raw, raws)
+        return self.form.decode_count(raw, raws)
 
     def converted(self, value: W, raws: Raws) -> int | None:
         """As in the form; raises SpecialCodeError for a value whose raw number is a special code."""
-        raw = super().converted(value, raws)
+        raw = self.form.converted(value, raws)
         return None if raw is None else self._quantity(raw, "would be")
 
     def converted_count(self, count: int, raws: Raws) -> int:
         """As in the form; raises SpecialCodeError for a count whose raw number is a special code."""
-        return self._quantity(super().converted_count(count, raws), "would be")
+        return self._quantity(self.form.converted_count(count, raws), "would be")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """Return the same number if it is a code that may be written, or the form takes it; raises SpecialCodeError."""
         code = self.codes(raw)
         if code is not None and code.writable:
             return raw
-        return super().checked(self._quantity(raw, "is"), allowed, raws)
+        return self.form.checked(self._quantity(raw, "is"), allowed, raws)
 
     def _quantity(self, raw: int, how: str) -> int:
         code = self.codes(raw)
@@ -172,8 +131,7 @@ class WithWritableCodes(_Coded[R, W | Special]):
 def with_fixed(form: Form[Any, Any], mask: int, bits: int) -> Form[Any, Any]:
     """Return the form with bits that are always written as a constant; special codes stay outermost."""
     if isinstance(form, _Coded):
-        form.form = FixedBits(form.form, mask, bits)
-        return form
+        return type(form)(FixedBits(form.form, mask, bits), form.codes)
     return FixedBits(form, mask, bits)
 
 
@@ -187,12 +145,12 @@ class FixedBits(_Around[R, W]):
 
     def converted(self, value: W, raws: Raws) -> int | None:
         """As in the form, with the constant bits put in."""
-        raw = super().converted(value, raws)
+        raw = self.form.converted(value, raws)
         return None if raw is None else self._put(raw)
 
     def converted_count(self, count: int, raws: Raws) -> int:
         """As in the form, with the constant bits put in."""
-        return self._put(super().converted_count(count, raws))
+        return self._put(self.form.converted_count(count, raws))
 
     def _put(self, raw: int) -> int:
         return raw & ~self.mask | self.bits
@@ -201,4 +159,4 @@ class FixedBits(_Around[R, W]):
         """Return the same number if it has the constant bits and the form takes it."""
         if raw & self.mask != self.bits:
             raise RangeError(f"raw {shown(raw)} has not {self.bits:04X}h in the bits {self.mask:04X}h, as it must")
-        return super().checked(raw, allowed, raws)
+        return self.form.checked(raw, allowed, raws)
