@@ -263,12 +263,19 @@ static fieldscribe_modbus_framing fieldscribe_read_request(
     return fieldscribe_framing(v);
 }
 
+/* The bytes of a frame before its PDU. */
+static size_t fieldscribe_before_pdu(fieldscribe_modbus_framing framing)
+{
+    return framing == FIELDSCRIBE_MODBUS_TCP ? 7U : 1U;
+}
+
 /* A buffer of exactly the length does, one that is shorter does not; and what writes needs values. */
 static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
 {
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_modbus_request empty = *request;
+    const size_t inner = length - fieldscribe_modbus_around(framing); /* from the unit on */
     uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
     size_t again = SIZE_MAX;
     fieldscribe_fill(built, sizeof built);
@@ -279,6 +286,12 @@ static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framin
     fieldscribe_agree(v,
         fieldscribe_modbus_build(profile, framing, request, built, length, &again) == FIELDSCRIBE_MODBUS_OK &&
             again == length && memcmp(built, expected, length) == 0);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_build_pdu(profile, request, built, inner - 1U, &again) ==
+                FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL && again == 0U &&
+            fieldscribe_modbus_build_pdu(profile, request, built, inner, &again) == FIELDSCRIBE_MODBUS_OK &&
+            again == inner - 1U &&
+            memcmp(built, &expected[fieldscribe_before_pdu(framing)], again) == 0);
     empty.given = request->given == 0U ? 0U : (size_t)request->count - 1U;
     fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
         (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
@@ -317,6 +330,8 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     const bool reads = fieldscribe_modbus_reads(request->function);
     const bool several = request->function == 0x0FU || request->function == 0x10U;
     const size_t room = reads ? request->count : 1U;
+    const uint8_t *const pdu = &bytes[fieldscribe_before_pdu(framing)];
+    const size_t inner = length - fieldscribe_modbus_around(framing) - 1U;
     fieldscribe_modbus_request empty = *request;
     fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, room - 1U);
     fieldscribe_fill(read, sizeof read);
@@ -328,6 +343,17 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     fieldscribe_agree(v,
         fieldscribe_modbus_parse(framing, request, bytes, length, &reply) == FIELDSCRIBE_MODBUS_OK &&
             reply.count == (several ? 0U : room));
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse_pdu(request, pdu, inner, &reply) == FIELDSCRIBE_MODBUS_OK &&
+            reply.count == (several ? 0U : room));
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse_pdu(request, pdu, inner - 1U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
+            fieldscribe_modbus_parse_pdu(request, pdu, 1U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
+            fieldscribe_modbus_parse_pdu(request, pdu, inner + 1U, &reply) == FIELDSCRIBE_MODBUS_LONG_FRAME);
+    empty.function = (uint8_t)(request->function + 1U);
+    fieldscribe_agree(
+        v, fieldscribe_modbus_parse_pdu(&empty, pdu, inner, &reply) == FIELDSCRIBE_MODBUS_WRONG_FUNCTION);
+    empty.function = request->function;
     empty.take = NULL;
     fieldscribe_agree(v,
         fieldscribe_modbus_parse(framing, request, NULL, 0U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&

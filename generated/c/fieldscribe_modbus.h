@@ -41,6 +41,7 @@
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"
+#include "fieldscribe_modbus_facts.h"
 
 #ifndef FIELDSCRIBE_MODBUS_H
 #define FIELDSCRIBE_MODBUS_H
@@ -49,18 +50,12 @@
 extern "C" {
 #endif
 
-/* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 2
-
 /* The longest frames there are. */
 #define FIELDSCRIBE_MODBUS_RTU_MOST 256U
 #define FIELDSCRIBE_MODBUS_TCP_MOST 260U
 
 /* How many bytes fieldscribe_modbus_ask_rtu and _tcp receive at most for one answer: four of the longest frames. */
 #define FIELDSCRIBE_MODBUS_ASK_MOST 1040U
-
-/* In a profile: no unit number is a broadcast. */
-#define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
@@ -90,85 +85,6 @@ typedef enum fieldscribe_modbus_framing {
     FIELDSCRIBE_MODBUS_RTU,
     FIELDSCRIBE_MODBUS_TCP
 } fieldscribe_modbus_framing;
-
-/* A function code, how many items one request may carry, and whether it may go to all units at once. */
-typedef struct fieldscribe_modbus_function {
-    uint8_t code;
-    uint16_t most;
-    bool broadcast;
-} fieldscribe_modbus_function;
-
-/* What a device understands. */
-typedef struct fieldscribe_modbus_profile {
-    const fieldscribe_modbus_function *functions;
-    size_t function_count;
-    uint8_t first_unit;
-    uint8_t last_unit;
-    uint16_t broadcast;
-    bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
-    bool rtu;
-    bool tcp;
-} fieldscribe_modbus_profile;
-
-/* Consecutive addresses that one request reads: those of a point, or a block of several points. */
-typedef struct fieldscribe_modbus_reading {
-    uint8_t function;
-    uint16_t address;
-    uint16_t count;
-} fieldscribe_modbus_reading;
-
-/* Consecutive addresses that one request writes. */
-typedef struct fieldscribe_modbus_writing {
-    uint8_t function;
-    uint16_t address;
-    uint16_t count;
-} fieldscribe_modbus_writing;
-
-/* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
-typedef struct fieldscribe_modbus_r {
-    const fieldscribe_layout *layout;
-    fieldscribe_modbus_reading read;
-} fieldscribe_modbus_r;
-
-typedef struct fieldscribe_modbus_w {
-    const fieldscribe_layout *layout;
-    fieldscribe_modbus_writing write;
-} fieldscribe_modbus_w;
-
-typedef struct fieldscribe_modbus_rw {
-    const fieldscribe_layout *layout;
-    fieldscribe_modbus_reading read;
-    fieldscribe_modbus_writing write;
-} fieldscribe_modbus_rw;
-
-typedef struct fieldscribe_modbus_ru {
-    const fieldscribe_layout *layout;
-    fieldscribe_modbus_reading read;
-    fieldscribe_modbus_writing update;
-} fieldscribe_modbus_ru;
-
-/* The same for texts. */
-typedef struct fieldscribe_modbus_text_r {
-    fieldscribe_text text;
-    fieldscribe_modbus_reading read;
-} fieldscribe_modbus_text_r;
-
-typedef struct fieldscribe_modbus_text_w {
-    fieldscribe_text text;
-    fieldscribe_modbus_writing write;
-} fieldscribe_modbus_text_w;
-
-typedef struct fieldscribe_modbus_text_rw {
-    fieldscribe_text text;
-    fieldscribe_modbus_reading read;
-    fieldscribe_modbus_writing write;
-} fieldscribe_modbus_text_rw;
-
-/* A named constant that is written. */
-typedef struct fieldscribe_modbus_command {
-    fieldscribe_modbus_writing write;
-    uint16_t value;
-} fieldscribe_modbus_command;
 
 /*
  * What an answer says. The caller gives `values` with `room` items; `count` of them were stored: words, or 0 and 1, or
@@ -322,6 +238,15 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+
+/*
+ * The same without unit, head and checksum, for a stack that adds and removes them: a PDU, which begins with the
+ * function. To build one, `buffer` needs room for one byte more.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply);
 
 /* The same by framing: one that is constant links its own functions alone. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
@@ -657,6 +582,22 @@ fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_
     return status;
 }
 
+fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    size_t used = 0U;
+    size_t at;
+    const fieldscribe_modbus_status status = fieldscribe_modbus_put_request(profile, request, buffer, size, &used);
+    *length = 0U;
+    if ((status == FIELDSCRIBE_MODBUS_OK) && (used > 0U)) {
+        *length = used - 1U;
+        for (at = 0U; at < *length; ++at) { /* over the unit */
+            buffer[at] = buffer[at + 1U];
+        }
+    }
+    return status;
+}
+
 /* How many values there is room for in a reply. */
 static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
 {
@@ -801,6 +742,24 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
     return fieldscribe_modbus_take_answer(request, &bytes[7], length - 7U, reply);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply)
+{
+    size_t expected;
+    fieldscribe_modbus_clear(reply);
+    if (length < 2U) {
+        return FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    expected = fieldscribe_modbus_pdu(request->function, pdu[0], pdu[1]);
+    if (expected == 0U) {
+        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
+    }
+    if (length != expected) {
+        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+    }
+    return fieldscribe_modbus_take_answer(request, pdu, length, reply);
 }
 
 /* The bytes of an answer, from the unit to the end of what it is about. */

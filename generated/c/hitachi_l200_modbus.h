@@ -5,8 +5,8 @@
  *
  * Hitachi L200: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
- * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
+ * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
+ * `write`. One that shares its word with other points has `update`: read the word first.
  */
 #include "hitachi_l200.h"
 #include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
@@ -15,7 +15,7 @@
 #define HITACHI_L200_MODBUS_H
 
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
-#error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
+#error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0xef54be83U
 #error "hitachi_l200.h is of another description: take the one that was generated with this header."

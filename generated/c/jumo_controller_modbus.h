@@ -5,8 +5,8 @@
  *
  * JUMO Controller with MOD-Bus: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
- * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
+ * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
+ * `write`. One that shares its word with other points has `update`: read the word first.
  */
 #include "jumo_controller.h"
 #include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
@@ -15,7 +15,7 @@
 #define JUMO_CONTROLLER_MODBUS_H
 
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
-#error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
+#error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x8555fae2U
 #error "jumo_controller.h is of another description: take the one that was generated with this header."

@@ -5,8 +5,8 @@
  *
  * NORD SK 5xxE: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
- * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
+ * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
+ * `write`. One that shares its word with other points has `update`: read the word first.
  */
 #include "nord_sk5xxe.h"
 #include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
@@ -15,7 +15,7 @@
 #define NORD_SK5XXE_MODBUS_H
 
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
-#error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
+#error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x57363088U
 #error "nord_sk5xxe.h is of another description: take the one that was generated with this header."

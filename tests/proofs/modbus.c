@@ -307,6 +307,16 @@ void prove_build_rtu(size_t size)
     }
 }
 
+void prove_build_pdu(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        put_by_function(&fieldscribe_modbus_build_pdu, size);
+    }
+}
+
 void prove_build_tcp(size_t size)
 {
     if (size <= SHORT) {
@@ -424,6 +434,16 @@ void prove_parse_rtu(size_t length, size_t room)
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, &reply);
+    }
+}
+
+void prove_parse_pdu(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        ask_any();
+        into(many_items, room);
+        (void)fieldscribe_modbus_parse_pdu(&request, EXACTLY(length, frame), length, &reply);
     }
 }
 

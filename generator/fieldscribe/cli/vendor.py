@@ -57,7 +57,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     add("--single-file", action="store_true", help="c: all in one header")
     add("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
-    add("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
+    add("--no-frames", action="store_true", help="c: points and constants, without the code that builds frames")
     add("--project", type=some_path, metavar="FILE", help="the project file (default: fieldscribe.toml)")
     add("--check", action="store_true", help="write nothing; say what is not as it should be")
     add("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")

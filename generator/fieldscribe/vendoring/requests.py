@@ -121,23 +121,17 @@ def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
     reduced = select(device, request.points) if request.points else device
     named = replace(for_code(reduced), id=request.name or device.id, command=request.command(device.id))
     language = target(request.language)
-    copied = language.runtime(named, tests=False)
+    ways = {"tests": False} | ({} if request.frames else {"exchanges": False})
+    copied = language.runtime(named, **ways)
     files = {path: (templates_dir() / source).read_text("utf-8") for path, source in copied}
-    files |= language.outputs(named, render, tests=False)
+    files |= language.outputs(named, render, **ways)
     files = {path.removeprefix(f"{request.language}/"): text for path, text in files.items()}
-    if not request.frames:
-        files = {path: text for path, text in files.items() if path not in _of_frames(named)}
     if request.single_file:
         from fieldscribe.targets.c.header import joined
 
         files = {f"{named.id}.h": joined(files, named)}
     yield from files.items()
     yield LICENCE, (templates_dir() / LICENCE).read_text("utf-8")
-
-
-def _of_frames(device: Device) -> frozenset[str]:
-    """Return the C headers that only frames need."""
-    return frozenset((f"fieldscribe_{device.family}.h", f"{device.id}_{device.family}.h"))
 
 
 def _wheels_of(texts: Mapping[str, str]) -> Iterator[tuple[str, bytes]]:

@@ -18,13 +18,18 @@ NEEDS_FAMILY = True
 NAMES_CONTAIN_POINT = True
 
 
-def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
-    """Yield the headers of points and frames, and the conformance program: path below the output folder, and text."""
+def outputs(device: Device, render: Render, *, tests: bool = True, exchanges: bool = True) -> Iterable[tuple[str, str]]:
+    """Yield the headers of points and frames, and the conformance program: path below the output folder, and text.
+
+    Without `exchanges` the header of frames has constants alone, or is left out where the family has no facts header.
+    """
     scope = scope_of(device)
     points = generated_points(device, scope)
     own, frames = header_context(device, points, scope), frames_of(device).header(device, points, scope)
-    context, sections = {"device": own, "bus": frames.context}, frames.sections
+    context, sections = {"device": own, "bus": frames.context, "exchanges": exchanges}, frames.sections
     yield f"c/{device.id}.h", header(device, own, points, scope, render)
+    if not exchanges and not frames_of(device).HAS_FACTS:
+        return
     texts = {name: section.text(render) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
     if tests:
@@ -36,11 +41,14 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
         yield f"c/conformance/{device.id}_conformance.c", program
 
 
-def runtime(device: Device, *, tests: bool = True) -> Iterator[tuple[str, str]]:
+def runtime(device: Device, *, tests: bool = True, exchanges: bool = True) -> Iterator[tuple[str, str]]:
     """Yield the source files beside them: path below the output folder, and path below the templates."""
-    for prefix in ("fieldscribe", *(("fieldscribe_conformance",) if tests else ())):
-        for name in (f"{prefix}.h", f"{prefix}_{device.family}.h"):
-            yield f"c/{name}", f"c/runtime/{name}"
+    names = ["fieldscribe.h"]
+    names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
+    names += [f"fieldscribe_{device.family}.h"] * exchanges
+    names += ["fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"] * tests
+    for name in names:
+        yield f"c/{name}", f"c/runtime/{name}"
 
 
 __all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]

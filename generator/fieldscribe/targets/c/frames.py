@@ -116,6 +116,9 @@ class CFamily(Protocol):
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
 
+    HAS_FACTS: bool
+    """True if the runtime's types are in a header of their own, which constants need without its functions."""
+
     def header(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
         """Return the header of frames, `<family>.h.j2`."""
 

@@ -17,6 +17,7 @@ from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
 NAMED_CODES: tuple[str, ...] = ()
+HAS_FACTS = False
 
 
 @dataclass(frozen=True, slots=True)

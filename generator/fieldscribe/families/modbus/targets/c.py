@@ -27,6 +27,7 @@ from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
 NAMED_CODES: tuple[str, ...] = ()
+HAS_FACTS = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, c_string, upper
 
 NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
+HAS_FACTS = False
 
 
 def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:

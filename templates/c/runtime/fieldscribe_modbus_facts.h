@@ -1,0 +1,96 @@
+/*
+ * The types of what is known of a Modbus device and its points: functions, addresses, counts. There is no code here:
+ * programs with a Modbus stack of their own do without fieldscribe_modbus.h.
+ * SPDX-License-Identifier: 0BSD
+ */
+#include "fieldscribe.h"
+
+#ifndef FIELDSCRIBE_MODBUS_FACTS_H
+#define FIELDSCRIBE_MODBUS_FACTS_H
+
+/* What the headers of devices rely on: it grows when they have to be generated anew. */
+#define FIELDSCRIBE_MODBUS_INTERFACE 2
+
+/* In a profile: no unit number is a broadcast. */
+#define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
+
+/* A function code, how many items one request may carry, and whether it may go to all units at once. */
+typedef struct fieldscribe_modbus_function {
+    uint8_t code;
+    uint16_t most;
+    bool broadcast;
+} fieldscribe_modbus_function;
+
+/* What a device understands. */
+typedef struct fieldscribe_modbus_profile {
+    const fieldscribe_modbus_function *functions;
+    size_t function_count;
+    uint8_t first_unit;
+    uint8_t last_unit;
+    uint16_t broadcast;
+    bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
+    bool rtu;
+    bool tcp;
+} fieldscribe_modbus_profile;
+
+/* Consecutive addresses that one request reads: those of a point, or a block of several points. */
+typedef struct fieldscribe_modbus_reading {
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+} fieldscribe_modbus_reading;
+
+/* Consecutive addresses that one request writes. */
+typedef struct fieldscribe_modbus_writing {
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+} fieldscribe_modbus_writing;
+
+/* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
+typedef struct fieldscribe_modbus_r {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+} fieldscribe_modbus_r;
+
+typedef struct fieldscribe_modbus_w {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_w;
+
+typedef struct fieldscribe_modbus_rw {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_rw;
+
+typedef struct fieldscribe_modbus_ru {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing update;
+} fieldscribe_modbus_ru;
+
+/* The same for texts. */
+typedef struct fieldscribe_modbus_text_r {
+    fieldscribe_text text;
+    fieldscribe_modbus_reading read;
+} fieldscribe_modbus_text_r;
+
+typedef struct fieldscribe_modbus_text_w {
+    fieldscribe_text text;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_text_w;
+
+typedef struct fieldscribe_modbus_text_rw {
+    fieldscribe_text text;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_text_rw;
+
+/* A named constant that is written. */
+typedef struct fieldscribe_modbus_command {
+    fieldscribe_modbus_writing write;
+    uint16_t value;
+} fieldscribe_modbus_command;
+
+#endif
