@@ -38,7 +38,7 @@ check:              ## validate the descriptions and list stale files in generat
 	$(FIELDSCRIBE) check descriptions
 	$(FIELDSCRIBE) generate descriptions --out generated --check
 
-bench:              ## measure the compiler and generated Python against cantools in the same run
+bench:              ## measure the compiler and generated Python against cantools and pymodbus in the same run
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 
