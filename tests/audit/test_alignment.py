@@ -61,6 +61,7 @@ TEXTS = [
 ]
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize(("old", "new"), [text[1:] for text in TEXTS], ids=[text[0] for text in TEXTS])
 def test_long_texts_end_quickly(old: list[str], new: list[str]) -> None:
     before = time.process_time()

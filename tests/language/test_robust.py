@@ -123,11 +123,11 @@ def test_a_huge_file_is_refused_unread(tmp_path: Path) -> None:
 
 
 def test_many_errors_stay_quick(tmp_path: Path) -> None:
-    """A hundred thousand unknown keys cost no more than the thousand that are told."""
-    text = "\n".join(f"unknown_key_{number}: 1" for number in range(100_000))
+    """Twenty thousand unknown keys cost no more than the thousand that are told."""
+    text = "\n".join(f"unknown_key_{number}: 1" for number in range(20_000))
     started = time.process_time()
     assert len(load_text(tmp_path, text).findings) == 1001  # the last one says that there are more
-    assert time.process_time() - started < 5
+    assert time.process_time() - started < 1.5
 
 
 @pytest.mark.full(seconds=2)

@@ -112,6 +112,7 @@ CAN_FIRMWARE = program("can_firmware")
 USS_FIRMWARE = program("uss_firmware")
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("firmware", [CAN_FIRMWARE, USS_FIRMWARE], ids=FAMILIES)
 def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path: Path) -> None:
     """Frames, a factor of type f32 and limits by factors: 64-bit integers at most."""
@@ -288,7 +289,8 @@ def test_many_files_share_one_definition(language: str, folder: Path, tmp_path: 
     succeed([*build, "-Wno-missing-declarations", "-o", tmp_path / "one", *files])
 
 
-@pytest.mark.parametrize("language", ["c", pytest.param("c++", marks=pytest.mark.full(seconds=1))])
+@pytest.mark.full(seconds=1)
+@pytest.mark.parametrize("language", ["c", "c++"])
 def test_a_forgotten_or_doubled_definition_does_not_link(language: str, folder: Path, tmp_path: Path) -> None:
     """The linker names the function."""
     flags = ("-std=c99",) if language == "c" else ("-x", "c++", "-std=c++11")
@@ -327,6 +329,7 @@ def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
 ONE_POINT = program("one_point")
 
 
+@pytest.mark.full(seconds=1)
 def test_a_program_that_reads_registers_links_nothing_else(tmp_path: Path) -> None:
     """Requests bring what they need: neither what writes nor what reads bits is in the image."""
     device = shipped("hitachi_l200")
