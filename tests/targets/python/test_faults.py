@@ -20,6 +20,8 @@ from support.python_transports import behind_a_gateway, socket_end, transport, w
 
 TIMEOUT = 0.06
 LATE = 1.5 * TIMEOUT
+REST = 0.02
+"""So long after a good reply a program reads again."""
 MOST = 0.5
 """An error comes in so many seconds, on a machine that does other work, too."""
 
@@ -58,6 +60,12 @@ def late(reply: bytes) -> Iterator[bytes]:
     yield reply
 
 
+def repeated(reply: bytes) -> Iterator[bytes]:
+    yield reply
+    time.sleep(REST / 4)
+    yield reply
+
+
 def noise(_: bytes) -> Iterator[bytes]:
     while ends.noise:
         yield b"\x55"
@@ -75,6 +83,7 @@ WHOLE: dict[str, tuple[Fault, dict[str, str]]] = {
     "missing": (lambda _: iter(()), {"": "timeout"}),
     "late": (late, {"": "timeout"}),
     "doubled": (lambda reply: iter((reply + reply,)), {"": "ok"}),
+    "repeated": (repeated, {"": "ok"}),
     "in pieces": (lambda reply: iter([bytes((byte,)) for byte in reply]), {"": "ok"}),
     "foreign": (lambda reply: iter((of_another(reply),)), {"": "wrong_unit", "tcp": "wrong_transaction"}),
     "behind a foreign one": (lambda reply: iter((of_another(reply), reply)), {"": "ok"}),
@@ -151,6 +160,7 @@ def spoiled(read: Callable[[], Any], fault: Fault) -> str:
     found = status(read)[0]
     took, ends.noise = time.monotonic() - before, False
     assert took < MOST
+    time.sleep(REST if found == "ok" else 0)
     word = read()[0]
     assert word == ends.number, "an old reply"
     return found
