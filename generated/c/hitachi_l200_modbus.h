@@ -47,6 +47,11 @@ static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
+/* A device on a line, for the functions that read and write a point in one call. */
+typedef struct hitachi_l200_device {
+    fieldscribe_modbus_unit unit;
+} hitachi_l200_device;
+
 /* ---- Exception codes ---- */
 
 enum {
@@ -1013,452 +1018,1670 @@ static const fieldscribe_layout hitachi_l200_layout_u32_order_01 =
 
 static const fieldscribe_modbus_rw hitachi_l200_run_command_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0000U, 1U}, {5U, 0x0000U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_command(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0000U, value, hitachi_l200_run_command_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_run_command(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0000U, bool, hitachi_l200_run_command_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_direction_command_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0001U, 1U}, {5U, 0x0001U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_direction_command(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0001U, value, hitachi_l200_direction_command_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_direction_command(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0001U, bool, hitachi_l200_direction_command_encode(value ? 1 : 0, &raw), raw
+        ? 1U : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_external_trip_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0002U, 1U}, {5U, 0x0002U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_external_trip(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0002U, value, hitachi_l200_external_trip_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_external_trip(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0002U, bool, hitachi_l200_external_trip_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_trip_reset_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0003U, 1U}, {5U, 0x0003U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_reset(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0003U, value, hitachi_l200_trip_reset_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_trip_reset(hitachi_l200_device *device, bool value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0003U, bool, hitachi_l200_trip_reset_encode(value ? 1 : 0, &raw), raw ? 1U : 0U) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0006U, 1U}, {5U, 0x0006U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_1(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0006U, value, hitachi_l200_digital_input_1_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_1(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0006U, bool, hitachi_l200_digital_input_1_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0007U, 1U}, {5U, 0x0007U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_2(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0007U, value, hitachi_l200_digital_input_2_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_2(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0007U, bool, hitachi_l200_digital_input_2_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0008U, 1U}, {5U, 0x0008U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_3(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0008U, value, hitachi_l200_digital_input_3_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_3(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0008U, bool, hitachi_l200_digital_input_3_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0009U, 1U}, {5U, 0x0009U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_4(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0009U, value, hitachi_l200_digital_input_4_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_4(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x0009U, bool, hitachi_l200_digital_input_4_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_frame =
     {&hitachi_l200_layout_bit, {1U, 0x000AU, 1U}, {5U, 0x000AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_5(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x000AU, value, hitachi_l200_digital_input_5_decode(word != 0U)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_5(hitachi_l200_device *device, bool value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(5U, 0x000AU, bool, hitachi_l200_digital_input_5_encode(value ? 1 : 0, &raw), raw ? 1U
+        : 0U)
+}
 static const fieldscribe_modbus_r hitachi_l200_running_frame = {&hitachi_l200_layout_bit, {1U, 0x000DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_running(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x000DU, value, hitachi_l200_running_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_direction_status_frame = {&hitachi_l200_layout_bit, {1U, 0x000EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_direction_status(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x000EU, value, hitachi_l200_direction_status_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_ready_frame = {&hitachi_l200_layout_bit, {1U, 0x000FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_ready(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x000FU, value, hitachi_l200_ready_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_alarm_frame = {&hitachi_l200_layout_bit, {1U, 0x0013U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_alarm(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0013U, value, hitachi_l200_alarm_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_pid_deviation_frame = {&hitachi_l200_layout_bit, {1U, 0x0014U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_deviation(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0014U, value, hitachi_l200_pid_deviation_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_overload_frame = {&hitachi_l200_layout_bit, {1U, 0x0015U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overload(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0015U, value, hitachi_l200_overload_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_in_acceleration_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0016U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_arrival_in_acceleration(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0016U, value, hitachi_l200_frequency_arrival_in_acceleration_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_at_constant_speed_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0017U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_arrival_at_constant_speed(hitachi_l200_device *device, bool *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0017U, value,
+        hitachi_l200_frequency_arrival_at_constant_speed_decode(word != 0U))
+}
 static const fieldscribe_modbus_r hitachi_l200_run_mode_frame = {&hitachi_l200_layout_bit, {1U, 0x0018U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_mode(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0018U, value, hitachi_l200_run_mode_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_data_write_frame = {&hitachi_l200_layout_bit, {1U, 0x0019U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_data_write(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x0019U, value, hitachi_l200_data_write_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_crc_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_crc_error(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x001AU, value, hitachi_l200_crc_error_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_overrun_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overrun_error(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x001BU, value, hitachi_l200_overrun_error_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_framing_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_framing_error(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x001CU, value, hitachi_l200_framing_error_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_parity_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_parity_error(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x001DU, value, hitachi_l200_parity_error_decode(word != 0U)) }
 static const fieldscribe_modbus_r hitachi_l200_checksum_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_checksum_error(hitachi_l200_device *device, bool *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(1U, 0x001EU, value, hitachi_l200_checksum_error_decode(word != 0U)) }
 static const fieldscribe_modbus_rw hitachi_l200_network_frequency_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0001U, 1U}, {6U, 0x0001U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_network_frequency_setpoint(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0001U, count, hitachi_l200_network_frequency_setpoint_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_network_frequency_setpoint(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0001U, uint16_t,
+        hitachi_l200_network_frequency_setpoint_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_inverter_status_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0002U, 1U}, {6U, 0x0002U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_inverter_status(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0002U, value, hitachi_l200_inverter_status_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_inverter_status(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0002U, uint16_t, hitachi_l200_inverter_status_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_network_process_value_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0004U, 1U}, {6U, 0x0004U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_network_process_value(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0004U, count, hitachi_l200_network_process_value_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_network_process_value(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0004U, uint16_t, hitachi_l200_network_process_value_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_r hitachi_l200_output_frequency_frame = {&hitachi_l200_layout_u16, {3U, 0x1001U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1001U, count, hitachi_l200_output_frequency_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_motor_current_frame = {&hitachi_l200_layout_u16, {3U, 0x1002U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_current(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1002U, count, hitachi_l200_motor_current_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_rotation_direction_frame = {&hitachi_l200_layout_u16, {3U, 0x1003U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_rotation_direction(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1003U, value, hitachi_l200_rotation_direction_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_scaled_process_value_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1004U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_scaled_process_value(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_scaled_process_value_frame, 2U, count,
+        hitachi_l200_scaled_process_value_decode_count(hitachi_l200_scaled_process_value_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1006U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_inputs(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1006U, value, hitachi_l200_digital_inputs_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_digital_outputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1007U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_outputs(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1007U, value, hitachi_l200_digital_outputs_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_output_voltage_frame = {&hitachi_l200_layout_u16, {3U, 0x100BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_voltage(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x100BU, count, hitachi_l200_output_voltage_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_run_time_frame = {&hitachi_l200_layout_u32_order_01, {3U, 0x100DU, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_run_time_frame, 2U, value,
+        hitachi_l200_run_time_decode(hitachi_l200_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x100FU, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_power_on_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_power_on_time_frame, 2U, value,
+        hitachi_l200_power_on_time_decode(hitachi_l200_power_on_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {3U, 0x0010U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_count(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0010U, value, hitachi_l200_trip_count_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0011U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_error(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0011U, value, hitachi_l200_trip_1_error_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_output_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0013U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_output_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0013U, count, hitachi_l200_trip_1_output_frequency_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_motor_current_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0015U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_motor_current(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0015U, count, hitachi_l200_trip_1_motor_current_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_dc_bus_voltage_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0016U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_dc_bus_voltage(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0016U, count, hitachi_l200_trip_1_dc_bus_voltage_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0017U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_run_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_1_run_time_frame, 2U, value,
+        hitachi_l200_trip_1_run_time_decode(hitachi_l200_trip_1_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_1_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0019U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_power_on_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_1_power_on_time_frame, 2U, value,
+        hitachi_l200_trip_1_power_on_time_decode(hitachi_l200_trip_1_power_on_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {3U, 0x001BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_error(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x001BU, value, hitachi_l200_trip_2_error_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_output_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x001DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_output_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x001DU, count, hitachi_l200_trip_2_output_frequency_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_motor_current_frame =
     {&hitachi_l200_layout_u16, {3U, 0x001FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_motor_current(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x001FU, count, hitachi_l200_trip_2_motor_current_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_dc_bus_voltage_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0020U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_dc_bus_voltage(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0020U, count, hitachi_l200_trip_2_dc_bus_voltage_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0021U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_run_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_2_run_time_frame, 2U, value,
+        hitachi_l200_trip_2_run_time_decode(hitachi_l200_trip_2_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_2_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0023U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_power_on_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_2_power_on_time_frame, 2U, value,
+        hitachi_l200_trip_2_power_on_time_decode(hitachi_l200_trip_2_power_on_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0025U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_error(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0025U, value, hitachi_l200_trip_3_error_decode(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_output_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0027U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_output_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0027U, count, hitachi_l200_trip_3_output_frequency_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_motor_current_frame =
     {&hitachi_l200_layout_u16, {3U, 0x0029U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_motor_current(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0029U, count, hitachi_l200_trip_3_motor_current_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_dc_bus_voltage_frame =
     {&hitachi_l200_layout_u16, {3U, 0x002AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_dc_bus_voltage(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x002AU, count, hitachi_l200_trip_3_dc_bus_voltage_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002BU, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_run_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_3_run_time_frame, 2U, value,
+        hitachi_l200_trip_3_run_time_decode(hitachi_l200_trip_3_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r hitachi_l200_trip_3_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002DU, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_power_on_time(hitachi_l200_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_3_power_on_time_frame, 2U, value,
+        hitachi_l200_trip_3_power_on_time_decode(hitachi_l200_trip_3_power_on_time_from_words(words)))
+}
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1013U, 2U}, {16U, 0x1013U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_frame, 2U, count,
+        hitachi_l200_acceleration_time_decode_count(hitachi_l200_acceleration_time_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_frame, 2U, uint32_t,
+        hitachi_l200_acceleration_time_encode_count(count, &raw), hitachi_l200_acceleration_time_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1500U, 2U}, {16U, 0x1500U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_set_2_frame, 2U, count,
+        hitachi_l200_acceleration_time_set_2_decode_count(hitachi_l200_acceleration_time_set_2_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_set_2(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_set_2_frame, 2U, uint32_t,
+        hitachi_l200_acceleration_time_set_2_encode_count(count, &raw),
+        hitachi_l200_acceleration_time_set_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1015U, 2U}, {16U, 0x1015U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_frame, 2U, count,
+        hitachi_l200_deceleration_time_decode_count(hitachi_l200_deceleration_time_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_frame, 2U, uint32_t,
+        hitachi_l200_deceleration_time_encode_count(count, &raw), hitachi_l200_deceleration_time_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1502U, 2U}, {16U, 0x1502U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_set_2_frame, 2U, count,
+        hitachi_l200_deceleration_time_set_2_decode_count(hitachi_l200_deceleration_time_set_2_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_set_2(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_set_2_frame, 2U, uint32_t,
+        hitachi_l200_deceleration_time_set_2_encode_count(count, &raw),
+        hitachi_l200_deceleration_time_set_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_direction_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1017U, 1U}, {6U, 0x1017U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_direction(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1017U, value, hitachi_l200_motor_direction_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_direction(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1017U, uint16_t, hitachi_l200_motor_direction_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_frequency_source_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1018U, 1U}, {6U, 0x1018U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_source(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1018U, value, hitachi_l200_frequency_source_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_frequency_source(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1018U, uint16_t, hitachi_l200_frequency_source_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_frequency_source_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1509U, 1U}, {6U, 0x1509U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_source_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1509U, value, hitachi_l200_frequency_source_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_frequency_source_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1509U, uint16_t, hitachi_l200_frequency_source_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_run_source_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1019U, 1U}, {6U, 0x1019U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_source(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1019U, value, hitachi_l200_run_source_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_run_source(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1019U, uint16_t, hitachi_l200_run_source_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_run_source_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x150AU, 1U}, {6U, 0x150AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_source_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x150AU, value, hitachi_l200_run_source_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_run_source_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x150AU, uint16_t, hitachi_l200_run_source_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x101AU, 1U}, {6U, 0x101AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_rated_frequency(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x101AU, value, hitachi_l200_motor_rated_frequency_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_rated_frequency(
+    hitachi_l200_device *device, uint16_t maximum_frequency_raw, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x101AU, uint16_t,
+        hitachi_l200_motor_rated_frequency_encode(value, maximum_frequency_raw, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x150BU, 1U}, {6U, 0x150BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_rated_frequency_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x150BU, value, hitachi_l200_motor_rated_frequency_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_rated_frequency_set_2(
+    hitachi_l200_device *device, uint16_t maximum_frequency_set_2_raw, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x150BU, uint16_t,
+        hitachi_l200_motor_rated_frequency_set_2_encode(value, maximum_frequency_set_2_raw, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x101BU, 1U}, {6U, 0x101BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_maximum_frequency(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x101BU, value, hitachi_l200_maximum_frequency_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_maximum_frequency(
+    hitachi_l200_device *device, uint16_t motor_rated_frequency_raw, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x101BU, uint16_t,
+        hitachi_l200_maximum_frequency_encode(value, motor_rated_frequency_raw, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x150CU, 1U}, {6U, 0x150CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_maximum_frequency_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x150CU, value, hitachi_l200_maximum_frequency_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_maximum_frequency_set_2(
+    hitachi_l200_device *device, uint16_t motor_rated_frequency_set_2_raw, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x150CU, uint16_t,
+        hitachi_l200_maximum_frequency_set_2_encode(value, motor_rated_frequency_set_2_raw, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_at_terminal_selection_frame =
     {&hitachi_l200_layout_u16, {3U, 0x101CU, 1U}, {6U, 0x101CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_at_terminal_selection(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x101CU, value, hitachi_l200_at_terminal_selection_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_at_terminal_selection(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x101CU, uint16_t, hitachi_l200_at_terminal_selection_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x101FU, 1U}, {6U, 0x101FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_minimum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x101FU, count, hitachi_l200_input_o_minimum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_minimum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x101FU, uint16_t,
+        hitachi_l200_input_o_minimum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1021U, 1U}, {6U, 0x1021U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_maximum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1021U, count, hitachi_l200_input_o_maximum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_maximum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1021U, uint16_t,
+        hitachi_l200_input_o_maximum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1022U, 1U}, {6U, 0x1022U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_minimum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1022U, value, hitachi_l200_input_o_minimum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_minimum_setpoint(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1022U, uint16_t, hitachi_l200_input_o_minimum_setpoint_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1023U, 1U}, {6U, 0x1023U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_maximum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1023U, value, hitachi_l200_input_o_maximum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_maximum_setpoint(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1023U, uint16_t, hitachi_l200_input_o_maximum_setpoint_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_input_o_start_condition_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1024U, 1U}, {6U, 0x1024U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_start_condition(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1024U, value, hitachi_l200_input_o_start_condition_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_start_condition(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1024U, uint16_t, hitachi_l200_input_o_start_condition_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_analog_input_filter_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1025U, 1U}, {6U, 0x1025U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_analog_input_filter(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1025U, value, hitachi_l200_analog_input_filter_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_analog_input_filter(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1025U, uint16_t, hitachi_l200_analog_input_filter_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_base_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1028U, 1U}, {6U, 0x1028U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_base_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1028U, count, hitachi_l200_base_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_base_frequency(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1028U, uint16_t, hitachi_l200_base_frequency_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_base_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x150EU, 1U}, {6U, 0x150EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_base_frequency_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x150EU, count, hitachi_l200_base_frequency_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_base_frequency_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x150EU, uint16_t, hitachi_l200_base_frequency_set_2_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_1_frame =
     {&hitachi_l200_layout_u16, {3U, 0x102AU, 1U}, {6U, 0x102AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_1(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x102AU, count, hitachi_l200_fixed_frequency_1_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_1(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x102AU, uint16_t, hitachi_l200_fixed_frequency_1_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x102CU, 1U}, {6U, 0x102CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x102CU, count, hitachi_l200_fixed_frequency_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_2(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x102CU, uint16_t, hitachi_l200_fixed_frequency_2_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_3_frame =
     {&hitachi_l200_layout_u16, {3U, 0x102EU, 1U}, {6U, 0x102EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_3(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x102EU, count, hitachi_l200_fixed_frequency_3_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_3(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x102EU, uint16_t, hitachi_l200_fixed_frequency_3_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_4_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1030U, 1U}, {6U, 0x1030U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_4(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1030U, count, hitachi_l200_fixed_frequency_4_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_4(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1030U, uint16_t, hitachi_l200_fixed_frequency_4_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_5_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1032U, 1U}, {6U, 0x1032U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_5(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1032U, count, hitachi_l200_fixed_frequency_5_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_5(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1032U, uint16_t, hitachi_l200_fixed_frequency_5_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_6_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1034U, 1U}, {6U, 0x1034U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_6(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1034U, count, hitachi_l200_fixed_frequency_6_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_6(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1034U, uint16_t, hitachi_l200_fixed_frequency_6_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_7_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1036U, 1U}, {6U, 0x1036U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_7(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1036U, count, hitachi_l200_fixed_frequency_7_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_7(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1036U, uint16_t, hitachi_l200_fixed_frequency_7_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_8_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1038U, 1U}, {6U, 0x1038U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_8(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1038U, count, hitachi_l200_fixed_frequency_8_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_8(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1038U, uint16_t, hitachi_l200_fixed_frequency_8_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_9_frame =
     {&hitachi_l200_layout_u16, {3U, 0x103AU, 1U}, {6U, 0x103AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_9(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x103AU, count, hitachi_l200_fixed_frequency_9_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_9(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x103AU, uint16_t, hitachi_l200_fixed_frequency_9_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_10_frame =
     {&hitachi_l200_layout_u16, {3U, 0x103CU, 1U}, {6U, 0x103CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_10(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x103CU, count, hitachi_l200_fixed_frequency_10_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_10(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x103CU, uint16_t, hitachi_l200_fixed_frequency_10_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_11_frame =
     {&hitachi_l200_layout_u16, {3U, 0x103EU, 1U}, {6U, 0x103EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_11(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x103EU, count, hitachi_l200_fixed_frequency_11_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_11(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x103EU, uint16_t, hitachi_l200_fixed_frequency_11_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_12_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1040U, 1U}, {6U, 0x1040U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_12(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1040U, count, hitachi_l200_fixed_frequency_12_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_12(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1040U, uint16_t, hitachi_l200_fixed_frequency_12_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_13_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1042U, 1U}, {6U, 0x1042U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_13(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1042U, count, hitachi_l200_fixed_frequency_13_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_13(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1042U, uint16_t, hitachi_l200_fixed_frequency_13_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_14_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1044U, 1U}, {6U, 0x1044U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_14(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1044U, count, hitachi_l200_fixed_frequency_14_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_14(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1044U, uint16_t, hitachi_l200_fixed_frequency_14_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_15_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1046U, 1U}, {6U, 0x1046U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_fixed_frequency_15(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1046U, count, hitachi_l200_fixed_frequency_15_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_fixed_frequency_15(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1046U, uint16_t, hitachi_l200_fixed_frequency_15_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_jog_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1047U, 1U}, {6U, 0x1047U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jog_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1047U, count, hitachi_l200_jog_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jog_frequency(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1047U, uint16_t, hitachi_l200_jog_frequency_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_jog_stop_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1048U, 1U}, {6U, 0x1048U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jog_stop_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1048U, value, hitachi_l200_jog_stop_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jog_stop_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1048U, uint16_t, hitachi_l200_jog_stop_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_boost_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1049U, 1U}, {6U, 0x1049U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_boost_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1049U, value, hitachi_l200_boost_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_boost_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1049U, uint16_t, hitachi_l200_boost_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_boost_mode_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x150FU, 1U}, {6U, 0x150FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_boost_mode_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x150FU, value, hitachi_l200_boost_mode_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_boost_mode_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x150FU, uint16_t, hitachi_l200_boost_mode_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frame =
     {&hitachi_l200_layout_u16, {3U, 0x104AU, 1U}, {6U, 0x104AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_manual_boost(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x104AU, count, hitachi_l200_manual_boost_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_manual_boost(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x104AU, uint16_t, hitachi_l200_manual_boost_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1510U, 1U}, {6U, 0x1510U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_manual_boost_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1510U, count, hitachi_l200_manual_boost_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_manual_boost_set_2(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1510U, uint16_t, hitachi_l200_manual_boost_set_2_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x104BU, 1U}, {6U, 0x104BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_manual_boost_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x104BU, count, hitachi_l200_manual_boost_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_manual_boost_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x104BU, uint16_t, hitachi_l200_manual_boost_frequency_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1511U, 1U}, {6U, 0x1511U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_manual_boost_frequency_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1511U, count, hitachi_l200_manual_boost_frequency_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_manual_boost_frequency_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1511U, uint16_t,
+        hitachi_l200_manual_boost_frequency_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_frame =
     {&hitachi_l200_layout_u16, {3U, 0x104CU, 1U}, {6U, 0x104CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_vf_characteristic(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x104CU, value, hitachi_l200_vf_characteristic_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_vf_characteristic(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x104CU, uint16_t, hitachi_l200_vf_characteristic_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1512U, 1U}, {6U, 0x1512U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_vf_characteristic_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1512U, value, hitachi_l200_vf_characteristic_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_vf_characteristic_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1512U, uint16_t, hitachi_l200_vf_characteristic_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_frame =
     {&hitachi_l200_layout_u16, {3U, 0x104DU, 1U}, {6U, 0x104DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_voltage_setting(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x104DU, value, hitachi_l200_output_voltage_setting_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_output_voltage_setting(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x104DU, uint16_t, hitachi_l200_output_voltage_setting_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1513U, 1U}, {6U, 0x1513U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_voltage_setting_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1513U, value, hitachi_l200_output_voltage_setting_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_output_voltage_setting_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1513U, uint16_t, hitachi_l200_output_voltage_setting_set_2_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_enable_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1050U, 1U}, {6U, 0x1050U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_enable(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1050U, value, hitachi_l200_dc_brake_enable_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_enable(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1050U, uint16_t, hitachi_l200_dc_brake_enable_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1051U, 1U}, {6U, 0x1051U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1051U, count, hitachi_l200_dc_brake_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_frequency(
+    hitachi_l200_device *device, uint16_t start_frequency_raw, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1051U, uint16_t,
+        hitachi_l200_dc_brake_frequency_encode_count(count, start_frequency_raw, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1052U, 1U}, {6U, 0x1052U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1052U, count, hitachi_l200_dc_brake_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_delay(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1052U, uint16_t, hitachi_l200_dc_brake_delay_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_torque_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1053U, 1U}, {6U, 0x1053U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_torque(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1053U, value, hitachi_l200_dc_brake_torque_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_torque(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1053U, uint16_t, hitachi_l200_dc_brake_torque_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_time_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1054U, 1U}, {6U, 0x1054U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_time(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1054U, count, hitachi_l200_dc_brake_time_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_time(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1054U, uint16_t, hitachi_l200_dc_brake_time_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_trigger_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1055U, 1U}, {6U, 0x1055U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_dc_brake_trigger(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1055U, value, hitachi_l200_dc_brake_trigger_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_dc_brake_trigger(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1055U, uint16_t, hitachi_l200_dc_brake_trigger_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1059U, 1U}, {6U, 0x1059U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_upper_frequency_limit(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_DECODE_WORD(3U, 0x1059U, hitachi_l200_upper_frequency_limit_decode_count(word, count)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_upper_frequency_limit(
+    hitachi_l200_device *device, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with,
+    int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1059U, uint16_t,
+        hitachi_l200_upper_frequency_limit_encode_count(count, with, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1516U, 1U}, {6U, 0x1516U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_upper_frequency_limit_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_DECODE_WORD(3U, 0x1516U, hitachi_l200_upper_frequency_limit_set_2_decode_count(word, count)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_upper_frequency_limit_set_2(
+    hitachi_l200_device *device, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with,
+    int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1516U, uint16_t,
+        hitachi_l200_upper_frequency_limit_set_2_encode_count(count, with, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_frame =
     {&hitachi_l200_layout_u16, {3U, 0x105AU, 1U}, {6U, 0x105AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_lower_frequency_limit(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_DECODE_WORD(3U, 0x105AU, hitachi_l200_lower_frequency_limit_decode_count(word, count)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_lower_frequency_limit(
+    hitachi_l200_device *device, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x105AU, uint16_t,
+        hitachi_l200_lower_frequency_limit_encode_count(count, with, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1517U, 1U}, {6U, 0x1517U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_lower_frequency_limit_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_DECODE_WORD(3U, 0x1517U, hitachi_l200_lower_frequency_limit_set_2_decode_count(word, count)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_lower_frequency_limit_set_2(
+    hitachi_l200_device *device, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with,
+    int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1517U, uint16_t,
+        hitachi_l200_lower_frequency_limit_set_2_encode_count(count, with, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_frame =
     {&hitachi_l200_layout_u16, {3U, 0x105CU, 1U}, {6U, 0x105CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_1(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x105CU, count, hitachi_l200_jump_frequency_1_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_1(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x105CU, uint16_t, hitachi_l200_jump_frequency_1_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_width_frame =
     {&hitachi_l200_layout_u16, {3U, 0x105DU, 1U}, {6U, 0x105DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_1_width(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x105DU, count, hitachi_l200_jump_frequency_1_width_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_1_width(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x105DU, uint16_t, hitachi_l200_jump_frequency_1_width_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x105FU, 1U}, {6U, 0x105FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x105FU, count, hitachi_l200_jump_frequency_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_2(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x105FU, uint16_t, hitachi_l200_jump_frequency_2_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_width_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1060U, 1U}, {6U, 0x1060U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_2_width(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1060U, count, hitachi_l200_jump_frequency_2_width_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_2_width(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1060U, uint16_t, hitachi_l200_jump_frequency_2_width_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1062U, 1U}, {6U, 0x1062U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_3(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1062U, count, hitachi_l200_jump_frequency_3_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_3(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1062U, uint16_t, hitachi_l200_jump_frequency_3_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_width_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1063U, 1U}, {6U, 0x1063U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_jump_frequency_3_width(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1063U, count, hitachi_l200_jump_frequency_3_width_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_jump_frequency_3_width(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1063U, uint16_t, hitachi_l200_jump_frequency_3_width_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_enable_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1067U, 1U}, {6U, 0x1067U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_enable(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1067U, value, hitachi_l200_pid_enable_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_enable(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1067U, uint16_t, hitachi_l200_pid_enable_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_pid_proportional_gain_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1068U, 1U}, {6U, 0x1068U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_proportional_gain(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1068U, count, hitachi_l200_pid_proportional_gain_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_proportional_gain(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1068U, uint16_t, hitachi_l200_pid_proportional_gain_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_integral_time_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1069U, 1U}, {6U, 0x1069U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_integral_time(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1069U, count, hitachi_l200_pid_integral_time_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_integral_time(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1069U, uint16_t, hitachi_l200_pid_integral_time_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_pid_derivative_time_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106AU, 1U}, {6U, 0x106AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_derivative_time(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106AU, count, hitachi_l200_pid_derivative_time_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_derivative_time(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106AU, uint16_t, hitachi_l200_pid_derivative_time_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_display_factor_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106BU, 1U}, {6U, 0x106BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_display_factor(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106BU, count, hitachi_l200_pid_display_factor_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_display_factor(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106BU, uint16_t, hitachi_l200_pid_display_factor_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_source_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106CU, 1U}, {6U, 0x106CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_process_value_source(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106CU, value, hitachi_l200_pid_process_value_source_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_process_value_source(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106CU, uint16_t, hitachi_l200_pid_process_value_source_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_pid_inversion_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106DU, 1U}, {6U, 0x106DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_inversion(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106DU, value, hitachi_l200_pid_inversion_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_inversion(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106DU, uint16_t, hitachi_l200_pid_inversion_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_pid_output_limit_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106EU, 1U}, {6U, 0x106EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_output_limit(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106EU, count, hitachi_l200_pid_output_limit_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_output_limit(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106EU, uint16_t, hitachi_l200_pid_output_limit_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_avr_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x106FU, 1U}, {6U, 0x106FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_avr_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x106FU, value, hitachi_l200_avr_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_avr_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x106FU, uint16_t, hitachi_l200_avr_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_voltage_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1070U, 1U}, {6U, 0x1070U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_voltage(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1070U, value, hitachi_l200_motor_voltage_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_voltage(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1070U, uint16_t, hitachi_l200_motor_voltage_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1073U, 2U}, {16U, 0x1073U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_2(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_2_frame, 2U, count,
+        hitachi_l200_acceleration_time_2_decode_count(hitachi_l200_acceleration_time_2_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_2(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_2_frame, 2U, uint32_t,
+        hitachi_l200_acceleration_time_2_encode_count(count, &raw),
+        hitachi_l200_acceleration_time_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1075U, 2U}, {16U, 0x1075U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_2_frame, 2U, count,
+        hitachi_l200_deceleration_time_2_decode_count(hitachi_l200_deceleration_time_2_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_2_frame, 2U, uint32_t,
+        hitachi_l200_deceleration_time_2_encode_count(count, &raw),
+        hitachi_l200_deceleration_time_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1519U, 2U}, {16U, 0x1519U, 2U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_2_set_2_frame, 2U, count,
+        hitachi_l200_deceleration_time_2_set_2_decode_count(hitachi_l200_deceleration_time_2_set_2_from_words(words)))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_2_set_2_frame, 2U, uint32_t,
+        hitachi_l200_deceleration_time_2_set_2_encode_count(count, &raw),
+        hitachi_l200_deceleration_time_2_set_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1077U, 1U}, {6U, 0x1077U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_ramp_2_selection(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1077U, value, hitachi_l200_ramp_2_selection_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_ramp_2_selection(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1077U, uint16_t, hitachi_l200_ramp_2_selection_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x151BU, 1U}, {6U, 0x151BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_ramp_2_selection_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x151BU, value, hitachi_l200_ramp_2_selection_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_ramp_2_selection_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x151BU, uint16_t, hitachi_l200_ramp_2_selection_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1079U, 1U}, {6U, 0x1079U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_change_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1079U, count, hitachi_l200_acceleration_change_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_change_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1079U, uint16_t,
+        hitachi_l200_acceleration_change_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x151DU, 1U}, {6U, 0x151DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_change_frequency_set_2(
+    hitachi_l200_device *device, int32_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x151DU, count,
+        hitachi_l200_acceleration_change_frequency_set_2_decode_count(word))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_change_frequency_set_2(
+    hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x151DU, uint16_t,
+        hitachi_l200_acceleration_change_frequency_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x107BU, 1U}, {6U, 0x107BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_change_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x107BU, count, hitachi_l200_deceleration_change_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_change_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x107BU, uint16_t,
+        hitachi_l200_deceleration_change_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x151FU, 1U}, {6U, 0x151FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_change_frequency_set_2(
+    hitachi_l200_device *device, int32_t *count)
+{
+    FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x151FU, count,
+        hitachi_l200_deceleration_change_frequency_set_2_decode_count(word))
+}
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_change_frequency_set_2(
+    hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x151FU, uint16_t,
+        hitachi_l200_deceleration_change_frequency_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_curve_frame =
     {&hitachi_l200_layout_u16, {3U, 0x107CU, 1U}, {6U, 0x107CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_curve(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x107CU, value, hitachi_l200_acceleration_curve_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_curve(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x107CU, uint16_t, hitachi_l200_acceleration_curve_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_curve_frame =
     {&hitachi_l200_layout_u16, {3U, 0x107DU, 1U}, {6U, 0x107DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_curve(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x107DU, value, hitachi_l200_deceleration_curve_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_curve(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x107DU, uint16_t, hitachi_l200_deceleration_curve_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x107FU, 1U}, {6U, 0x107FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_minimum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x107FU, count, hitachi_l200_input_oi_minimum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_minimum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x107FU, uint16_t,
+        hitachi_l200_input_oi_minimum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1081U, 1U}, {6U, 0x1081U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_maximum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1081U, count, hitachi_l200_input_oi_maximum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_maximum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1081U, uint16_t,
+        hitachi_l200_input_oi_maximum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1082U, 1U}, {6U, 0x1082U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_minimum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1082U, value, hitachi_l200_input_oi_minimum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_minimum_setpoint(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1082U, uint16_t, hitachi_l200_input_oi_minimum_setpoint_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1083U, 1U}, {6U, 0x1083U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_maximum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1083U, value, hitachi_l200_input_oi_maximum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_maximum_setpoint(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1083U, uint16_t, hitachi_l200_input_oi_maximum_setpoint_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_start_condition_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1084U, 1U}, {6U, 0x1084U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_start_condition(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1084U, value, hitachi_l200_input_oi_start_condition_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_start_condition(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1084U, uint16_t, hitachi_l200_input_oi_start_condition_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_calculation_input_a_frame =
     {&hitachi_l200_layout_u16, {3U, 0x108DU, 1U}, {6U, 0x108DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_calculation_input_a(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x108DU, value, hitachi_l200_calculation_input_a_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_calculation_input_a(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x108DU, uint16_t, hitachi_l200_calculation_input_a_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_calculation_input_b_frame =
     {&hitachi_l200_layout_u16, {3U, 0x108EU, 1U}, {6U, 0x108EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_calculation_input_b(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x108EU, value, hitachi_l200_calculation_input_b_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_calculation_input_b(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x108EU, uint16_t, hitachi_l200_calculation_input_b_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_calculation_operator_frame =
     {&hitachi_l200_layout_u16, {3U, 0x108FU, 1U}, {6U, 0x108FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_calculation_operator(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x108FU, value, hitachi_l200_calculation_operator_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_calculation_operator(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x108FU, uint16_t, hitachi_l200_calculation_operator_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1090U, 1U}, {6U, 0x1090U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_offset(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1090U, count, hitachi_l200_frequency_offset_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_frequency_offset(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1090U, uint16_t, hitachi_l200_frequency_offset_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_sign_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1092U, 1U}, {6U, 0x1092U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_offset_sign(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1092U, value, hitachi_l200_frequency_offset_sign_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_frequency_offset_sign(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1092U, uint16_t, hitachi_l200_frequency_offset_sign_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1094U, 1U}, {6U, 0x1094U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_potentiometer_minimum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1094U, count, hitachi_l200_potentiometer_minimum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_potentiometer_minimum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1094U, uint16_t,
+        hitachi_l200_potentiometer_minimum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1096U, 1U}, {6U, 0x1096U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_potentiometer_maximum_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1096U, count, hitachi_l200_potentiometer_maximum_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_potentiometer_maximum_frequency(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1096U, uint16_t,
+        hitachi_l200_potentiometer_maximum_frequency_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1097U, 1U}, {6U, 0x1097U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_potentiometer_minimum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1097U, value, hitachi_l200_potentiometer_minimum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_potentiometer_minimum_setpoint(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1097U, uint16_t,
+        hitachi_l200_potentiometer_minimum_setpoint_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_setpoint_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1098U, 1U}, {6U, 0x1098U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_potentiometer_maximum_setpoint(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1098U, value, hitachi_l200_potentiometer_maximum_setpoint_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_potentiometer_maximum_setpoint(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1098U, uint16_t,
+        hitachi_l200_potentiometer_maximum_setpoint_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_start_condition_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1099U, 1U}, {6U, 0x1099U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_potentiometer_start_condition(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1099U, value, hitachi_l200_potentiometer_start_condition_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_potentiometer_start_condition(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1099U, uint16_t, hitachi_l200_potentiometer_start_condition_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_restart_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10A4U, 1U}, {6U, 0x10A4U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_restart_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10A4U, value, hitachi_l200_restart_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_restart_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10A4U, uint16_t, hitachi_l200_restart_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_allowed_power_failure_time_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10A5U, 1U}, {6U, 0x10A5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_allowed_power_failure_time(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10A5U, count, hitachi_l200_allowed_power_failure_time_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_allowed_power_failure_time(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10A5U, uint16_t,
+        hitachi_l200_allowed_power_failure_time_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_restart_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10A6U, 1U}, {6U, 0x10A6U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_restart_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10A6U, count, hitachi_l200_restart_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_restart_delay(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10A6U, uint16_t, hitachi_l200_restart_delay_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_power_failure_trip_at_standstill_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10A7U, 1U}, {6U, 0x10A7U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_power_failure_trip_at_standstill(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10A7U, value, hitachi_l200_power_failure_trip_at_standstill_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_power_failure_trip_at_standstill(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10A7U, uint16_t,
+        hitachi_l200_power_failure_trip_at_standstill_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_power_failure_restarts_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10A8U, 1U}, {6U, 0x10A8U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_power_failure_restarts(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10A8U, value, hitachi_l200_power_failure_restarts_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_power_failure_restarts(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10A8U, uint16_t, hitachi_l200_power_failure_restarts_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10ACU, 1U}, {6U, 0x10ACU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_protection_level(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10ACU, count, hitachi_l200_motor_protection_level_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_protection_level(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10ACU, uint16_t, hitachi_l200_motor_protection_level_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1525U, 1U}, {6U, 0x1525U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_protection_level_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1525U, count, hitachi_l200_motor_protection_level_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_protection_level_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1525U, uint16_t,
+        hitachi_l200_motor_protection_level_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10ADU, 1U}, {6U, 0x10ADU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_protection_characteristic(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10ADU, value, hitachi_l200_motor_protection_characteristic_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_protection_characteristic(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10ADU, uint16_t,
+        hitachi_l200_motor_protection_characteristic_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1526U, 1U}, {6U, 0x1526U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_protection_characteristic_set_2(
+    hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1526U, value, hitachi_l200_motor_protection_characteristic_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_protection_characteristic_set_2(
+    hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1526U, uint16_t,
+        hitachi_l200_motor_protection_characteristic_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10B4U, 1U}, {6U, 0x10B4U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10B4U, value, hitachi_l200_current_limit_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10B4U, uint16_t, hitachi_l200_current_limit_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1527U, 1U}, {6U, 0x1527U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_mode_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1527U, value, hitachi_l200_current_limit_mode_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_mode_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1527U, uint16_t, hitachi_l200_current_limit_mode_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10B5U, 1U}, {6U, 0x10B5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_level(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10B5U, count, hitachi_l200_current_limit_level_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_level(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10B5U, uint16_t, hitachi_l200_current_limit_level_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1528U, 1U}, {6U, 0x1528U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_level_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1528U, count, hitachi_l200_current_limit_level_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_level_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1528U, uint16_t,
+        hitachi_l200_current_limit_level_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10B6U, 1U}, {6U, 0x10B6U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_time(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10B6U, count, hitachi_l200_current_limit_time_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_time(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10B6U, uint16_t, hitachi_l200_current_limit_time_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1529U, 1U}, {6U, 0x1529U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_time_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1529U, count, hitachi_l200_current_limit_time_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_time_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1529U, uint16_t,
+        hitachi_l200_current_limit_time_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10BAU, 1U}, {6U, 0x10BAU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_source(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10BAU, value, hitachi_l200_current_limit_source_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_source(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10BAU, uint16_t, hitachi_l200_current_limit_source_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x152AU, 1U}, {6U, 0x152AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_current_limit_source_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x152AU, value, hitachi_l200_current_limit_source_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_current_limit_source_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x152AU, uint16_t, hitachi_l200_current_limit_source_set_2_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_parameter_lock_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10BBU, 1U}, {6U, 0x10BBU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_parameter_lock(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10BBU, value, hitachi_l200_parameter_lock_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_parameter_lock(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10BBU, uint16_t, hitachi_l200_parameter_lock_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_gain_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10CEU, 1U}, {6U, 0x10CEU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_analog_output_gain(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10CEU, value, hitachi_l200_analog_output_gain_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_analog_output_gain(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10CEU, uint16_t, hitachi_l200_analog_output_gain_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_start_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D0U, 1U}, {6U, 0x10D0U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_start_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D0U, count, hitachi_l200_start_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_start_frequency(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D0U, uint16_t, hitachi_l200_start_frequency_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_carrier_frequency_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D1U, 1U}, {6U, 0x10D1U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_carrier_frequency(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D1U, count, hitachi_l200_carrier_frequency_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_carrier_frequency(hitachi_l200_device *device, int32_t count)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D1U, uint16_t, hitachi_l200_carrier_frequency_encode_count(count, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_initialization_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D2U, 1U}, {6U, 0x10D2U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_initialization_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D2U, value, hitachi_l200_initialization_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_initialization_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D2U, uint16_t, hitachi_l200_initialization_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_frequency_display_factor_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D4U, 1U}, {6U, 0x10D4U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_frequency_display_factor(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D4U, count, hitachi_l200_frequency_display_factor_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_frequency_display_factor(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D4U, uint16_t,
+        hitachi_l200_frequency_display_factor_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_stop_key_lock_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D5U, 1U}, {6U, 0x10D5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_stop_key_lock(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D5U, value, hitachi_l200_stop_key_lock_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_stop_key_lock(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D5U, uint16_t, hitachi_l200_stop_key_lock_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_coast_restart_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D6U, 1U}, {6U, 0x10D6U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_coast_restart_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D6U, value, hitachi_l200_coast_restart_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_coast_restart_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D6U, uint16_t, hitachi_l200_coast_restart_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_network_display_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D7U, 1U}, {6U, 0x10D7U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_network_display(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D7U, value, hitachi_l200_network_display_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_network_display(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D7U, uint16_t, hitachi_l200_network_display_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_stop_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10D9U, 1U}, {6U, 0x10D9U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_stop_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10D9U, value, hitachi_l200_stop_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_stop_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10D9U, uint16_t, hitachi_l200_stop_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_enable_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10F4U, 1U}, {6U, 0x10F4U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overvoltage_deceleration_enable(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10F4U, value, hitachi_l200_overvoltage_deceleration_enable_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_overvoltage_deceleration_enable(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10F4U, uint16_t,
+        hitachi_l200_overvoltage_deceleration_enable_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_200v_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10F5U, 1U}, {6U, 0x10F5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overvoltage_deceleration_level_200v(
+    hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10F5U, value, hitachi_l200_overvoltage_deceleration_level_200v_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_overvoltage_deceleration_level_200v(
+    hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10F5U, uint16_t,
+        hitachi_l200_overvoltage_deceleration_level_200v_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_400v_frame =
     {&hitachi_l200_layout_u16, {3U, 0x10F5U, 1U}, {6U, 0x10F5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overvoltage_deceleration_level_400v(
+    hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x10F5U, value, hitachi_l200_overvoltage_deceleration_level_400v_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_overvoltage_deceleration_level_400v(
+    hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x10F5U, uint16_t,
+        hitachi_l200_overvoltage_deceleration_level_400v_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1102U, 1U}, {6U, 0x1102U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_1_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1102U, value, hitachi_l200_digital_input_1_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_1_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1102U, uint16_t, hitachi_l200_digital_input_1_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1530U, 1U}, {6U, 0x1530U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_1_function_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1530U, value, hitachi_l200_digital_input_1_function_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_1_function_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1530U, uint16_t,
+        hitachi_l200_digital_input_1_function_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1103U, 1U}, {6U, 0x1103U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_2_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1103U, value, hitachi_l200_digital_input_2_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_2_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1103U, uint16_t, hitachi_l200_digital_input_2_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1531U, 1U}, {6U, 0x1531U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_2_function_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1531U, value, hitachi_l200_digital_input_2_function_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_2_function_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1531U, uint16_t,
+        hitachi_l200_digital_input_2_function_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1104U, 1U}, {6U, 0x1104U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_3_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1104U, value, hitachi_l200_digital_input_3_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_3_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1104U, uint16_t, hitachi_l200_digital_input_3_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1532U, 1U}, {6U, 0x1532U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_3_function_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1532U, value, hitachi_l200_digital_input_3_function_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_3_function_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1532U, uint16_t,
+        hitachi_l200_digital_input_3_function_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1105U, 1U}, {6U, 0x1105U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_4_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1105U, value, hitachi_l200_digital_input_4_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_4_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1105U, uint16_t, hitachi_l200_digital_input_4_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1533U, 1U}, {6U, 0x1533U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_4_function_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1533U, value, hitachi_l200_digital_input_4_function_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_4_function_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1533U, uint16_t,
+        hitachi_l200_digital_input_4_function_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1106U, 1U}, {6U, 0x1106U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_5_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1106U, value, hitachi_l200_digital_input_5_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_5_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1106U, uint16_t, hitachi_l200_digital_input_5_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1534U, 1U}, {6U, 0x1534U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_5_function_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1534U, value, hitachi_l200_digital_input_5_function_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_5_function_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1534U, uint16_t,
+        hitachi_l200_digital_input_5_function_set_2_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x110AU, 1U}, {6U, 0x110AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_1_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x110AU, value, hitachi_l200_digital_input_1_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_1_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x110AU, uint16_t, hitachi_l200_digital_input_1_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x110BU, 1U}, {6U, 0x110BU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_2_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x110BU, value, hitachi_l200_digital_input_2_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_2_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x110BU, uint16_t, hitachi_l200_digital_input_2_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x110CU, 1U}, {6U, 0x110CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_3_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x110CU, value, hitachi_l200_digital_input_3_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_3_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x110CU, uint16_t, hitachi_l200_digital_input_3_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x110DU, 1U}, {6U, 0x110DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_4_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x110DU, value, hitachi_l200_digital_input_4_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_4_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x110DU, uint16_t, hitachi_l200_digital_input_4_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x110EU, 1U}, {6U, 0x110EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_input_5_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x110EU, value, hitachi_l200_digital_input_5_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_input_5_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x110EU, uint16_t, hitachi_l200_digital_input_5_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1113U, 1U}, {6U, 0x1113U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_11_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1113U, value, hitachi_l200_digital_output_11_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_11_function(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1113U, uint16_t, hitachi_l200_digital_output_11_function_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1114U, 1U}, {6U, 0x1114U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_12_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1114U, value, hitachi_l200_digital_output_12_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_12_function(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1114U, uint16_t, hitachi_l200_digital_output_12_function_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_function_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1118U, 1U}, {6U, 0x1118U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_relay_output_function(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1118U, value, hitachi_l200_relay_output_function_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_relay_output_function(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1118U, uint16_t, hitachi_l200_relay_output_function_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_source_frame =
     {&hitachi_l200_layout_u16, {3U, 0x111AU, 1U}, {6U, 0x111AU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_analog_output_source(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x111AU, value, hitachi_l200_analog_output_source_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_analog_output_source(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x111AU, uint16_t, hitachi_l200_analog_output_source_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x111CU, 1U}, {6U, 0x111CU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_11_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x111CU, value, hitachi_l200_digital_output_11_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_11_contact(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x111CU, uint16_t, hitachi_l200_digital_output_11_contact_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x111DU, 1U}, {6U, 0x111DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_12_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x111DU, value, hitachi_l200_digital_output_12_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_12_contact(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x111DU, uint16_t, hitachi_l200_digital_output_12_contact_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_contact_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1121U, 1U}, {6U, 0x1121U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_relay_output_contact(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1121U, value, hitachi_l200_relay_output_contact_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_relay_output_contact(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1121U, uint16_t, hitachi_l200_relay_output_contact_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1123U, 1U}, {6U, 0x1123U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overload_alarm_level(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1123U, count, hitachi_l200_overload_alarm_level_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_overload_alarm_level(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1123U, uint16_t, hitachi_l200_overload_alarm_level_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1538U, 1U}, {6U, 0x1538U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_overload_alarm_level_set_2(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1538U, count, hitachi_l200_overload_alarm_level_set_2_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_overload_alarm_level_set_2(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1538U, uint16_t,
+        hitachi_l200_overload_alarm_level_set_2_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_acceleration_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1125U, 1U}, {6U, 0x1125U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_arrival_frequency_acceleration(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1125U, count, hitachi_l200_arrival_frequency_acceleration_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_arrival_frequency_acceleration(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1125U, uint16_t,
+        hitachi_l200_arrival_frequency_acceleration_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_deceleration_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1127U, 1U}, {6U, 0x1127U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_arrival_frequency_deceleration(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1127U, count, hitachi_l200_arrival_frequency_deceleration_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_arrival_frequency_deceleration(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1127U, uint16_t,
+        hitachi_l200_arrival_frequency_deceleration_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_deviation_level_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1128U, 1U}, {6U, 0x1128U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_deviation_level(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1128U, count, hitachi_l200_pid_deviation_level_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_deviation_level(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1128U, uint16_t, hitachi_l200_pid_deviation_level_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_upper_limit_frame =
     {&hitachi_l200_layout_u16, {3U, 0x112DU, 1U}, {6U, 0x112DU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_process_value_upper_limit(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x112DU, count, hitachi_l200_pid_process_value_upper_limit_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_process_value_upper_limit(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x112DU, uint16_t,
+        hitachi_l200_pid_process_value_upper_limit_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_lower_limit_frame =
     {&hitachi_l200_layout_u16, {3U, 0x112EU, 1U}, {6U, 0x112EU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_pid_process_value_lower_limit(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x112EU, count, hitachi_l200_pid_process_value_lower_limit_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_pid_process_value_lower_limit(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x112EU, uint16_t,
+        hitachi_l200_pid_process_value_lower_limit_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_o_calibration_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1140U, 1U}, {6U, 0x1140U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_o_calibration(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1140U, count, hitachi_l200_input_o_calibration_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_o_calibration(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1140U, uint16_t, hitachi_l200_input_o_calibration_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_calibration_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1141U, 1U}, {6U, 0x1141U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_input_oi_calibration(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1141U, count, hitachi_l200_input_oi_calibration_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_input_oi_calibration(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1141U, uint16_t, hitachi_l200_input_oi_calibration_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_thermistor_input_calibration_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1143U, 1U}, {6U, 0x1143U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_thermistor_input_calibration(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1143U, count, hitachi_l200_thermistor_input_calibration_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_thermistor_input_calibration(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1143U, uint16_t,
+        hitachi_l200_thermistor_input_calibration_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_offset_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1144U, 1U}, {6U, 0x1144U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_analog_output_offset(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1144U, count, hitachi_l200_analog_output_offset_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_analog_output_offset(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1144U, uint16_t, hitachi_l200_analog_output_offset_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_potentiometer_memory_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1148U, 1U}, {6U, 0x1148U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_potentiometer_memory(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1148U, value, hitachi_l200_motor_potentiometer_memory_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_potentiometer_memory(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1148U, uint16_t, hitachi_l200_motor_potentiometer_memory_encode(value, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_reset_mode_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1149U, 1U}, {6U, 0x1149U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_reset_mode(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1149U, value, hitachi_l200_reset_mode_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_reset_mode(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1149U, uint16_t, hitachi_l200_reset_mode_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_logic_input_a_frame =
     {&hitachi_l200_layout_u16, {3U, 0x114FU, 1U}, {6U, 0x114FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_logic_input_a(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x114FU, value, hitachi_l200_logic_input_a_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_logic_input_a(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x114FU, uint16_t, hitachi_l200_logic_input_a_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_logic_input_b_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1150U, 1U}, {6U, 0x1150U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_logic_input_b(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1150U, value, hitachi_l200_logic_input_b_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_logic_input_b(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1150U, uint16_t, hitachi_l200_logic_input_b_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_logic_operator_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1151U, 1U}, {6U, 0x1151U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_logic_operator(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1151U, value, hitachi_l200_logic_operator_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_logic_operator(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1151U, uint16_t, hitachi_l200_logic_operator_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_on_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1152U, 1U}, {6U, 0x1152U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_11_on_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1152U, count, hitachi_l200_digital_output_11_on_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_11_on_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1152U, uint16_t,
+        hitachi_l200_digital_output_11_on_delay_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_off_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1153U, 1U}, {6U, 0x1153U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_11_off_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1153U, count, hitachi_l200_digital_output_11_off_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_11_off_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1153U, uint16_t,
+        hitachi_l200_digital_output_11_off_delay_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_on_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1154U, 1U}, {6U, 0x1154U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_12_on_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1154U, count, hitachi_l200_digital_output_12_on_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_12_on_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1154U, uint16_t,
+        hitachi_l200_digital_output_12_on_delay_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_off_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1155U, 1U}, {6U, 0x1155U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_output_12_off_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1155U, count, hitachi_l200_digital_output_12_off_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_digital_output_12_off_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1155U, uint16_t,
+        hitachi_l200_digital_output_12_off_delay_encode_count(count, &raw), raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_on_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1156U, 1U}, {6U, 0x1156U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_relay_output_on_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1156U, count, hitachi_l200_relay_output_on_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_relay_output_on_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1156U, uint16_t, hitachi_l200_relay_output_on_delay_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_off_delay_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1157U, 1U}, {6U, 0x1157U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_relay_output_off_delay(hitachi_l200_device *device, int32_t *count)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1157U, count, hitachi_l200_relay_output_off_delay_decode_count(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_relay_output_off_delay(hitachi_l200_device *device, int32_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1157U, uint16_t, hitachi_l200_relay_output_off_delay_encode_count(count, &raw),
+        raw)
+}
 static const fieldscribe_modbus_rw hitachi_l200_motor_power_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1164U, 1U}, {6U, 0x1164U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_power(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1164U, value, hitachi_l200_motor_power_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_power(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1164U, uint16_t, hitachi_l200_motor_power_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_power_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x153FU, 1U}, {6U, 0x153FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_power_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x153FU, value, hitachi_l200_motor_power_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_power_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x153FU, uint16_t, hitachi_l200_motor_power_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_poles_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1165U, 1U}, {6U, 0x1165U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_poles(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1165U, value, hitachi_l200_motor_poles_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_poles(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1165U, uint16_t, hitachi_l200_motor_poles_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_motor_poles_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1540U, 1U}, {6U, 0x1540U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_motor_poles_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1540U, value, hitachi_l200_motor_poles_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_poles_set_2(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1540U, uint16_t, hitachi_l200_motor_poles_set_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1167U, 1U}, {6U, 0x1167U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_stabilization_constant(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1167U, value, hitachi_l200_stabilization_constant_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_stabilization_constant(hitachi_l200_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1167U, uint16_t, hitachi_l200_stabilization_constant_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_set_2_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1542U, 1U}, {6U, 0x1542U, 1U}};
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_stabilization_constant_set_2(hitachi_l200_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1542U, value, hitachi_l200_stabilization_constant_set_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_stabilization_constant_set_2(hitachi_l200_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1542U, uint16_t, hitachi_l200_stabilization_constant_set_2_encode(value, &raw),
+        raw)
+}
 
 #ifdef __cplusplus
 }

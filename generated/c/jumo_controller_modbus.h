@@ -44,6 +44,11 @@ static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
+/* A device on a line, for the functions that read and write a point in one call. */
+typedef struct jumo_controller_device {
+    fieldscribe_modbus_unit unit;
+} jumo_controller_device;
+
 /* ---- Exception codes ---- */
 
 enum {
@@ -194,52 +199,169 @@ static const fieldscribe_layout jumo_controller_layout_u32_order_10 =
 
 static const fieldscribe_modbus_r jumo_controller_program_status_frame =
     {&jumo_controller_layout_u16, {3U, 0x001FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_status(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x001FU, value, jumo_controller_program_status_decode(word)) }
 static const fieldscribe_modbus_r jumo_controller_controller_status_frame =
     {&jumo_controller_layout_u16, {3U, 0x0020U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_controller_status(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0020U, value, jumo_controller_controller_status_decode(word)) }
 static const fieldscribe_modbus_r jumo_controller_binary_outputs_frame =
     {&jumo_controller_layout_u16, {3U, 0x0021U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_binary_outputs(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0021U, value, jumo_controller_binary_outputs_decode(word)) }
 static const fieldscribe_modbus_r jumo_controller_binary_inputs_frame =
     {&jumo_controller_layout_u16, {3U, 0x0023U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_binary_inputs(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0023U, value, jumo_controller_binary_inputs_decode(word)) }
 static const fieldscribe_modbus_r jumo_controller_control_contacts_frame =
     {&jumo_controller_layout_u16, {3U, 0x0025U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_control_contacts(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0025U, value, jumo_controller_control_contacts_decode(word)) }
 static const fieldscribe_modbus_r jumo_controller_binary_signals_frame =
     {&jumo_controller_layout_u16, {3U, 0x0026U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_binary_signals(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0026U, value, jumo_controller_binary_signals_decode(word)) }
 static const fieldscribe_modbus_rw jumo_controller_binary_output_control_frame =
     {&jumo_controller_layout_u16_fixed_8000_8000, {3U, 0x0027U, 1U}, {6U, 0x0027U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_binary_output_control(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0027U, value, jumo_controller_binary_output_control_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_binary_output_control(jumo_controller_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0027U, uint16_t, jumo_controller_binary_output_control_encode(value, &raw), raw) }
 static const fieldscribe_modbus_r jumo_controller_program_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005BU, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_program_run_time_frame, 2U, value,
+        jumo_controller_program_run_time_decode(jumo_controller_program_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_program_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005DU, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_remaining_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_program_remaining_time_frame, 2U, value,
+        jumo_controller_program_remaining_time_decode(jumo_controller_program_remaining_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_section_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0061U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_section_run_time_frame, 2U, value,
+        jumo_controller_section_run_time_decode(jumo_controller_section_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_section_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0063U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_remaining_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_section_remaining_time_frame, 2U, value,
+        jumo_controller_section_remaining_time_decode(jumo_controller_section_remaining_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_timer_1_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0067U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_1_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_1_run_time_frame, 2U, value,
+        jumo_controller_timer_1_run_time_decode(jumo_controller_timer_1_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_timer_2_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0069U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_2_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_2_run_time_frame, 2U, value,
+        jumo_controller_timer_2_run_time_decode(jumo_controller_timer_2_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_timer_3_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006BU, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_3_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_3_run_time_frame, 2U, value,
+        jumo_controller_timer_3_run_time_decode(jumo_controller_timer_3_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_r jumo_controller_timer_4_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006DU, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_4_run_time(jumo_controller_device *device, int64_t *value)
+{
+    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_4_run_time_frame, 2U, value,
+        jumo_controller_timer_4_run_time_decode(jumo_controller_timer_4_run_time_from_words(words)))
+}
 static const fieldscribe_modbus_rw jumo_controller_setpoint_1_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3100U, 2U}, {16U, 0x3100U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_1(jumo_controller_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_setpoint_1_frame, 2U,
+        jumo_controller_setpoint_1_decode_count(jumo_controller_setpoint_1_from_words(words), count))
+}
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_1(jumo_controller_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_setpoint_1_frame, 2U, uint32_t,
+        jumo_controller_setpoint_1_encode_count(count, &raw), jumo_controller_setpoint_1_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw jumo_controller_setpoint_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3102U, 2U}, {16U, 0x3102U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_2(jumo_controller_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_setpoint_2_frame, 2U,
+        jumo_controller_setpoint_2_decode_count(jumo_controller_setpoint_2_from_words(words), count))
+}
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_2(jumo_controller_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_setpoint_2_frame, 2U, uint32_t,
+        jumo_controller_setpoint_2_encode_count(count, &raw), jumo_controller_setpoint_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_rw jumo_controller_proportional_band_1_set_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3014U, 2U}, {16U, 0x3014U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_proportional_band_1_set_2(jumo_controller_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_proportional_band_1_set_2_frame, 2U,
+        jumo_controller_proportional_band_1_set_2_decode_count(
+        jumo_controller_proportional_band_1_set_2_from_words(words), count))
+}
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_proportional_band_1_set_2(jumo_controller_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_proportional_band_1_set_2_frame, 2U, uint32_t,
+        jumo_controller_proportional_band_1_set_2_encode_count(count, &raw),
+        jumo_controller_proportional_band_1_set_2_to_words(raw, words))
+}
 static const fieldscribe_modbus_w jumo_controller_value_0077_frame =
     {&jumo_controller_layout_u32_order_10, {16U, 0x0077U, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_value_0077(jumo_controller_device *device, int64_t count)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_value_0077_frame, 2U, uint32_t,
+        jumo_controller_value_0077_encode_count(count, &raw), jumo_controller_value_0077_to_words(raw, words))
+}
 static const fieldscribe_modbus_r jumo_controller_value_00ce_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x00CEU, 2U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_value_00ce(jumo_controller_device *device, int64_t *count)
+{
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_value_00ce_frame, 2U,
+        jumo_controller_value_00ce_decode_count(jumo_controller_value_00ce_from_words(words), count))
+}
 static const fieldscribe_modbus_rw jumo_controller_program_controller_commands_frame =
     {&jumo_controller_layout_u16, {3U, 0x006FU, 1U}, {6U, 0x006FU, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_controller_commands(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x006FU, value, jumo_controller_program_controller_commands_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_program_controller_commands(jumo_controller_device *device, int32_t value)
+{
+    FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x006FU, uint16_t,
+        jumo_controller_program_controller_commands_encode(value, &raw), raw)
+}
 static const fieldscribe_modbus_rw jumo_controller_controller_commands_frame =
     {&jumo_controller_layout_u16, {3U, 0x0070U, 1U}, {6U, 0x0070U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_controller_commands(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0070U, value, jumo_controller_controller_commands_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_controller_commands(jumo_controller_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0070U, uint16_t, jumo_controller_controller_commands_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw jumo_controller_operation_commands_frame =
     {&jumo_controller_layout_u16, {3U, 0x0071U, 1U}, {6U, 0x0071U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_operation_commands(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0071U, value, jumo_controller_operation_commands_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_operation_commands(jumo_controller_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0071U, uint16_t, jumo_controller_operation_commands_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw jumo_controller_timer_commands_frame =
     {&jumo_controller_layout_u16, {3U, 0x0072U, 1U}, {6U, 0x0072U, 1U}};
+FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_commands(jumo_controller_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0072U, value, jumo_controller_timer_commands_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL jumo_controller_write_timer_commands(jumo_controller_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0072U, uint16_t, jumo_controller_timer_commands_encode(value, &raw), raw) }
 
 #ifdef __cplusplus
 }

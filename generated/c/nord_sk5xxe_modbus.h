@@ -46,6 +46,11 @@ static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
+/* A device on a line, for the functions that read and write a point in one call. */
+typedef struct nord_sk5xxe_device {
+    fieldscribe_modbus_unit unit;
+} nord_sk5xxe_device;
+
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
 #define NORD_SK5XXE_BLOCK_MOST 6U /* the words, or bits, of the largest */
@@ -120,22 +125,58 @@ static const fieldscribe_layout nord_sk5xxe_layout_u16 =
 
 static const fieldscribe_modbus_rw nord_sk5xxe_control_word_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C80U, 1U}, {6U, 0x0C80U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_control_word(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C80U, value, nord_sk5xxe_control_word_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_control_word(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C80U, uint16_t, nord_sk5xxe_control_word_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_1_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C81U, 1U}, {6U, 0x0C81U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_setpoint_1(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C81U, value, nord_sk5xxe_setpoint_1_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_setpoint_1(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C81U, uint16_t, nord_sk5xxe_setpoint_1_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_2_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C82U, 1U}, {6U, 0x0C82U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_setpoint_2(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C82U, value, nord_sk5xxe_setpoint_2_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_setpoint_2(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C82U, uint16_t, nord_sk5xxe_setpoint_2_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_3_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C83U, 1U}, {6U, 0x0C83U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_setpoint_3(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C83U, value, nord_sk5xxe_setpoint_3_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_setpoint_3(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C83U, uint16_t, nord_sk5xxe_setpoint_3_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_4_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C84U, 1U}, {6U, 0x0C84U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_setpoint_4(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C84U, value, nord_sk5xxe_setpoint_4_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_setpoint_4(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C84U, uint16_t, nord_sk5xxe_setpoint_4_encode(value, &raw), raw) }
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_5_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C85U, 1U}, {6U, 0x0C85U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_setpoint_5(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0C85U, value, nord_sk5xxe_setpoint_5_decode(word)) }
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_write_setpoint_5(nord_sk5xxe_device *device, int32_t value)
+{ FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0C85U, uint16_t, nord_sk5xxe_setpoint_5_encode(value, &raw), raw) }
 static const fieldscribe_modbus_r nord_sk5xxe_status_word_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC0U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_status_word(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC0U, value, nord_sk5xxe_status_word_decode(word)) }
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_1_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC1U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_1(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC1U, value, nord_sk5xxe_actual_value_1_decode(word)) }
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_2_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC2U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_2(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC2U, value, nord_sk5xxe_actual_value_2_decode(word)) }
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_3_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC3U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_3(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC3U, value, nord_sk5xxe_actual_value_3_decode(word)) }
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_4_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC4U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_4(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC4U, value, nord_sk5xxe_actual_value_4_decode(word)) }
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_5_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC5U, 1U}};
+FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_5(nord_sk5xxe_device *device, int32_t *value)
+{ FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC5U, value, nord_sk5xxe_actual_value_5_decode(word)) }
 
 #ifdef __cplusplus
 }

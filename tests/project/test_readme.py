@@ -8,23 +8,12 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
-from support.c_device import WARNINGS
 from support.described import group, head
 from support.places import ROOT
 from support.python_package import imported
-from support.toolchains import succeed, tool
 
 README = (ROOT / "README.md").read_text("utf-8")
 USING = ROOT / "descriptions/using"
-C_PROGRAM = """
-#include "hitachi_l200.h"
-int main(void)
-{
-    hitachi_l200_status status;
-@BLOCK@
-    return (status == HITACHI_L200_OK) && (raw == 500U) ? 0 : 1;
-}
-"""
 
 
 def block(language: str) -> str:
@@ -42,15 +31,7 @@ def test_the_point_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert "1 point (1 generated)" in capsys.readouterr().out
 
 
-def test_the_c_compiles_and_runs(tmp_path: Path) -> None:
-    source = tmp_path / "use.c"
-    source.write_text(C_PROGRAM.replace("@BLOCK@", block("c")), "utf-8")
-    headers = f"-I{ROOT / 'generated/c'}"
-    succeed([tool("gcc"), "-std=c99", *WARNINGS, "-Werror", headers, "-o", tmp_path / "use", source, "-lm"])
-    succeed([tmp_path / "use"])
-
-
-@pytest.mark.parametrize("language", ["python", "rust"])
+@pytest.mark.parametrize("language", ["c", "python", "rust"])
 def test_the_first_program_is_that_of_its_page(language: str) -> None:
     """The page's own test runs it."""
     assert block(language) in (USING / f"{language}.md").read_text("utf-8")

@@ -717,3 +717,58 @@ void prove_ask_tcp(size_t size)
         (void)fieldscribe_modbus_ask_tcp(&line, &request, &reply);
     }
 }
+
+static fieldscribe_modbus_unit unit;
+
+/* A unit on that line, over which any words may be read and written. */
+static void on_line(void)
+{
+    link(frame, FRAMES);
+    unit.line = &line;
+    unit.ask = &fieldscribe_modbus_ask_rtu;
+}
+
+void prove_call(size_t count)
+{
+    if (count <= ITEMS) {
+        //@ split count;
+        on_line();
+        (void)fieldscribe_modbus_call(&unit, &request, EXACTLY(count, items), count);
+    }
+}
+
+void prove_read_words(size_t count)
+{
+    if (count <= ITEMS) {
+        //@ split count;
+        on_line();
+        (void)fieldscribe_modbus_read_words(&unit, &reading, EXACTLY(count, items), count);
+    }
+}
+
+void prove_write_words(size_t count)
+{
+    if (count <= SHORT) {
+        //@ split count;
+        on_line();
+        writing.count = (uint16_t)count;
+        (void)fieldscribe_modbus_write_words(&unit, &writing, EXACTLY(count, items), count);
+    }
+}
+
+void prove_read_word(uint8_t function, uint16_t address)
+{
+    on_line();
+    (void)fieldscribe_modbus_read_word(&unit, function, address, EXACTLY(1U, items));
+}
+
+void prove_write_word(uint8_t function, uint16_t address, uint16_t word)
+{
+    on_line();
+    (void)fieldscribe_modbus_write_word(&unit, function, address, word);
+}
+
+void prove_converted(fieldscribe_status status)
+{
+    (void)fieldscribe_modbus_converted(status);
+}

@@ -59,6 +59,14 @@ extern "C" {
 
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
+    /* converting a value, of ..._read_POINT and ..._write_POINT alone: the numbers of fieldscribe_status */
+    FIELDSCRIBE_MODBUS_OUT_OF_RANGE,
+    FIELDSCRIBE_MODBUS_NOT_A_NUMBER,
+    FIELDSCRIBE_MODBUS_UNKNOWN_VALUE,
+    FIELDSCRIBE_MODBUS_ZERO_FACTOR,
+    FIELDSCRIBE_MODBUS_NO_CASE,
+    FIELDSCRIBE_MODBUS_OVERFLOW,
+    FIELDSCRIBE_MODBUS_SPECIAL,
     /* building */
     FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all */
     FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
@@ -300,6 +308,90 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const f
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
+
+/*
+ * A unit on a line: the part of a handle, such as `hitachi_l200_device`, that ..._read_POINT and ..._write_POINT use.
+ * Each call sends one request and waits for its answer; a point that shares its word is read before it is written.
+ */
+typedef struct fieldscribe_modbus_unit {
+    const fieldscribe_modbus_line *line;
+    fieldscribe_modbus_status (*ask)(const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request,
+        fieldscribe_modbus_reply *reply); /* fieldscribe_modbus_ask_rtu or _tcp */
+    uint8_t number;
+    uint8_t exception;    /* the device's code if the last call returned EXCEPTION, else 0 */
+    uint16_t transaction; /* of the next request; over TCP alone */
+} fieldscribe_modbus_unit;
+
+/* One word (or coil) of a unit. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
+    fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t *word);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_word(
+    fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t word);
+
+/* Several words (or coils) of a unit, of a point or a block: `words` has `count` of them. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_words(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_reading *what, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_words(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count);
+
+/* Start of a function that reads or writes a point. */
+#define FIELDSCRIBE_MODBUS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status
+
+/* The status of a conversion. */
+FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
+{
+    return (fieldscribe_modbus_status)status;
+}
+
+/*
+ * Bodies of these functions, which have a `device`. `number` and `decoded` take `word` (or `words`), `encoded` stores
+ * in `raw`, from which `bits` (or `split`) makes what is written.
+ */
+#define FIELDSCRIBE_MODBUS_READ_WORD(function, address, to, number) \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_word(&device->unit, function, address, &word); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+#define FIELDSCRIBE_MODBUS_DECODE_WORD(function, address, decoded) \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_word(&device->unit, function, address, &word); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+#define FIELDSCRIBE_MODBUS_READ_WORDS(frame, count, to, number) \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_words(&device->unit, &(frame).read, words, count); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+#define FIELDSCRIBE_MODBUS_DECODE_WORDS(frame, count, decoded) \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_words(&device->unit, &(frame).read, words, count); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+#define FIELDSCRIBE_MODBUS_WRITE_WORD(function, address, type, encoded, bits) \
+    type raw = (type)0; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
+                                             : status;
+#define FIELDSCRIBE_MODBUS_WRITE_WORDS(frame, count, type, encoded, split) \
+    type raw = (type)0; \
+    uint16_t words[count]; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    split; \
+    return (status == FIELDSCRIBE_MODBUS_OK) \
+        ? fieldscribe_modbus_write_words(&device->unit, &(frame).write, words, count) : status;
+#define FIELDSCRIBE_MODBUS_UPDATE_WORD(from, from_address, function, address, type, encoded, bits) \
+    type raw = (type)0; \
+    uint16_t word = 0U; \
+    fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        status = fieldscribe_modbus_read_word(&device->unit, from, from_address, &word); \
+    } \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
+                                             : status;
 
 /* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
 FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
@@ -1022,6 +1114,47 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
         }
     }
     return status;
+}
+
+/* Exchanges one request of a unit. */
+static fieldscribe_modbus_status fieldscribe_modbus_call(
+    fieldscribe_modbus_unit *unit, fieldscribe_modbus_request *request, uint16_t *words, size_t count)
+{
+    fieldscribe_modbus_reply reply = {words, count, 0U, 0U};
+    fieldscribe_modbus_status status;
+    request->transaction = unit->transaction;
+    unit->transaction = (uint16_t)(unit->transaction + 1U);
+    status = unit->ask(unit->line, request, &reply);
+    unit->exception = reply.exception;
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_read_words(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_reading *what, uint16_t *words, size_t count)
+{
+    fieldscribe_modbus_request request = fieldscribe_modbus_read(unit->number, what);
+    return fieldscribe_modbus_call(unit, &request, words, count);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_write_words(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count)
+{
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(unit->number, what, words, count);
+    return fieldscribe_modbus_call(unit, &request, NULL, 0U);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_read_word(
+    fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t *word)
+{
+    const fieldscribe_modbus_reading what = {function, address, 1U};
+    return fieldscribe_modbus_read_words(unit, &what, word, 1U);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_write_word(
+    fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t word)
+{
+    const fieldscribe_modbus_writing what = {function, address, 1U};
+    return fieldscribe_modbus_write_words(unit, &what, &word, 1U);
 }
 
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,

@@ -30,7 +30,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True, exchanges: bo
     yield f"c/{device.id}.h", header(device, own, points, scope, render)
     if not exchanges and not frames_of(device).HAS_FACTS:
         return
-    texts = {name: section.text(render) for name, section in sections.items()}
+    texts = {name: section.text(render, scope if exchanges else None) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
     if tests:
         from fieldscribe.targets.c.conformance import adapters_text, suite_context

@@ -9,6 +9,7 @@ from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
+from fieldscribe.targets.c.calls import Transfer, call_names, calls
 from fieldscribe.targets.c.layout import WIDTH, folded
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
@@ -35,10 +36,11 @@ class Descriptor(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """The descriptors that read and write a point, and the macros of the conformance program for them."""
+    """The descriptors that read and write a point, the macros of the conformance program for them, and its calls."""
 
     descriptors: tuple[Descriptor, ...]
     cases: tuple[str, ...]
+    transfer: Transfer = Transfer("")
 
 
 class Frames:
@@ -58,14 +60,16 @@ class Frames:
         """Return the macros of the conformance program for the frames of a point."""
         return self._made[view].cases if view in self._made else ()
 
-    def text(self, render: Render) -> str:
-        """Return the descriptors of all points."""
-        return "".join(texts_of(self._points, lambda view: self._constants(view, render)))
+    def text(self, render: Render, scope: HeaderScope | None) -> str:
+        """Return the descriptors of all points, and with a scope the functions that read and write one."""
+        return "".join(texts_of(self._points, lambda view: self._constants(view, render, scope)))
 
-    def names(self) -> Iterator[Named]:
-        """Yield the identifiers of the descriptors."""
+    def names(self, scope: HeaderScope) -> Iterator[Named]:
+        """Yield the identifiers of the descriptors and functions."""
         for point, view, _ in self._points:
-            yield Owner("point", point.item), [descriptor.name for descriptor in self._made[view].descriptors]
+            frame = self._made[view]
+            names = [descriptor.name for descriptor in frame.descriptors]
+            yield Owner("point", point.item), names + call_names(point.item, view, frame.transfer, scope)
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
         """Yield the descriptors of renamed points under their old names."""
@@ -74,9 +78,15 @@ class Frames:
                 for descriptor in self._made[view].descriptors:
                     name = f"{scope.prefix}_{item}{descriptor.tail}"
                     yield AliasView(old, item, point.item, name, descriptor.name, "OBJECT")
+                transfer = self._made[view].transfer
+                names = (call_names(each, view, transfer, scope) for each in (item, point.item))
+                for name, new in zip(*names, strict=True):
+                    yield AliasView(old, item, point.item, name, new, "FUNCTION")
 
-    def _constants(self, view: PointView, render: Render) -> str:
-        texts = (render("c/constant.h.j2", {"one": descriptor}) for descriptor in self._made[view].descriptors)
+    def _constants(self, view: PointView, render: Render, scope: HeaderScope | None) -> str:
+        frame = self._made[view]
+        texts = [render("c/constant.h.j2", {"one": descriptor}) for descriptor in frame.descriptors]
+        texts += [f"{function.text}\n" for function in calls(view, frame.transfer, scope)] if scope else []
         return folded("".join(texts))
 
 
@@ -104,7 +114,7 @@ def frames_header(
         *identifiers,
         *((Owner("exception", code.name), (name,)) for code, (name, _, _) in exceptions),
         (Owner("target", "the layouts of points in words"), [layout.name for layout in layouts.descriptors]),
-        *(named for frames in sections.values() for named in frames.names()),
+        *(named for frames in sections.values() for named in frames.names(layouts.scope)),
         *old_names_of(aliases),
     )
     return FramesHeader({**shared, **context}, sections, names)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from fieldscribe.families.modbus import SPACES, Profile, profile_of
 from fieldscribe.model import Block, Command, Device, Point
+from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import (
     Descriptor,
     Frame,
@@ -72,7 +73,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     ]
 
     def identifiers() -> Iterator[Named]:
-        target = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
+        target = [f"{scope.prefix}_{name}" for name in ("modbus_functions", "modbus_profile", "device")]
         yield Owner("target", "what the header of frames needs"), target
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
@@ -126,7 +127,15 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    return Frame((descriptor,), tuple(_cases(point, view, access)))
+    transfers = _transfer(name, read, address, point.words), _transfer(name, write, to, point.words)
+    return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers))
+
+
+def _transfer(name: str, function: int | None, address: str, words: int) -> str:
+    """Return the arguments of the runtime's macros that say what reads or writes a point; empty if nothing does."""
+    if not function:
+        return ""
+    return f"{name}, {words}U" if words > 1 else f"{unsigned(function)}, {address}"
 
 
 def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:

@@ -1,0 +1,97 @@
+"""The functions that read or write a point in one call: the runtime's macros are their bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from fieldscribe.targets.c.conversions import value_type
+from fieldscribe.targets.c.layout import Function, called, function
+from fieldscribe.targets.c.literals import raw_kind
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import PointView
+from fieldscribe.targets.c.word_functions import has_words
+from fieldscribe.text import upper
+
+
+class Transfer(NamedTuple):
+    """The family, and the arguments of its macros that say what reads and writes a point; empty if nothing does."""
+
+    family: str
+    read: str = ""
+    write: str = ""
+
+
+def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
+    """Return the names of the functions that read and write a point under that name."""
+    ways = [way for way, call in (("read", transfer.read), ("write", transfer.write)) if call]
+    return [f"{scope.prefix}_{way}_{item}" for way in ways if view.shape != "text"]
+
+
+def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[Function]:
+    """Yield the functions that read and write a point."""
+    if view.shape == "text":
+        return
+    start, point = f"FIELDSCRIBE_{upper(transfer.family)}_", view.point
+    handle, (value, kind, tail) = f"{scope.prefix}_device *device", _value(view)
+    if transfer.read:
+        names = point.scale_arguments if view.shape == "ruled" and tail else ()
+        parameters = [handle, *scope.parameters(point, names), f"{kind} *{value}"]
+        way, *arguments = _decoding(view, value, tail, scope.passed(names))
+        body = called(f"{start}{way}_WORD{_several(view)}", transfer.read, *arguments)
+        yield function(f"{start}CALL", f"{scope.prefix}_read_{view.fields.item}", parameters, body)
+    if transfer.write:
+        names = point.arguments if tail is not None else point.limit_arguments
+        parameters = [handle, *scope.parameters(point, names), f"{kind} {value}"]
+        where = transfer.write if point.bits is None else f"{transfer.read}, {transfer.write}"
+        way = "WRITE" if point.bits is None else "UPDATE"
+        encoded = _encoding(view, kind, value, tail, scope.passed(names))
+        body = called(f"{start}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
+        yield function(f"{start}CALL", f"{scope.prefix}_write_{view.fields.item}", parameters, body)
+
+
+def _several(view: PointView) -> str:
+    return "S" if view.point.words > 1 else ""
+
+
+def _value(view: PointView) -> tuple[str, str, str | None]:
+    """Return the name and the type of what is read and written, and the end of its conversions; None for raw."""
+    if view.point.has_counts:
+        return "count", view.scale.count_type if view.scale is not None else "int64_t", "_count"
+    if view.shape == "plain":
+        return "value", "bool" if view.raw_type == "bool" and view.special is None else value_type(view.point), ""
+    return "value", view.raw_type, None
+
+
+def _decoding(view: PointView, value: str, tail: str | None, passed: tuple[str, ...]) -> tuple[str, ...]:
+    """Return how the words become the value: which macro, and its arguments."""
+    raw = _raw_of_words(view)
+    if tail is None:
+        return "READ", value, raw
+    if view.special is not None or view.shape in ("ruled", "float") or (view.scale and view.scale.count_fits):
+        return "DECODE", called(f"{view.function}_decode{tail}", raw, *passed, value)
+    return "READ", value, called(f"{view.function}_decode{tail}", raw)
+
+
+def _encoding(view: PointView, kind: str, value: str, tail: str | None, passed: tuple[str, ...]) -> str:
+    """Return the status of storing the raw number of a value in `raw`."""
+    if tail is None:
+        status = called(f"{view.function}_check", value, *passed)
+        return called(f"fieldscribe_keep_{raw_kind(view.point)}", status, value, "&raw")
+    return called(f"{view.function}_encode{tail}", f"{value} ? 1 : 0" if kind == "bool" else value, *passed, "&raw")
+
+
+def _raw_of_words(view: PointView) -> str:
+    if view.point.bits is not None:
+        return f"{view.function}_extract(word)"
+    if has_words(view.point):
+        return f"{view.function}_from_words({'words' if view.point.words > 1 else '&word'})"
+    return {"bool": "word != 0U", "uint16_t": "word"}.get(view.raw_type, f"({view.raw_type})word")
+
+
+def _bits_of_raw(view: PointView) -> str:
+    if view.point.bits is not None:
+        return f"{view.function}_insert(word, raw)"
+    if view.point.words > 1:
+        return f"{view.function}_to_words(raw, words)"
+    return {"bool": "raw ? 1U : 0U", "uint16_t": "raw"}.get(view.raw_type, "(uint16_t)raw")
