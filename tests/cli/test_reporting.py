@@ -206,7 +206,9 @@ def test_no_traceback(
 @pytest.mark.parametrize(
     ("shell", "code", "out"),
     [
-        ("decode {l200} '05 06 10 28 01 F4 0C 91'", 0, "A020 base_frequency = 50 Hz"),
+        pytest.param(
+            "decode {l200} '05 06 10 28 01 F4 0C 91'", 0, "A020 base_frequency = 50 Hz", marks=pytest.mark.full
+        ),
         ("export json {l200} | head -c 1", 0, "{{"),  # the reader goes away
         ("decode {l200} '05 06 10 28 01 F4 0C 91' >&-", 0, ""),  # the caller closed stdout
         ("explain {l200} A020 > /dev/full", 2, ""),

@@ -86,6 +86,7 @@ LANGUAGES = (c, python, rust)
 FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums)
 """The modules that fill templates."""
 
+QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 DEVICES: dict[str, Callable[[], Device]] = {
     **{name: partial(shipped, name) for name in SHIPPED},
@@ -121,7 +122,7 @@ def unshared(device: Device, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.full if name in SHIPPED else ()) for name in DEVICES]
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.full) for name in DEVICES]
 )
 def test_sharing_templates_changes_no_text(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     device = DEVICES[name]()

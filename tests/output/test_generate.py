@@ -236,7 +236,7 @@ def test_what_lies_beside_a_description_is_not_read(project: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS[:-1])
-@pytest.mark.parametrize("name", ["device.yaml", "process_data.yaml"])
+@pytest.mark.parametrize("name", ["device.yaml", pytest.param("process_data.yaml", marks=pytest.mark.full)])
 def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind: str, name: str) -> None:
     place = project / "descriptions/jumo_controller" / name
     place.unlink()

@@ -120,7 +120,16 @@ BROKEN = {
 }
 
 
-@pytest.mark.parametrize("kind", [*BROKEN, "folder", "pipe", "link", "huge", "unwritable names"])
+QUICK = ("cut", "other shape", "link")
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=() if kind in QUICK else pytest.mark.full)
+        for kind in (*BROKEN, "folder", "pipe", "link", "huge", "unwritable names")
+    ],
+)
 def test_a_broken_memory_is_made_anew_or_ignored(place: Path, kind: str, compiled: list[str]) -> None:
     found = memory(place)
     text = found.read_bytes()

@@ -49,6 +49,7 @@ def models() -> list[object]:
     return [compiled(file) for file in GOOD]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("file", GOOD, ids=lambda file: file.parent.name)
 def test_sharing_facts_changes_no_model(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     together = compiled(file)

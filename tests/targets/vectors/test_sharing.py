@@ -73,6 +73,7 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
     monkeypatch.setattr(owner, method, anew)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("device", ALL, ids=lambda device: device.id)
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetting(monkeypatch, PointEncodings, "of", "_known")
