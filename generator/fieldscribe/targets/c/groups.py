@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 from fieldscribe import wording
@@ -12,30 +12,24 @@ from fieldscribe.lowered import plan_of
 from fieldscribe.model import Point
 from fieldscribe.targets.c.layout import wrapped
 from fieldscribe.targets.c.literals import raw_type
+from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.text import c_comment
 
 _INDENT = 2 * "    "
 
 
-class Member(NamedTuple):
-    """A member of a struct, and the lines of the statement that fills it.
+class Part(NamedTuple):
+    """What one request or frame fills: the declarations of members with the statements that fill them.
 
-    The name says whether it is a count or raw: a count where decoding cannot fail and needs no other point.
+    `label` is the number of the request or frame in the function.
     """
 
-    declaration: str
-    comment: str
-    lines: list[str]
-
-
-class Part(NamedTuple):
-    """The members that one request or frame fills; `label` is its number in the function."""
-
     label: str
-    members: tuple[Member, ...]
+    members: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -55,35 +49,57 @@ class StructView:
         """The parts that have members."""
         return tuple(part for part in self.make() if part.members)
 
-    @cached_property
-    def members(self) -> dict[str, str]:
-        """The declarations of all members with their comments."""
-        return {member.declaration: member.comment for part in self.parts for member in part.members}
+    @property
+    def members(self) -> dict[str, None]:
+        """The declarations of all members."""
+        return dict.fromkeys(member for part in self.parts for member in part.members)
 
 
-def members_of(point: Point, view: PointView, position: int, scope: HeaderScope) -> Iterator[Member]:
-    """Yield the member of a point whose words begin at a position, and one for each old name.
+class Members:
+    """Makes the members of points, which are laid out once for each view and number of digits of the position."""
 
-    A text that is read backwards has none.
+    def __init__(self, scope: HeaderScope) -> None:
+        self.scope = scope
+        self._texts = TextTemplates()
+
+    def of(self, each: GeneratedPoint, position: int) -> tuple[str, str]:
+        """Return the members of a point whose words begin at a position, and the statements that fill them.
+
+        The position stands where the comment is among the point's fields. A text that is read backwards has none.
+        """
+        at, (point, view, fields) = str(position), each
+        lay_out = partial(self._lay_out, point, view, placeholders((at,))[0])
+        declarations, _, statements = self._texts.fill((view, len(at)), (at, *fields[1:]), lay_out).partition("\0")
+        return declarations, statements
+
+    def _lay_out(self, point: Point, view: PointView, at: str) -> str:
+        members = list(_members(point, view, f"words[{at}]"))
+        return "\0".join("\n".join(texts) for texts in zip(*members, strict=True))
+
+
+def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, str]]:
+    """Yield the declaration of a point's member with its statement, and those for each old name.
+
+    The name says whether it is a count or raw: a count where decoding cannot fail and needs no other point.
     """
-    name, word = f"{scope.prefix}_{point.item}", f"words[{position}]"
-    for item in (point.item, *point.old_items):
+    name, ending = view.function, ""
+    if point.text is not None and list(point.place.addresses) != sorted(point.place.addresses):
+        return
+    for item in (view.fields.item, *point.old_items):
         if point.text is not None:
-            if list(point.place.addresses) != sorted(point.place.addresses):
-                return
             target = f"{item}_text"
-            declaration = f"char {target}[{point.text.characters + 1}]"
-            yield Member(declaration, "", wrapped(f"(void){name}_decode(&{word}, group->{target});", _INDENT))
-            continue
-        raw, kind, comment = _raw(point, name, word), raw_type(point), ""
-        if _is_plainly_counted(point, view):
+            kind, ending = "char", f"[{point.text.characters + 1}]"
+            comment, statement = "", f"(void){name}_decode(&{word}, group->{target});"
+        elif _is_plainly_counted(point, view):
             target, comment = f"{item}_count", wording.count_text(point)
-            kind, raw = "int64_t" if plan_of(point.shape).count_wide else "int32_t", f"{name}_decode_count({raw})"
+            kind = "int64_t" if plan_of(point.shape).count_wide else "int32_t"
+            statement = f"group->{target} = {name}_decode_count({_raw(point, name, word)});"
         else:
-            target = f"{item}_raw"
-            comment = point.unit.symbol
+            target, kind, comment = f"{item}_raw", raw_type(point), point.unit.symbol
             comment = f"decodes to {comment}" if comment and view.shape != "plain" else comment
-        yield Member(f"{kind} {target}", c_comment(comment), wrapped(f"group->{target} = {raw};", _INDENT))
+            statement = f"group->{target} = {_raw(point, name, word)};"
+        remark = f" /* {c_comment(comment)} */" if comment else ""
+        yield f"    {kind} {target}{ending};{remark}", "\n".join(wrapped(statement, _INDENT))
 
 
 def _raw(point: Point, name: str, word: str) -> str:

@@ -18,7 +18,7 @@ from fieldscribe.targets.c.frames import (
     frames_header,
     lies,
 )
-from fieldscribe.targets.c.groups import Part, StructView, members_of
+from fieldscribe.targets.c.groups import Members, Part, StructView
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
@@ -60,7 +60,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     for each in placed:
         if each.point.readable:
             by_name.setdefault(each.point.name, []).append(each)
-    blocks = [_blocks(group, blocks, labels, by_name, scope) for group, blocks in device.blocks.items() if blocks]
+    members = Members(scope)
+    blocks = [_blocks(group, blocks, labels, by_name, members) for group, blocks in device.blocks.items() if blocks]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
     frames = Frames(
@@ -154,7 +155,7 @@ def _blocks(
     blocks: tuple[Block, ...],
     labels: Mapping[str, str],
     by_name: Mapping[str, Sequence[GeneratedPoint]],
-    scope: HeaderScope,
+    members: Members,
 ) -> BlocksView:
     rows = []
     for block in blocks:
@@ -164,18 +165,18 @@ def _blocks(
 
     def parts() -> Iterator[Part]:
         for number, block in enumerate(blocks):
-            members = [
-                member
+            placed = [
+                members.of(each, at)
                 for name in block.points
-                for point, view, _ in by_name[name]
-                if 0 <= (at := min(point.place.addresses, default=-1) - block.address) <= block.count - point.words
-                and point.space == block.space
-                for member in members_of(point, view, at, scope)
+                for each in by_name[name]
+                if (at := min(each.point.place.addresses, default=-1) - block.address) >= 0
+                and at <= block.count - each.point.words
+                and each.point.space == block.space
             ]
-            yield Part(unsigned(number), tuple(members))
+            yield Part(unsigned(number), {declaration: fill for declaration, fill in placed if declaration})
 
-    values = StructView(f"{scope.prefix}_{group}_group", parts)
-    return BlocksView(group, f"{scope.prefix}_{group}_blocks", tuple(rows), values)
+    values = StructView(f"{members.scope.prefix}_{group}_group", parts)
+    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", tuple(rows), values)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
