@@ -69,7 +69,9 @@ def test_large_devices_are_proven() -> None:
     """But for the names in C that are longer than all compilers compare."""
     for name, proven in (("hitachi_l200", [1, 1, 1]), ("woodward_mpu2s", [0, 1, 1])):
         kinds = PointKinds(shipped(name), keys_of(shipped(name)))
-        assert [kinds.are_distinct(target(language).identifiers) for language in LANGUAGES] == proven
+        assert [
+            kinds.are_distinct(target(language).identifiers, target(language).BEFORE_POINTS) for language in LANGUAGES
+        ] == proven
 
 
 @pytest.mark.parametrize(("second", "clash"), [("x_y", True), ("x_w", False), ("xy", False)])
@@ -79,5 +81,14 @@ def test_a_name_and_its_ending_may_be_another_name_and_its_ending(second: str, c
     others = [*(f"second_{number}" for number in range(9)), second]
     rows = "".join(f"- {{name: {name}, at: {at}, enum: {{0: y_z, 1: q}}}}\n" for at, name in enumerate(first))
     rows += "".join(f"- {{name: {name}, at: {at}, enum: {{0: z, 1: p}}}}\n" for at, name in enumerate(others, 50))
+    _, findings = compile_in(tmp_path, together(head(device="pair"), group(rows)))
+    assert [finding.rule for finding in findings] == ["name-clash"] * clash
+
+
+@pytest.mark.parametrize(("last", "clash"), [("read_x", True), ("x_read", False)])
+def test_a_name_may_begin_with_a_word_before_names(last: str, clash: bool, tmp_path: Path) -> None:
+    """The call that reads `x_frame` is what `read_x` is with `frame`."""
+    names = [*(f"point_{number}" for number in range(9)), "x_frame", last]
+    rows = "".join(f"- {{name: {name}, at: {at}}}\n" for at, name in enumerate(names))
     _, findings = compile_in(tmp_path, together(head(device="pair"), group(rows)))
     assert [finding.rule for finding in findings] == ["name-clash"] * clash

@@ -11,7 +11,7 @@ from fieldscribe.targets.identifiers import Names, Owner
 
 SEES_TITLES = False
 NEEDS_FAMILY = False
-NAMES_CONTAIN_POINT = False
+BEFORE_POINTS = ()
 
 _LONGEST = 8
 

@@ -13,6 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import combinations
 
 from fieldscribe.model import Device
 from fieldscribe.targets.identifiers import Names, Owner, clashes, resemblances
@@ -46,15 +47,19 @@ class PointKinds:
         left_out = {item for item in several if self.names[_plain(item)] != _plain(item)}
         self.sample = _sample(device, left_out)
 
-    def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]]) -> bool:
-        """Return True if all identifiers of a target are proven to differ, in the characters that it compares."""
-        if not self._are_unique or not self.names:
+    def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]], before_points: Iterable[str]) -> bool:
+        """Return True if all identifiers of a target are proven to differ, in the characters that it compares.
+
+        `before_points` are the words that may stand between the names of device and point.
+        """
+        if not self._are_unique or not self.names or not before_points:
             return False
         listed = list(identifiers(self.sample))
         if next(clashes(listed), None) is not None or next(resemblances(listed), None) is not None:
             return False
         spaces: defaultdict[str, _Space] = defaultdict(_Space)
         device = _plain(self.sample.id)
+        starts = [*(device + word for word in sorted(before_points, key=len, reverse=True)), ""]
         for namespace, owner, names, significant in listed:
             point = _point_of(owner)
             item = _plain(point)
@@ -65,7 +70,7 @@ class PointKinds:
                 if any(len(name) >= most for name in names):
                     return False
             for name in map(_plain, names):
-                start = next((start for start in (device, "") if shared and name.startswith(start + item)), None)
+                start = next((start for start in starts if shared and name.startswith(start + item)), None)
                 if start is not None:
                     space.starts.add(start)
                     space.endings[name[len(start) + len(item) :]].add(item)
@@ -77,12 +82,14 @@ class PointKinds:
 
     def _differ(self, space: _Space) -> bool:
         """Return True if no name gives an identifier that another name, or another thing, has in this namespace."""
-        if len(space.starts) > 1:
-            return False
-        for ending, longer in space.endings.items():
+        for start, longer in combinations(sorted(space.starts), 2):
+            rest = longer[len(start) :]
+            if longer.startswith(start) and any(rest.startswith(name) or name.startswith(rest) for name in self.names):
+                return False
+        for ending, points in space.endings.items():
             for end in range(1, len(ending) + 1):
                 pairs, shorter = self._rests.get(ending[:end]), space.endings.get(ending[end:])
-                if pairs and shorter and any(first in longer and second in shorter for first, second in pairs):
+                if pairs and shorter and any(first in points and second in shorter for first, second in pairs):
                     return False
         return not any(
             other[at:end] in self.names and other[end:] in space.endings

@@ -24,8 +24,10 @@ if TYPE_CHECKING:
         NEEDS_FAMILY: bool
         """True if it is for devices only whose family has a part for it."""
 
-        NAMES_CONTAIN_POINT: bool
-        """True if every identifier contains the full name of its point, so that checks need not compare all of them."""
+        BEFORE_POINTS: tuple[str, ...]
+        """Words between the device's name and the full name of a point in identifiers, so that checks need not compare
+        all of them; empty if there are identifiers without it.
+        """
 
         def outputs(self, device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
             """Return the files of a device: path below the output folder, and text.

@@ -15,7 +15,7 @@ from fieldscribe.targets.c.scope import scope_of
 
 SEES_TITLES = False
 NEEDS_FAMILY = True
-NAMES_CONTAIN_POINT = True
+BEFORE_POINTS = ("", "read", "write")
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True, exchanges: bool = True) -> Iterable[tuple[str, str]]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 SEES_TITLES = True
 
 NEEDS_FAMILY = False
-NAMES_CONTAIN_POINT = True
+BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

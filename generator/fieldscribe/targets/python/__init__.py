@@ -18,7 +18,7 @@ SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
-NAMES_CONTAIN_POINT = True
+BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:

@@ -27,7 +27,9 @@ DEVICE_MEMBERS = frozenset(
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 
-HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "parameter", "renamed", "telegram"})
+HELPERS = frozenset(
+    {"coil", "discrete", "enums", "get_args", "holding", "input_register", "parameter", "renamed", "telegram"}
+)
 """Lower-case names that the body of the generated class uses."""
 
 WORD_MEMBERS = frozenset(

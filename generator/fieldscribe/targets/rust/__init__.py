@@ -14,7 +14,7 @@ SEES_TITLES = False
 _SOURCES = ("points", "enums", "flags", "with")
 
 NEEDS_FAMILY = True
-NAMES_CONTAIN_POINT = True
+BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:

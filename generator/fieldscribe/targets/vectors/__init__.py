@@ -13,7 +13,7 @@ from fieldscribe.targets.identifiers import Names
 
 SEES_TITLES = False
 NEEDS_FAMILY = False
-NAMES_CONTAIN_POINT = True
+BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
