@@ -1632,22 +1632,31 @@ typedef struct fieldscribe_layout {
  * The raw number out of words, of which there are `count`. False, and nothing stored, when the point's raw number has
  * another type (a call that is right once is always right), or when there are no words or fewer than the point has.
  */
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, bool *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_u8(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint8_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_s8(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, int8_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_u16(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint16_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_s16(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, int16_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_u32(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint32_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_s32(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, int32_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_u64(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint64_t *raw);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, int64_t *raw);
 
@@ -1656,21 +1665,30 @@ FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(
  * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point, or
  * when there are no words or fewer than the point has.
  */
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_u8(
     const fieldscribe_layout *layout, uint8_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_s8(
     const fieldscribe_layout *layout, int8_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_u16(
     const fieldscribe_layout *layout, uint16_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_s16(
     const fieldscribe_layout *layout, int16_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_u32(
     const fieldscribe_layout *layout, uint32_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_s32(
     const fieldscribe_layout *layout, int32_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_u64(
     const fieldscribe_layout *layout, uint64_t raw, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_s64(
     const fieldscribe_layout *layout, int64_t raw, uint16_t *words, size_t count);
 
@@ -1685,8 +1703,10 @@ typedef struct fieldscribe_text {
  * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
  * stored, if one of them is NULL or has fewer words than the text: `count` and `room` say how many.
  */
+
 FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
+
 FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
     const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room);
 

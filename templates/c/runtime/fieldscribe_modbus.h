@@ -5,40 +5,6 @@
  * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
- *
- * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer.
- * `receive` is yours: false when the line stays silent.
- *
- *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
- *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
- *     uint16_t words[1];
- *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
- *     request = fieldscribe_modbus_read(unit, &point->read);
- *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
- *     discard();      (when RTU was silent for 3.5 characters; a late answer would be taken for this one)
- *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
- *     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer);
- *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
- *         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
- *     }
- *     fieldscribe_modbus_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
- *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
- *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
- *
- * SHORT_FRAME says that no answer came. Whatever went wrong: wait until the line is silent before you ask again, or a
- * late answer is taken for the next one. Where you can wait for so many bytes at once, and there is no noise (TCP),
- * fieldscribe_modbus_left tells how many.
- *
- * Reading a block (..._BLOCK_MOST words hold any of the device), in the same way: for each of its points,
- * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), then
- * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which is false where `in` is NULL.
- *
- * Writing one: ..._encode says whether the number may be written, and a special code (..._INACTIVE) is such a raw
- * number as it stands; fieldscribe_put_u16(point->layout, raw, words, count) puts any that fits into the words, then
- * fieldscribe_modbus_write(unit, &point->write, words, count). Its answer is parsed, too: OK says that the device took
- * it, and the reply may be {NULL, 0U, 0U, 0U}. Nobody answers what goes to all units: nothing is left to be received,
- * so skip the parsing.
- * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"
 #include "fieldscribe_modbus_facts.h"
@@ -135,14 +101,19 @@ struct fieldscribe_modbus_request {
 };
 
 /* What requests are put and answered with: reads of words and of bits, and writes. */
+
 fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+
 fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+
 fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request, const uint8_t *pdu,
     size_t size, fieldscribe_modbus_reply *reply);
+
 fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request, const uint8_t *pdu,
     size_t size, fieldscribe_modbus_reply *reply);
+
 fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request, const uint8_t *pdu,
     size_t size, fieldscribe_modbus_reply *reply);
 
@@ -218,8 +189,10 @@ typedef struct fieldscribe_modbus_receiver {
  * A receiver for the answer to a request, which it does not need again. It is done at once where nobody answers, and
  * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME.
  */
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
 
@@ -236,14 +209,18 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
 void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver);
 
 /* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 
 /* Reads the answer to a request. */
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
 
@@ -253,10 +230,47 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply);
 
-/* The same by framing: one that is constant links its own functions alone. */
+/*
+ * The same by framing: one that is constant links its own functions alone.
+ *
+ * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer.
+ * `receive` is yours: false when the line stays silent.
+ *
+ *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
+ *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
+ *     uint16_t words[1];
+ *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
+ *     request = fieldscribe_modbus_read(unit, &point->read);
+ *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
+ *     discard();      (when RTU was silent for 3.5 characters; a late answer would be taken for this one)
+ *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
+ *     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer);
+ *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
+ *         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
+ *     }
+ *     fieldscribe_modbus_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
+ *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
+ *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
+ *
+ * SHORT_FRAME says that no answer came. Whatever went wrong: wait until the line is silent before you ask again, or a
+ * late answer is taken for the next one. Where you can wait for so many bytes at once, and there is no noise (TCP),
+ * fieldscribe_modbus_left tells how many.
+ *
+ * Reading a block (..._BLOCK_MOST words hold any of the device), in the same way: for each of its points,
+ * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), then
+ * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which is false where `in` is NULL.
+ *
+ * Writing one: ..._encode says whether the number may be written, and a special code (..._INACTIVE) is such a raw
+ * number as it stands; fieldscribe_put_u16(point->layout, raw, words, count) puts any that fits into the words, then
+ * fieldscribe_modbus_write(unit, &point->write, words, count). Its answer is parsed, too: OK says that the device took
+ * it, and the reply may be {NULL, 0U, 0U, 0U}. Nobody answers what goes to all units: nothing is left to be received,
+ * so skip the parsing.
+ * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
+ */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
     const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
@@ -304,8 +318,10 @@ typedef struct fieldscribe_modbus_line {
  * small for the answer (BUFFER_TOO_SMALL). What goes to all units is OK when it is sent, as nobody answers. Over TCP
  * give each request another `transaction`: by that a late answer is told from the one waited for.
  */
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
 
@@ -325,12 +341,14 @@ typedef struct fieldscribe_modbus_unit {
 /* One word (or coil) of a unit. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
     fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t *word);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_word(
     fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t word);
 
 /* Several words (or coils) of a unit, of a point or a block: `words` has `count` of them. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_reading *what, uint16_t *words, size_t count);
+
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count);
 
@@ -347,6 +365,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
  * Bodies of these functions, which have a `device`. `number` and `decoded` take `word` (or `words`), `encoded` stores
  * in `raw`, from which `bits` (or `split`) makes what is written.
  */
+
 #define FIELDSCRIBE_MODBUS_READ_WORD(function, address, to, number) \
     uint16_t word = 0U; \
     const fieldscribe_modbus_status status = fieldscribe_modbus_read_word(&device->unit, function, address, &word); \
@@ -354,10 +373,12 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
         *(to) = (number); \
     } \
     return status;
+
 #define FIELDSCRIBE_MODBUS_DECODE_WORD(function, address, decoded) \
     uint16_t word = 0U; \
     const fieldscribe_modbus_status status = fieldscribe_modbus_read_word(&device->unit, function, address, &word); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
 #define FIELDSCRIBE_MODBUS_READ_WORDS(frame, count, to, number) \
     uint16_t words[count] = {0}; \
     const fieldscribe_modbus_status status = \
@@ -366,16 +387,19 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
         *(to) = (number); \
     } \
     return status;
+
 #define FIELDSCRIBE_MODBUS_DECODE_WORDS(frame, count, decoded) \
     uint16_t words[count] = {0}; \
     const fieldscribe_modbus_status status = \
         fieldscribe_modbus_read_words(&device->unit, &(frame).read, words, count); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
 #define FIELDSCRIBE_MODBUS_WRITE_WORD(function, address, type, encoded, bits) \
     type raw = (type)0; \
     const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
                                              : status;
+
 #define FIELDSCRIBE_MODBUS_WRITE_WORDS(frame, count, type, encoded, split) \
     type raw = (type)0; \
     uint16_t words[count]; \
@@ -383,6 +407,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     split; \
     return (status == FIELDSCRIBE_MODBUS_OK) \
         ? fieldscribe_modbus_write_words(&device->unit, &(frame).write, words, count) : status;
+
 #define FIELDSCRIBE_MODBUS_UPDATE_WORD(from, from_address, function, address, type, encoded, bits) \
     type raw = (type)0; \
     uint16_t word = 0U; \
