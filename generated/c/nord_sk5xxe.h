@@ -7,8 +7,7 @@
  *
  * A raw number is the integer on the wire, right-aligned and with its sign. A value is its meaning in the unit. A count
  * is the value as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and
-     stores
- * a result only if it returns NORD_SK5XXE_OK. Decoding accepts every raw number that a device may send.
+ * stores a result only if it returns NORD_SK5XXE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open

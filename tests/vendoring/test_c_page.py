@@ -221,11 +221,9 @@ int main(void)
     static const uint8_t longer[] = {0x05U, 0x03U, 0xC8U}; /* as of an answer with 200 bytes */
     hitachi_l200_monitor_d_group group;
     uint16_t frequency;
-    fieldscribe_modbus_request request;
     script = steps;
-    request = fieldscribe_modbus_read(UNIT, &hitachi_l200_output_frequency_frame.read);
-    CHECK(is_not_available_now(&request)); /* at the third time */
-    CHECK(!is_not_available_now(&request));
+    CHECK(is_not_available_now()); /* at the third time */
+    CHECK(!is_not_available_now());
     CHECK(monitor(&group) && group.output_frequency_count == 300 && group.motor_current_count == 512);
     CHECK(group.rotation_direction_raw == 1U && !monitor(&group));
     CHECK(!limit(4001, 0U, 400U) && !limit(600, 0U, 50U) && !limit(20, 30U, 50U));
@@ -247,8 +245,8 @@ int main(void)
 @pytest.mark.full(seconds=3)
 def test_blocks_on_modbus(page: Page) -> None:
     steps = [
-        *((READ, ""), (READ, "FF"), (READ, crc("05 83 22"))),
-        (READ, crc("05 83 21")),
+        *((WRITE, ""), (WRITE, "FF"), (WRITE, crc("05 86 22"))),
+        (WRITE, crc("05 86 21")),
         *((BLOCK, crc("05 03 06 01 2C 02 00 00 01")), (BLOCK, crc("05 83 21"))),
         *((LIMIT, LIMIT), (NO_LIMIT, NO_LIMIT), (ENTER, ENTER)),
         *[(READ, crc("05 03 02 01 01"))] * 2,
@@ -261,15 +259,15 @@ int main(void)
 {
     static const uint16_t sent[2] = {0x047FU, 0x4000U};
     uint16_t heard[2] = {0U, 0U};
-    float hertz = 0.0F;
+    int64_t hundredths = 0;
     uint16_t words[2] = {0U, 0U};
     bool fault = true;
     int64_t actual = 0;
     script = steps;
-    CHECK(maximum_frequency(3U, sent, heard, &hertz));
-    CHECK(hertz == 50.0F && heard[0] == 0xFA31U && heard[1] == 0x1234U);
-    CHECK(!maximum_frequency(3U, sent, heard, &hertz));
-    CHECK(!maximum_frequency(3U, sent, heard, &hertz));
+    CHECK(maximum_frequency(3U, sent, heard, &hundredths));
+    CHECK(hundredths == 5000 && heard[0] == 0xFA31U && heard[1] == 0x1234U);
+    CHECK(!maximum_frequency(3U, sent, heard, &hundredths));
+    CHECK(!maximum_frequency(3U, sent, heard, &hundredths));
     CHECK(command(false, 4000000, words) && words[0] == 0x047EU && words[1] == 0x3333U);
     CHECK(command(true, 4000000, words) && !command(true, 400000000, words));
     CHECK(exchange(3U, words, &fault, &actual) && !fault && actual == 3999939);
