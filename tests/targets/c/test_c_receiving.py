@@ -20,10 +20,9 @@ DEVICES = {"modbus": "hitachi_l200", "can": "woodward_mpu2s", "uss": "siemens_mm
 
 
 def recipe(family: str) -> str:
-    """The statements at the top of a family's runtime; remarks stand in brackets behind them, or alone."""
+    """The statements in the comments of a family's runtime; remarks stand in brackets behind them, or alone."""
     text = (templates_dir() / "c" / "runtime" / f"fieldscribe_{family}.h").read_text("utf-8")
-    head = text[: text.index("*/")]
-    lines = re.findall(r"^ \*     (.*)$", head, re.MULTILINE)
+    lines = re.findall(r"^ \*     (.*)$", text, re.MULTILINE)
     return "\n".join(re.sub(r"(^|\s{2,})\(.*\)$", "", line) for line in lines)
 
 
