@@ -1698,15 +1698,12 @@ typedef struct fieldscribe_text {
     uint16_t first; /* the lowest of them */
     uint16_t words;
 } fieldscribe_text;
-
 /*
  * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
  * stored, if one of them is NULL or has fewer words than the text: `count` and `room` say how many.
  */
-
 FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
-
 FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
     const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room);
 

@@ -47,7 +47,11 @@ static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
-/* A device on a line, for the functions that read and write a point in one call. */
+/*
+ * A device on a line, for the functions that read and write a point in one call, and for
+ * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
+ * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
+ */
 typedef struct hitachi_l200_device {
     fieldscribe_modbus_unit unit;
 } hitachi_l200_device;
@@ -997,7 +1001,7 @@ static inline void hitachi_l200_motor_h_group_decode(
     }
 }
 
-/* ---- Commands ---- */
+/* ---- Commands, for fieldscribe_modbus_send ---- */
 
 /* Enter: any value does; the memory stands 100000 writes. */
 #define HITACHI_L200_COMMAND_ENTER_ADDRESS 0x0900U

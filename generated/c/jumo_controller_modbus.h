@@ -44,7 +44,11 @@ static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
-/* A device on a line, for the functions that read and write a point in one call. */
+/*
+ * A device on a line, for the functions that read and write a point in one call, and for
+ * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
+ * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
+ */
 typedef struct jumo_controller_device {
     fieldscribe_modbus_unit unit;
 } jumo_controller_device;

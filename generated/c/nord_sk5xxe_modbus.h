@@ -46,7 +46,11 @@ static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
     false /* whether it speaks TCP */
 };
 
-/* A device on a line, for the functions that read and write a point in one call. */
+/*
+ * A device on a line, for the functions that read and write a point in one call, and for
+ * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
+ * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
+ */
 typedef struct nord_sk5xxe_device {
     fieldscribe_modbus_unit unit;
 } nord_sk5xxe_device;
@@ -102,7 +106,7 @@ static inline void nord_sk5xxe_process_data_group_decode(
     }
 }
 
-/* ---- Commands ---- */
+/* ---- Commands, for fieldscribe_modbus_send ---- */
 
 /* Make ready to switch on. */
 #define NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS 0x0C80U

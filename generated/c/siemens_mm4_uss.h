@@ -235,6 +235,7 @@ static const fieldscribe_uss_task siemens_mm4_uss_tasks[] = {
 /* How many words the parameter part may have. */
 static const uint8_t siemens_mm4_uss_pkw[] = {0U, 3U, 4U, 127U};
 
+/* For fieldscribe_uss_* functions. */
 static const fieldscribe_uss_profile siemens_mm4_uss_profile = {
     siemens_mm4_uss_tasks,
     sizeof siemens_mm4_uss_tasks / sizeof siemens_mm4_uss_tasks[0],
@@ -248,6 +249,8 @@ static const fieldscribe_uss_profile siemens_mm4_uss_profile = {
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+
+/* For fieldscribe_take_* and fieldscribe_put_*. */
 
 static const fieldscribe_layout siemens_mm4_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};

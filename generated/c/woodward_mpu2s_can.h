@@ -29,6 +29,7 @@ extern "C" {
 /* Bits per second. */
 #define WOODWARD_MPU2S_CAN_BITRATE 125000U
 
+/* For fieldscribe_can_* functions. */
 static const fieldscribe_can_profile woodward_mpu2s_can_profile = {
     0U, /* the first unit */
     30U, /* the last */
@@ -435,6 +436,8 @@ static const uint16_t woodward_mpu2s_parameters_operation_group[] = {
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+
+/* For fieldscribe_take_* and fieldscribe_put_*. */
 
 static const fieldscribe_layout woodward_mpu2s_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};

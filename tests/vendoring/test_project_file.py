@@ -82,6 +82,8 @@ def test_what_the_project_names_no_more_is_told(project: Path, capsys: pytest.Ca
     assert json.loads(capsys.readouterr().out)["not_in_project"] == ["d/other.h", "d/other_modbus.h"]
     for name in ("other.h", "other_modbus.h"):
         (project / "d" / name).unlink()
+    assert main(["vendor"]) == 0  # the runtime is smaller now
+    capsys.readouterr()
     assert main(["vendor", "--check"]) == 0
     assert "not in" not in capsys.readouterr().out
 

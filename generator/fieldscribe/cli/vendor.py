@@ -151,8 +151,8 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
             raise StopError(f"`{request.name}` {taken}")
     named = Namespace(device=device, descriptions=arguments.descriptions, format=arguments.format)
     opened = open_device(named, inputs)
-    select(opened, request.points)
-    for message in address_only_messages(opened, request.points):
+    select(opened, request.chosen)
+    for message in address_only_messages(opened, request.chosen):
         usage_error(message)
     return Order(opened, request, out)
 

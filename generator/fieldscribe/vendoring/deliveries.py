@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
 from fieldscribe.model import Device
-from fieldscribe.output.contents import contents_of
+from fieldscribe.output.contents import Contents, contents_of
 from fieldscribe.output.lock import only_run
-from fieldscribe.output.manifests import VENDORED, Manifests
+from fieldscribe.output.manifests import VENDORED, Manifests, manifest_text
 from fieldscribe.output.plan import Plan, TargetFiles, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import read_regular
@@ -84,7 +84,8 @@ def refuse_duplicates(orders: Iterable[Order]) -> None:
 
 def compare(order: Order) -> Delivery:
     """Return what differs, and write nothing. Raises UnclearError."""
-    manifests, made = Manifests(order.out, VENDORED), _files(order)
+    manifests = Manifests(order.out, VENDORED)
+    made = _files(order, manifests)
     plan, delivery = _planned(order, manifests, made, force=False)
     delivery.kept = sorted(plan.kept)
     for path in plan.stale:
@@ -98,11 +99,12 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
 
     Raises UnclearError, ModuleNotFoundError and OSError.
     """
-    made = _files(order)
     with only_run(order.out, lambda: waiting(order.out)):
         manifests = Manifests(order.out, VENDORED)
+        made = _files(order, manifests)
         plan, delivery = _planned(order, manifests, made, force=force)
         if not plan.refused:
+            plan.write |= _manifests_of_others(order, manifests, made[order.request.language])
             carry_out(order.out, manifests, plan)
             delivery.written, delivery.removed, delivery.kept = sorted(plan.write), plan.remove, plan.kept
     return delivery
@@ -123,8 +125,32 @@ def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Pat
     return sorted(paths)
 
 
-def _files(order: Order) -> TargetFiles:
-    return {order.request.language: {path: contents_of(data) for path, data in order.request.contents(order.device)}}
+def _files(order: Order, manifests: Manifests) -> TargetFiles:
+    contents = order.request.contents(order.device, dict(_others(order, manifests)))
+    return {order.request.language: {path: contents_of(data) for path, data in contents}}
+
+
+def _others(order: Order, manifests: Manifests) -> Iterator[tuple[str, str]]:
+    """Yield what other devices in the folder use of the runtime of C: their points, and path and text of headers."""
+    for name, requests in manifests.requests.items():
+        if name != order.name and "c" in requests and os.path.isfile(order.out / f"{name}.h"):
+            yield name, " ".join(requests["c"].get("points") or ["fieldscribe_*"])
+            for path in manifests.of(name).get("c", ()):
+                if path.endswith(".h") and os.path.isfile(order.out / path):
+                    yield path, read_regular(order.out / path, _MOST_BYTES).data.decode("utf-8", "replace")
+
+
+def _manifests_of_others(order: Order, manifests: Manifests, made: Mapping[str, Contents]) -> dict[str, Contents]:
+    """Return the manifests that record another checksum of a file that these devices share with the order."""
+    changed: dict[str, Contents] = {}
+    for name in manifests.requests.keys() - {order.name}:
+        targets, language = manifests.of(name), order.request.language
+        files = targets.get(language, {})
+        shared = {path: (made[path].digest,) for path in files.keys() & made.keys()}
+        if files != files | shared:
+            text = manifest_text(name, {**targets, language: files | shared}, manifests.further_keys(name))
+            changed[manifests.layout.manifest(name)] = contents_of(text.encode())
+    return changed
 
 
 def _planned(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> tuple[Plan, Delivery]:
@@ -141,6 +167,7 @@ def _list_of(order: Order, manifests: Manifests, delivery: Delivery, path: str) 
     place = order.out / path
     if not os.path.lexists(place):
         return delivery.missing
-    recorded = manifests.of(order.name).get(order.request.language, {}).get(path, ())
+    of_all = (manifests.of(name).get(order.request.language, {}) for name in manifests.requests)
+    recorded = [digest for files in of_all for digest in files.get(path, ())]  # another device may have written it
     digest = sha256(read_regular(place, _MOST_BYTES).data).hexdigest()
     return delivery.edited if recorded and digest not in recorded else delivery.stale

@@ -15,6 +15,7 @@ from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.heads import LEFT_OUT
+from fieldscribe.vendoring.pruning import RUNTIME_NAME, pruned
 from fieldscribe.vendoring.selection import select
 
 LANGUAGES = ("c", "python", "rust")
@@ -52,6 +53,11 @@ class CodeRequest:
     extra = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
     """The message and the hint if the library of an extra is missing."""
 
+    @property
+    def chosen(self) -> tuple[str, ...]:
+        """The points, without words that name parts of the runtime of C."""
+        return tuple(word for word in self.points if not RUNTIME_NAME.fullmatch(word)) or self.points
+
     def command(self, device: str) -> tuple[str, ...]:
         """Return the command that makes the files again, word by word."""
         words = ["fieldscribe", "vendor", self.language, device]
@@ -72,12 +78,12 @@ class CodeRequest:
         data |= {} if self.frames else {"frames": False}
         return data | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
 
-    def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
-        """Yield the files: path below the folder, and bytes.
+    def contents(self, device: Device, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
+        """Yield the files: path below the folder, and bytes; for `others` see `files_of`.
 
         Raises UnclearError, and ModuleNotFoundError for wheels without hatchling.
         """
-        texts = dict(files_of(device, self))
+        texts = dict(files_of(device, self, others))
         if self.wheel:
             yield from _wheels_of(texts)
             texts = {LICENCE: texts[LICENCE]}
@@ -102,7 +108,7 @@ class DocumentRequest:
         """Return what the manifest records of the request."""
         return {"device": device}
 
-    def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
+    def contents(self, device: Device, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
         """Yield the files: path below the folder, and bytes.
 
         Raises ModuleNotFoundError for a workbook without XlsxWriter.
@@ -116,15 +122,22 @@ class DocumentRequest:
             yield path, text.encode()
 
 
-def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
-    """Yield the files of a code request: path below the folder, and text. Raises UnclearError."""
-    reduced = select(device, request.points) if request.points else device
+def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {}) -> Iterator[tuple[str, str]]:
+    """Yield the files of a code request: path below the folder, and text. Raises UnclearError.
+
+    `others` are texts by path that share the folder, and the runtime of C.
+    """
+    reduced = select(device, request.chosen) if request.points else device
     named = replace(for_code(reduced), id=request.name or device.id, command=request.command(device.id))
     language = target(request.language)
     ways = {"tests": False} | ({} if request.frames else {"exchanges": False})
     copied = language.runtime(named, **ways)
     files = {path: (templates_dir() / source).read_text("utf-8") for path, source in copied}
-    files |= language.outputs(named, render, **ways)
+    outputs = dict(language.outputs(named, render, **ways))
+    if request.points and request.language == "c" and not request.single_file:  # of which a program may have several
+        beside = [text for path, text in others.items() if f"c/{path}" not in files]
+        files = pruned(files, [*outputs.values(), *beside], set(request.points) - set(request.chosen))
+    files |= outputs
     files = {path.removeprefix(f"{request.language}/"): text for path, text in files.items()}
     if request.single_file:
         from fieldscribe.targets.c.header import joined

@@ -1,0 +1,72 @@
+"""Leaves out of the runtime headers of C what no chosen point uses.
+
+A header is divided at its empty lines. A part that defines something is kept if the code of a kept part has one of its
+names as a word, or if a text that uses the runtime has, also in a comment below its head. `fieldscribe_modbus_*` there
+means all names that begin so.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from fnmatch import filter as matching
+from fnmatch import fnmatchcase
+
+from fieldscribe.user_errors import UnclearError
+
+RUNTIME_NAME = re.compile(r"fieldscribe_[a-z0-9_]*\*?|FIELDSCRIBE_[A-Z0-9_]*\*?")
+_HEAD = re.compile(r"\A\s*/\*.*?\*/", re.DOTALL)
+_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_DEFINED = re.compile(
+    r"(?m)^#define (\w+)|^\} (\w+);|^typedef [^{;]*?(\w+);|^typedef [^;]*?\(\*(\w+)\)"
+    r"|^(?:typedef )?(?:struct|enum) (\w+) \{|^    (FIELDSCRIBE_\w+)(?: = \w+)?,?\s*$"
+    r"|^(?!#|typedef)\w[^\n(=]*?\b(fieldscribe_\w+)[(\[]"
+)
+_NOTICE = """\
+/*
+ * Only what the chosen points use: the rest of this file is left out. To have more of it, add its names to --points
+ * (fieldscribe_* keeps everything), or leave out --points.
+ */
+"""
+
+
+def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) -> dict[str, str]:
+    """Return the runtime headers without what neither these texts nor these words use. Raises UnclearError."""
+    parts = {name: _HEAD.sub("", text).split("\n\n") for name, text in runtime.items()}
+    defined = {part: _names_of(part) for of_file in parts.values() for part in of_file}
+    known = frozenset[str]().union(*defined.values())
+    unknown = [word for word in sorted(words) if not matching(known, word)]
+    if unknown:
+        raise UnclearError(f"the runtime has no `{unknown[0]}`", "`fieldscribe_*` keeps all of it")
+    used = {word for text in users for word in RUNTIME_NAME.findall(_HEAD.sub("", text))} | words
+    used |= {name for word in used if "*" in word for name in known if fnmatchcase(name.lower(), word.lower())}
+    kept: set[str] = set()
+    size = -1
+    while len(kept) > size:
+        size = len(kept)
+        kept |= {part for part, names in defined.items() if not names or names & used}
+        used |= {word for part in kept for word in RUNTIME_NAME.findall(_COMMENT.sub("", part))}
+    return {name: _joined(runtime[name], parts[name], kept) for name in runtime}
+
+
+def _names_of(part: str) -> frozenset[str]:
+    """Return what a part defines; nothing if it opens or closes the conditions of others, and is always kept."""
+    text = _COMMENT.sub("", part)
+    if len(re.findall(r"(?m)^#if", text)) != len(re.findall(r"(?m)^#endif", text)):
+        return frozenset()
+    return frozenset(name for names in _DEFINED.findall(text) for name in names if name)
+
+
+def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
+    """Return the kept parts of a header below its head, and a notice unless these are all."""
+    texts = [part for part in parts if part in kept]
+    if len(texts) == len(parts):
+        return whole
+    for at in reversed(range(len(texts) - 1)):
+        if _is_comment(texts[at]) and (_is_comment(texts[at + 1]) or texts[at + 1].startswith("#endif")):
+            del texts[at]
+    return _NOTICE + whole[: len(whole) - len(_HEAD.sub("", whole))] + "\n\n".join(texts)
+
+
+def _is_comment(part: str) -> bool:
+    return not _COMMENT.sub("", part).strip()
