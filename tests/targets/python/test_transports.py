@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import os
 import socket
 import threading
 import tomllib
@@ -180,6 +181,17 @@ def test_a_port_that_is_none(l200: Any) -> None:
     for mode in ("8X1", "8n1", "9N1", "8N", (8, "N", 1)):
         assert error(transport("serial").SerialLine, "x", 9600, mode).status == "bad_mode"
     assert error(transport("tcp").TcpLine, "127.0.0.1", framing="ascii").status == "bad_framing"
+
+
+def test_an_adapter_that_is_pulled(l200: Any) -> None:
+    near, far = os.openpty()
+    line = transport("serial").SerialLine(os.ttyname(far), timeout=0.05)
+    drive = l200.HitachiL200(line, unit=1)
+    assert error(drive.base_frequency.read).status == "timeout"
+    os.close(far)
+    os.close(near)
+    assert error(drive.base_frequency.read).status == "line"
+    assert error(drive.base_frequency.read).status == "line", "nor can it be opened again"
 
 
 WRONG: tuple[tuple[str, str, tuple[Any, ...], dict[str, Any], str], ...] = (

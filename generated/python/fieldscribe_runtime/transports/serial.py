@@ -59,8 +59,11 @@ class _Port:
         self._serial: Any = serial.serial_for_url(url, **settings)
 
     def drop_old(self) -> None:
-        """Drop what has come already."""
-        self._serial.reset_input_buffer()
+        """Drop what has come already; raises OSError."""
+        try:
+            self._serial.reset_input_buffer()
+        except Exception as error:  # of an adapter that is gone, pyserial lets termios.error through: no OSError
+            raise OSError(*error.args) from error
 
     def send(self, request: bytes) -> None:
         """Send a frame; raises OSError."""
