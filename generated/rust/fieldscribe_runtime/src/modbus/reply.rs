@@ -24,7 +24,7 @@ pub struct Reply<'a, D = AnyDevice> {
     device: PhantomData<D>,
 }
 
-impl<'a, D> Reply<'a, D> {
+impl<D> Reply<'_, D> {
     /// How many items the reply brings; none for a write of several items.
     #[must_use]
     pub const fn count(&self) -> u16 {

@@ -55,15 +55,12 @@ type Frames = Option<Framing>;
 
 /// How many bytes a reply has and how many of them tell that; the length is none if they do not.
 fn length(frames: Frames, head: &[u8]) -> (Option<usize>, usize) {
-    match frames {
-        Some(framing) => {
-            let needed = if framing == Framing::Rtu { 3 } else { 6 };
-            (reply_length(framing, head), needed)
-        }
-        None => {
-            let length = head.get(1).map(|length| usize::from(*length) + 2);
-            (length, 2)
-        }
+    if let Some(framing) = frames {
+        let needed = if framing == Framing::Rtu { 3 } else { 6 };
+        (reply_length(framing, head), needed)
+    } else {
+        let length = head.get(1).map(|length| usize::from(*length) + 2);
+        (length, 2)
     }
 }
 
