@@ -122,7 +122,7 @@ impl Request<'_> {
         };
         let around = before + after;
         let head = bytes.get(before - 2..).unwrap_or_default();
-        let &[unit, function, first, ..] = head else {
+        let (&[unit, function, first, ..], true) = (head, bytes.len() > around) else {
             return Err(wrong_length(bytes.len(), around + 1));
         };
         self.check_frame(bytes, function, first)?;
