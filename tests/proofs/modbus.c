@@ -772,3 +772,51 @@ void prove_converted(fieldscribe_status status)
 {
     (void)fieldscribe_modbus_converted(status);
 }
+
+static fieldscribe_layout layout;
+static fieldscribe_modbus_row row;
+
+/* Any row for that unit: a number of up to 32 bits in one or two words, on a line with counts of up to 32 bits. */
+static void of_row(void)
+{
+    static const fieldscribe_modbus_profile other = {NULL, 0U, 0U, 0U, 0U, false, false, false};
+    on_line();
+    layout.shares = number % 2U != 0U;
+    layout.words = number % 2U != 0U ? 2U : 1U;
+    layout.order = layout.words == 1U ? 0x00U : number % 2U != 0U ? 0x01U : 0x10U;
+    layout.shift = (uint8_t)(layout.shift & 0xFU);
+    row.layout = &layout;
+    row.profile = number % 2U != 0U ? line.profile : &other;
+    row.read = number % 2U != 0U ? &reading : NULL;
+    row.write = number % 2U != 0U ? &writing : NULL;
+    row.factor = row.factor > 0 ? row.factor : 1;
+    row.divisor = row.divisor > 0 ? row.divisor : 1;
+    row.low = row.low >= INT32_MIN ? row.low : INT32_MIN;
+    row.high = row.high <= INT32_MAX ? row.high : INT32_MAX;
+}
+
+void prove_is_signed(void)
+{
+    (void)fieldscribe_modbus_is_signed(&layout);
+}
+
+void prove_read_row(void)
+{
+    int64_t got;
+    of_row();
+    (void)fieldscribe_modbus_read_row(&unit, &row, &got);
+}
+
+void prove_put_raw(int64_t raw)
+{
+    of_row();
+    (void)fieldscribe_modbus_put_raw(&layout, raw, EXACTLY(2U, items));
+}
+
+void prove_write_row(int64_t wanted)
+{
+    of_row();
+    row.read = &reading; /* a point that shares its word is readable */
+    writing.count = layout.words;
+    (void)fieldscribe_modbus_write_row(&unit, &row, wanted);
+}

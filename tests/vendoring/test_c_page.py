@@ -201,8 +201,8 @@ def script_of(steps: list[tuple[str, str]]) -> str:
     return f"static const step steps[] = {{{rows}}};\n"
 
 
-def run_here(page: Page, program: str, *, board: bool) -> None:
-    """Compiles a program and runs it with all sanitizers."""
+def run_here(page: Page, program: str, *, board: bool) -> str:
+    """Compiles a program, runs it with all sanitizers, and returns what it printed."""
     source = page.folder / "program.c"
     source.write_text(program, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, "-Wno-unused-function", "-Wno-float-equal", *SANITIZERS["gcc"])
@@ -212,10 +212,12 @@ def run_here(page: Page, program: str, *, board: bool) -> None:
         f"-I{BOARD}" if board else f"-I{page.folder / 'page'}",
     )
     assert not succeed([tool("gcc"), *flags, *folders, "-o", page.folder / "program", source])
-    succeed([page.folder / "program"])
+    return succeed([page.folder / "program"])
 
 
 BLOCK = crc("05 03 10 01 00 03")
+CURRENT = crc("05 03 10 02 00 01")
+BASE = crc("05 03 10 28 00 01")
 LIMIT = crc("05 06 10 59 01 F4")
 NO_LIMIT = crc("05 06 10 59 00 00")
 ENTER = crc("05 06 09 00 00 01")
@@ -231,6 +233,8 @@ int main(void)
     CHECK(!is_not_available_now());
     CHECK(monitor(&group) && group.output_frequency_count == 300 && group.motor_current_count == 512);
     CHECK(group.rotation_direction_raw == 1U && !monitor(&group));
+    poll();
+    CHECK(!set(0U, 1) && !set(2U, 4001) && set(2U, 500));
     CHECK(!limit(4001, 0U, 400U) && !limit(600, 0U, 50U) && !limit(20, 30U, 50U));
     CHECK(limit(500, 0U, 50U) && limit(0, 0U, 50U));
     CHECK(store());
@@ -253,10 +257,13 @@ def test_blocks_on_modbus(page: Page) -> None:
         *((WRITE, ""), (WRITE, "FF"), (WRITE, crc("05 86 22"))),
         (WRITE, crc("05 86 21")),
         *((BLOCK, crc("05 03 06 01 2C 02 00 00 01")), (BLOCK, crc("05 83 21"))),
+        *((READ, crc("05 03 02 01 2C")), (CURRENT, ""), (BASE, crc("05 03 02 01 F4")), (WRITE, WRITE)),
         *((LIMIT, LIMIT), (NO_LIMIT, NO_LIMIT), (ENTER, ENTER)),
         *[(READ, crc("05 03 02 01 01"))] * 2,
     ]
-    run_here(page, f'#include "host.h"\n{page.modbus}{script_of(steps)}{MODBUS}', board=True)
+    names = '#define FIELDSCRIBE_NAMES\n#include "host.h"\n'
+    printed = run_here(page, f"{names}{page.modbus}{script_of(steps)}{MODBUS}", board=True)
+    assert printed == "output_frequency: 30.0 Hz\nbase_frequency: 50.0 Hz\n"
 
 
 USS = """

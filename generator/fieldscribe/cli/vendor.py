@@ -57,6 +57,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     add("--single-file", action="store_true", help="c: all in one header")
     add("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
+    add("--rows", action="store_true", help="c: Modbus points as rows of tables, in a header of their own")
     add("--no-frames", action="store_true", help="c: points and constants, without the code that builds frames")
     add("--project", type=some_path, metavar="FILE", help="the project file (default: fieldscribe.toml)")
     add("--check", action="store_true", help="write nothing; say what is not as it should be")
@@ -120,7 +121,7 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
         return [_order(arguments, _request(arguments, inputs), arguments.device, arguments.out, inputs)]
     of_one = (arguments.out, arguments.points, arguments.name)
-    if any(option is not None for option in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
+    if any(option is not None for option in of_one) or _switches(arguments) != _UNSAID:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     try:
@@ -166,15 +167,23 @@ def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
     if language not in LANGUAGES:
         hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
         raise StopError(f"`{language}` is not a language for code", hint)
-    switches = {"frames": not arguments.no_frames, "single_file": arguments.single_file, "wheel": arguments.wheel}
+    switches = _switches(arguments)
     for switch, of_language in LANGUAGE_OF.items():
-        if switches[switch] is (switch != "frames") and language != of_language:
+        if switches[switch] != _UNSAID[switch] and language != of_language:
             option = "no-frames" if switch == "frames" else switch.replace("_", "-")
             raise StopError(f"--{option} is for {of_language}")
     points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
     return CodeRequest(language, points, arguments.name, **switches)
+
+
+def _switches(arguments: Namespace) -> dict[str, bool]:
+    named = {name: getattr(arguments, name) for name in ("rows", "single_file", "wheel")}
+    return {"frames": not arguments.no_frames, **named}
+
+
+_UNSAID = {"frames": True, "rows": False, "single_file": False, "wheel": False}
 
 
 def _points(text: str | None, inputs: Inputs) -> tuple[str, ...]:

@@ -15,13 +15,14 @@ from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.heads import LEFT_OUT
+from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.pruning import RUNTIME_NAME, pruned
 from fieldscribe.vendoring.selection import select
 
 LANGUAGES = ("c", "python", "rust")
 """The languages of code requests."""
 
-LANGUAGE_OF = {"frames": "c", "single_file": "c", "wheel": "python"}
+LANGUAGE_OF = {"frames": "c", "rows": "c", "single_file": "c", "wheel": "python"}
 """The switches of code requests, each with its language."""
 
 LICENCE = "LICENSE-fieldscribe.txt"
@@ -41,13 +42,15 @@ FORMATS = {
 class CodeRequest:
     """A request for code: its language, the chosen points (empty: all), and switches.
 
-    `name` is the device's name in code if it is not the id. `frames` and `single_file` are for C, `wheel` for Python.
+    `name` is the device's name in code if it is not the id. `frames`, `rows` and `single_file` are for C, `wheel` is
+    for Python.
     """
 
     language: str
     points: tuple[str, ...] = ()
     name: str | None = None
     frames: bool = True
+    rows: bool = False
     single_file: bool = False
     wheel: bool = False
     extra = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
@@ -69,6 +72,7 @@ class CodeRequest:
             words += ["--points", points if fits else LEFT_OUT]
         words += ["--single-file"] if self.single_file else []
         words += [] if self.frames else ["--no-frames"]
+        words += ["--rows"] if self.rows else []
         words += ["--wheel"] if self.wheel else []
         return tuple(words)
 
@@ -76,7 +80,7 @@ class CodeRequest:
         """Return what the manifest records of the request."""
         data: dict[str, object] = {"device": device, "points": list(self.points)}
         data |= {} if self.frames else {"frames": False}
-        return data | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
+        return data | {key: True for key in ("rows", "single_file", "wheel") if getattr(self, key)}
 
     def contents(self, device: Device, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
         """Yield the files: path below the folder, and bytes; for `others` see `files_of`.
@@ -133,7 +137,9 @@ def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {
     ways = {"tests": False} | ({} if request.frames else {"exchanges": False})
     copied = language.runtime(named, **ways)
     files = {path: (templates_dir() / source).read_text("utf-8") for path, source in copied}
-    outputs = dict(language.outputs(named, render, **ways))
+    outputs = dict(language.outputs(named, render, **ways, **({"rows": True} if request.rows else {})))
+    if request.rows and f"c/{named.id}_rows.h" not in outputs:
+        raise UnclearError(f"`{device.id}` has no rows", "only devices on Modbus have")
     if request.points and request.language == "c" and not request.single_file:  # of which a program may have several
         beside = [text for path, text in others.items() if f"c/{path}" not in files]
         files = pruned(files, [*outputs.values(), *beside], set(request.points) - set(request.chosen))

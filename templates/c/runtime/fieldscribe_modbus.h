@@ -352,6 +352,17 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_words(
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count);
 
+/*
+ * Reads the number of a row. BAD_FUNCTION says that nothing was sent, because the row is of another device than the
+ * unit, or cannot be read, or written; OUT_OF_RANGE that the number may not be written.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t *number);
+
+/* Writes the number of a row; a point that shares its word is read first. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_row(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t number);
+
 /* Start of a function that reads or writes a point. */
 #define FIELDSCRIBE_MODBUS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status
 
@@ -1180,6 +1191,69 @@ fieldscribe_modbus_status fieldscribe_modbus_write_word(
 {
     const fieldscribe_modbus_writing what = {function, address, 1U};
     return fieldscribe_modbus_write_words(unit, &what, &word, 1U);
+}
+
+/* True if raw numbers of the layout, which has up to 32 bits, have a sign. */
+static bool fieldscribe_modbus_is_signed(const fieldscribe_layout *layout)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_S8) || (layout->type == (uint8_t)FIELDSCRIBE_S16) ||
+        (layout->type == (uint8_t)FIELDSCRIBE_S32);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_read_row(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t *number)
+{
+    uint16_t words[2] = {0U, 0U};
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
+    if ((row->profile == unit->line->profile) && (row->read != NULL) && (row->layout->words <= 2U)) {
+        status = fieldscribe_modbus_read_words(unit, row->read, words, row->layout->words);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        const int64_t raw = fieldscribe_modbus_is_signed(row->layout)
+            ? (int64_t)fieldscribe_layout_signed_field(row->layout, words)
+            : (int64_t)fieldscribe_layout_field(row->layout, words);
+        *number = fieldscribe_divide((raw * row->divisor) - row->add, row->factor);
+    }
+    return status;
+}
+
+/* True if the raw number fits the layout: it is then in the words. */
+static bool fieldscribe_modbus_put_raw(const fieldscribe_layout *layout, int64_t raw, uint16_t *words)
+{
+    bool fits = false;
+    if (fieldscribe_modbus_is_signed(layout)) {
+        if ((raw >= INT32_MIN) && (raw <= INT32_MAX)) {
+            fits = fieldscribe_layout_put_signed(layout, (int32_t)raw, words);
+        }
+    } else if ((raw >= 0) && (raw <= (int64_t)UINT32_MAX)) {
+        fits = fieldscribe_layout_put(layout, (uint32_t)raw, words);
+    } else {
+        fits = false;
+    }
+    return fits;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_write_row(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t number)
+{
+    uint16_t words[2] = {0U, 0U};
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
+    if ((row->profile != unit->line->profile) || (row->write == NULL) || (row->layout->words > 2U)) {
+        status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
+    } else if ((number < row->low) || (number > row->high)) {
+        status = FIELDSCRIBE_MODBUS_OUT_OF_RANGE;
+    } else {
+        const int64_t raw = fieldscribe_divide((number * row->factor) + row->add, row->divisor);
+        if (row->layout->shares) {
+            status = fieldscribe_modbus_read_words(unit, row->read, words, row->layout->words);
+        }
+        if (status == FIELDSCRIBE_MODBUS_OK) {
+            status = fieldscribe_modbus_put_raw(row->layout, raw, words)
+                ? fieldscribe_modbus_write_words(unit, row->write, words, row->layout->words)
+                : FIELDSCRIBE_MODBUS_OUT_OF_RANGE;
+        }
+    }
+    return status;
 }
 
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,

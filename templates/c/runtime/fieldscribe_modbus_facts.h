@@ -87,6 +87,41 @@ typedef struct fieldscribe_modbus_text_rw {
     fieldscribe_modbus_writing write;
 } fieldscribe_modbus_text_rw;
 
+/*
+ * A point in a table of yours: static const fieldscribe_modbus_row rows[] = {HITACHI_L200_OUTPUT_FREQUENCY_ROW, ...};
+ * Its number is its count in 10^-decimals units, which is (raw * divisor - add) / factor; where that takes more
+ * than the raw number, `decimals` is FIELDSCRIBE_MODBUS_RAW, and the number is the raw one. Numbers from `low`
+ * to `high` may be written; `write` is NULL if nothing may be, or if special codes or other points decide what
+ * may: ..._write_POINT does. FIELDSCRIBE_NAMES, which a program defines in all its files or in none, adds the
+ * name and the unit.
+ */
+typedef struct fieldscribe_modbus_row {
+    const fieldscribe_modbus_profile *profile;
+    const fieldscribe_layout *layout;
+    const fieldscribe_modbus_reading *read;
+    const fieldscribe_modbus_writing *write;
+    int64_t low;
+    int64_t high;
+    int32_t factor;
+    int32_t add;
+    int32_t divisor;
+    int8_t decimals;
+#ifdef FIELDSCRIBE_NAMES
+    const char *name;
+    const char *unit;
+#endif
+} fieldscribe_modbus_row;
+
+#define FIELDSCRIBE_MODBUS_RAW (-1)
+
+#ifdef FIELDSCRIBE_NAMES
+#define FIELDSCRIBE_MODBUS_ROW(profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit) \
+    {profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit}
+#else
+#define FIELDSCRIBE_MODBUS_ROW(profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit) \
+    {profile, layout, read, write, low, high, factor, add, divisor, decimals}
+#endif
+
 /* A named constant that is written. */
 typedef struct fieldscribe_modbus_command {
     fieldscribe_modbus_writing write;

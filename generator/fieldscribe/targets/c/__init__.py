@@ -18,10 +18,13 @@ NEEDS_FAMILY = True
 BEFORE_POINTS = ("", "read", "write")
 
 
-def outputs(device: Device, render: Render, *, tests: bool = True, exchanges: bool = True) -> Iterable[tuple[str, str]]:
+def outputs(
+    device: Device, render: Render, *, tests: bool = True, exchanges: bool = True, rows: bool = False
+) -> Iterable[tuple[str, str]]:
     """Yield the headers of points and frames, and the conformance program: path below the output folder, and text.
 
     Without `exchanges` the header of frames has constants alone, or is left out where the family has no facts header.
+    With `rows` there is a header of macros that are rows of tables.
     """
     scope = scope_of(device)
     points = generated_points(device, scope)
@@ -32,6 +35,8 @@ def outputs(device: Device, render: Render, *, tests: bool = True, exchanges: bo
         return
     texts = {name: section.text(render, scope if exchanges else None) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
+    if rows and (macros := "".join(section.rows(scope) for section in sections.values())):
+        yield f"c/{device.id}_rows.h", framed(render, f"c/{device.family}_rows.h.j2", context, {"rows": macros})
     if tests:
         from fieldscribe.targets.c.conformance import adapters_text, suite_context
 

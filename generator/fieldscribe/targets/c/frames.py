@@ -14,7 +14,7 @@ from fieldscribe.targets.c.layout import WIDTH, folded
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.scope import HeaderScope
-from fieldscribe.targets.c.views import AliasView, PointView
+from fieldscribe.targets.c.views import AliasView, Define, PointView
 from fieldscribe.targets.c.word_functions import constant_bits
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
@@ -36,11 +36,15 @@ class Descriptor(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """The descriptors that read and write a point, the macros of the conformance program for them, and its calls."""
+    """The descriptors that read and write a point, the macros of the conformance program for them, and its calls.
+
+    `row` is the point as a row of a table, empty if it has none.
+    """
 
     descriptors: tuple[Descriptor, ...]
     cases: tuple[str, ...]
     transfer: Transfer = Transfer("")
+    row: str = ""
 
 
 class Frames:
@@ -64,11 +68,16 @@ class Frames:
         """Return the descriptors of all points, and with a scope the functions that read and write one."""
         return "".join(texts_of(self._points, lambda view: self._constants(view, render, scope)))
 
+    def rows(self, scope: HeaderScope) -> str:
+        """Return the macros of rows, those of old names with them."""
+        return "".join(texts_of(self._points, lambda view: folded(_macros(self._rows(view, scope)))))
+
     def names(self, scope: HeaderScope) -> Iterator[Named]:
         """Yield the identifiers of the descriptors and functions."""
         for point, view, _ in self._points:
             frame = self._made[view]
             names = [descriptor.name for descriptor in frame.descriptors]
+            names += [name for name, _ in self._rows(view, scope)]
             yield Owner("point", point.item), names + call_names(point.item, view, frame.transfer, scope)
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
@@ -83,11 +92,22 @@ class Frames:
                 for name, new in zip(*names, strict=True):
                     yield AliasView(old, item, point.item, name, new, "FUNCTION")
 
+    def _rows(self, view: PointView, scope: HeaderScope) -> list[Define]:
+        row = self._made[view].row
+        if not row:
+            return []
+        name = f"{view.macro}_ROW"
+        return [(name, row), *((f"{scope.upper}_{upper(item)}_ROW", name) for item in view.point.old_items)]
+
     def _constants(self, view: PointView, render: Render, scope: HeaderScope | None) -> str:
         frame = self._made[view]
         texts = [render("c/constant.h.j2", {"one": descriptor}) for descriptor in frame.descriptors]
         texts += [f"{function.text}\n" for function in calls(view, frame.transfer, scope)] if scope else []
         return folded("".join(texts))
+
+
+def _macros(defines: Iterable[Define]) -> str:
+    return "".join(f"#define {name} {literal}\n" for name, literal in defines)
 
 
 class FramesHeader(NamedTuple):

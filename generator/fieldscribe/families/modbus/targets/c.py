@@ -19,8 +19,10 @@ from fieldscribe.targets.c.frames import (
     lies,
 )
 from fieldscribe.targets.c.groups import Members, Part, StructView
+from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.rows import facts_of, has_row, is_written_by_row
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import Define, PointView
 from fieldscribe.targets.c.word_functions import places_of
@@ -75,7 +77,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
 
     def identifiers() -> Iterator[Named]:
         target = [f"{scope.prefix}_{name}" for name in ("modbus_functions", "modbus_profile", "device")]
-        yield Owner("target", "what the header of frames needs"), target
+        yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
         for view in blocks:
@@ -129,7 +131,17 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
     transfers = _transfer(name, read, address, point.words), _transfer(name, write, to, point.words)
-    return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers))
+    row = _row(view, parts[0], access, layouts.scope) if has_row(view) else ""
+    return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
+
+
+def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
+    """Return the row of a point; `update` stands where other rows have `write`."""
+    names = {"r": "read", "w": "write", "u": "update"}
+    ways = {way: f"&{view.function}_frame.{names[way]}" for way in access if way == "r" or is_written_by_row(view)}
+    read, write = ways.get("r", "NULL"), ways.get("w", ways.get("u", "NULL"))
+    facts = f"&{scope.prefix}_modbus_profile", layout, read, write, *facts_of(view, "FIELDSCRIBE_MODBUS_RAW")
+    return called("FIELDSCRIBE_MODBUS_ROW", *facts)
 
 
 def _transfer(name: str, function: int | None, address: str, words: int) -> str:
