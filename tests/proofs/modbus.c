@@ -459,7 +459,7 @@ void prove_parse_tcp(size_t length, size_t room)
 
 void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, size_t room)
 {
-    if (length <= FRAMES) {
+    if (length <= SHORT) {
         //@ split length;
         request.values = NULL; /* an answer is held against the request alone */
         of_any_kind();
@@ -730,7 +730,7 @@ static void on_line(void)
 
 void prove_call(size_t count)
 {
-    if (count <= ITEMS) {
+    if (count <= SHORT) {
         //@ split count;
         on_line();
         (void)fieldscribe_modbus_call(&unit, &request, EXACTLY(count, items), count);
@@ -739,7 +739,7 @@ void prove_call(size_t count)
 
 void prove_read_words(size_t count)
 {
-    if (count <= ITEMS) {
+    if (count <= SHORT) {
         //@ split count;
         on_line();
         (void)fieldscribe_modbus_read_words(&unit, &reading, EXACTLY(count, items), count);
