@@ -130,6 +130,171 @@ static const fieldscribe_can_telegram woodward_mpu2s_telegram_visualisation = {
     3U /* words in a frame */
 };
 
+/* ---- The numbers of each telegram; `_take` fills in those that a frame brings, and is false for other frames ---- */
+
+typedef struct woodward_mpu2s_visualisation_values {
+    uint16_t telegram_identification_raw;
+    int32_t generator_frequency_count; /* 0.01 Hz */
+    int16_t generator_active_power_raw; /* decodes to W */
+    int8_t generator_power_exponent_raw;
+    int8_t generator_voltage_exponent_raw;
+    int16_t present_active_power_setpoint_raw; /* decodes to W */
+    uint16_t active_power_setpoint_factor_raw;
+    uint16_t busbar_voltage_l1_l2_raw; /* decodes to V */
+    uint16_t mains_voltage_l1_l2_raw; /* decodes to V */
+    uint16_t present_fault_classes_raw;
+    uint16_t control_register_2_raw;
+    uint16_t control_register_1_raw;
+    uint16_t internal_faults_8_raw;
+    uint16_t internal_faults_6_raw;
+    uint16_t generator_voltage_l2_l3_raw; /* decodes to V */
+    uint16_t generator_voltage_l3_l1_raw; /* decodes to V */
+    uint16_t generator_voltage_l1_n_raw; /* decodes to V */
+    uint16_t generator_voltage_l2_n_raw; /* decodes to V */
+    uint16_t generator_voltage_l3_n_raw; /* decodes to V */
+    uint16_t generator_voltage_l1_l2_raw; /* decodes to V */
+    uint16_t generator_current_l1_raw; /* decodes to A */
+    uint16_t generator_current_l2_raw; /* decodes to A */
+    uint16_t generator_current_l3_raw; /* decodes to A */
+    int32_t generator_cos_phi_count; /* 0.01 */
+    uint16_t load_sharing_participants_raw;
+    uint8_t mains_state_raw;
+    uint8_t generator_state_raw;
+    int8_t generator_current_exponent_raw;
+    int32_t busbar_frequency_count; /* 0.01 Hz */
+    uint8_t busbar_state_raw;
+    uint16_t mains_voltage_l2_l3_raw; /* decodes to V */
+    uint16_t mains_voltage_l3_l1_raw; /* decodes to V */
+    uint16_t mains_voltage_l1_n_raw; /* decodes to V */
+    uint16_t mains_voltage_l2_n_raw; /* decodes to V */
+    uint16_t mains_voltage_l3_n_raw; /* decodes to V */
+    int32_t mains_frequency_count; /* 0.01 Hz */
+    int8_t mains_voltage_exponent_raw;
+    int8_t busbar_voltage_exponent_raw;
+    uint16_t hours_until_maintenance_raw; /* h */
+    uint16_t engine_start_counter_raw;
+    uint32_t generator_active_energy_raw; /* kWh */
+    int32_t battery_voltage_count; /* 0.1 V */
+    uint16_t internal_faults_1_raw;
+    uint16_t internal_faults_2_raw;
+    uint16_t internal_faults_3_raw;
+    uint16_t internal_faults_4_raw;
+    uint16_t internal_faults_5_raw;
+    uint16_t digital_input_faults_1_to_8_raw;
+    uint16_t digital_input_faults_9_to_16_raw;
+    uint16_t internal_faults_7_raw;
+} woodward_mpu2s_visualisation_values;
+
+static inline void woodward_mpu2s_visualisation_values_decode(
+    size_t part, const uint16_t *words, woodward_mpu2s_visualisation_values *group)
+{
+    switch (part) {
+    case 0U:
+        group->telegram_identification_raw = words[0];
+        group->generator_frequency_count = woodward_mpu2s_generator_frequency_decode_count(words[1]);
+        group->generator_active_power_raw = woodward_mpu2s_generator_active_power_from_words(&words[2]);
+        break;
+    case 1U:
+        group->generator_power_exponent_raw = woodward_mpu2s_generator_power_exponent_extract(words[0]);
+        group->generator_voltage_exponent_raw = woodward_mpu2s_generator_voltage_exponent_extract(words[0]);
+        group->present_active_power_setpoint_raw = woodward_mpu2s_present_active_power_setpoint_from_words(&words[1]);
+        group->active_power_setpoint_factor_raw = words[2];
+        break;
+    case 2U:
+        group->busbar_voltage_l1_l2_raw = words[0];
+        group->mains_voltage_l1_l2_raw = words[1];
+        group->present_fault_classes_raw = words[2];
+        break;
+    case 3U:
+        group->control_register_2_raw = words[0];
+        group->control_register_1_raw = words[2];
+        break;
+    case 4U:
+        group->internal_faults_8_raw = words[0];
+        group->internal_faults_6_raw = words[1];
+        group->generator_voltage_l2_l3_raw = words[2];
+        break;
+    case 5U:
+        group->generator_voltage_l3_l1_raw = words[0];
+        group->generator_voltage_l1_n_raw = words[1];
+        group->generator_voltage_l2_n_raw = words[2];
+        break;
+    case 6U:
+        group->generator_voltage_l3_n_raw = words[0];
+        group->generator_voltage_l1_l2_raw = words[1];
+        break;
+    case 7U:
+        group->generator_current_l1_raw = words[0];
+        group->generator_current_l2_raw = words[1];
+        group->generator_current_l3_raw = words[2];
+        break;
+    case 8U:
+        group->generator_cos_phi_count = woodward_mpu2s_generator_cos_phi_decode_count(
+        woodward_mpu2s_generator_cos_phi_from_words(&words[1]));
+        break;
+    case 9U:
+        group->load_sharing_participants_raw = words[1];
+        group->mains_state_raw = woodward_mpu2s_mains_state_extract(words[2]);
+        group->generator_state_raw = woodward_mpu2s_generator_state_extract(words[2]);
+        break;
+    case 10U:
+        group->generator_current_exponent_raw = woodward_mpu2s_generator_current_exponent_extract(words[0]);
+        group->busbar_frequency_count = woodward_mpu2s_busbar_frequency_decode_count(words[1]);
+        group->busbar_state_raw = woodward_mpu2s_busbar_state_extract(words[2]);
+        break;
+    case 11U:
+        group->mains_voltage_l2_l3_raw = words[0];
+        group->mains_voltage_l3_l1_raw = words[1];
+        group->mains_voltage_l1_n_raw = words[2];
+        break;
+    case 12U:
+        group->mains_voltage_l2_n_raw = words[0];
+        group->mains_voltage_l3_n_raw = words[1];
+        group->mains_frequency_count = woodward_mpu2s_mains_frequency_decode_count(words[2]);
+        break;
+    case 14U:
+        group->mains_voltage_exponent_raw = woodward_mpu2s_mains_voltage_exponent_extract(words[0]);
+        group->busbar_voltage_exponent_raw = woodward_mpu2s_busbar_voltage_exponent_extract(words[1]);
+        break;
+    case 15U:
+        group->hours_until_maintenance_raw = words[1];
+        group->engine_start_counter_raw = words[2];
+        break;
+    case 16U:
+        group->generator_active_energy_raw = woodward_mpu2s_generator_active_energy_from_words(&words[1]);
+        break;
+    case 17U:
+        group->battery_voltage_count = woodward_mpu2s_battery_voltage_decode_count(words[0]);
+        group->internal_faults_1_raw = words[1];
+        group->internal_faults_2_raw = words[2];
+        break;
+    case 18U:
+        group->internal_faults_3_raw = words[0];
+        group->internal_faults_4_raw = words[1];
+        group->internal_faults_5_raw = words[2];
+        break;
+    case 19U:
+        group->digital_input_faults_1_to_8_raw = words[0];
+        group->digital_input_faults_9_to_16_raw = words[1];
+        group->internal_faults_7_raw = words[2];
+        break;
+    default:
+        break; /* there is no such part */
+    }
+}
+
+static inline bool woodward_mpu2s_visualisation_values_take(
+    const fieldscribe_can_frame *frame, uint8_t unit, woodward_mpu2s_visualisation_values *group)
+{
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    size_t part = 0U;
+    const bool taken = fieldscribe_can_unpack(&woodward_mpu2s_telegram_visualisation, unit, frame, &part, words);
+    if (taken) {
+        woodward_mpu2s_visualisation_values_decode(part, words, group);
+    }
+    return taken;
+}
+
 /* ---- The parameters of each group, for reading it as a whole ---- */
 
 #define WOODWARD_MPU2S_PARAMETERS_ACCESS_GROUP_COUNT 1U

@@ -277,13 +277,6 @@ void prove_words(void)
     fieldscribe_can_words(&message, &frame, words);
 }
 
-void prove_around(uint8_t place)
-{
-    if (place < FIELDSCRIBE_CAN_WORDS) {
-        (void)fieldscribe_can_around(&slots[0], &slots[1], place);
-    }
-}
-
 /* Telegrams of any words in a frame, as long as a small machine has room for. */
 static void hear_long(void)
 {
@@ -296,6 +289,21 @@ static void hear_long(void)
     receiver.telegram = &telegram;
     receiver.slots = slots;
     receiver.slot_count = SLOTS;
+}
+
+void prove_unpack(uint8_t unit)
+{
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    size_t part = 0U;
+    hear_long();
+    (void)fieldscribe_can_unpack(&telegram, unit, &frame, &part, words);
+}
+
+void prove_around(uint8_t place)
+{
+    if (place < FIELDSCRIBE_CAN_WORDS) {
+        (void)fieldscribe_can_around(&slots[0], &slots[1], place);
+    }
 }
 
 void prove_listen__long(uint8_t unit)

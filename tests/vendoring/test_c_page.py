@@ -18,7 +18,7 @@ from support.c_device import SANITIZERS, WARNINGS
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
-PAGES = ("c", "c-points", "c-uss-can")
+PAGES = ("c", "c-points", "c-uss", "c-can")
 BOARD = ROOT / "tests/firmware"
 MANUAL = ROOT / "descriptions/hitachi_l200/bus.yaml"
 LINES = 35
@@ -350,6 +350,9 @@ bool can_receive(fieldscribe_can_frame *frame)
 int main(void)
 {
     const fieldscribe_can_frame first = {0x327U, 8U, {0xDDU, 0U, 0U, 1U, 0x13U, 0x88U, 0U, 0U}};
+    const fieldscribe_can_frame second = {0x327U, 8U, {0xDDU, 1U, 0U, 0xFFU, 0U, 0U, 0U, 0U}};
+    const fieldscribe_can_frame seventh = {0x327U, 8U, {0xDDU, 6U, 0U, 0U, 0x0FU, 0xA0U, 0U, 0U}};
+    int64_t count = 1;
     int64_t millivolts;
     int32_t hundredths = 0;
     words[507] = 20000U;
@@ -368,6 +371,10 @@ int main(void)
     CHECK(frequency(&hundredths) && hundredths == 5000);
     ++clock_now;
     CHECK(!frequency(&hundredths));
+    CHECK(voltage(&count) && count == 0);
+    can_interrupt(&second);
+    can_interrupt(&seventh);
+    CHECK(voltage(&count) && count == 4000000); /* 4000 * 10 ** -1 V */
     return 0;
 }
 """

@@ -267,6 +267,13 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_write(
 FIELDSCRIBE_CHECKED size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram);
 
 /*
+ * Takes the words out of a frame, if it is one of the telegram of that unit: `per_frame` of them, 0 behind them, and
+ * which part of the telegram they are. To a unit that the device cannot have nothing belongs.
+ */
+bool fieldscribe_can_unpack(const fieldscribe_can_telegram *telegram, uint8_t unit, const fieldscribe_can_frame *frame,
+    size_t *part, uint16_t words[FIELDSCRIBE_CAN_WORDS]);
+
+/*
  * A receiver for the telegram of one unit that has not heard anything yet; the slots stay with it. With fewer of them
  * (`count`) than the telegram has frames it never takes one.
  */
@@ -275,7 +282,6 @@ FIELDSCRIBE_CHECKED fieldscribe_can_receiver fieldscribe_can_listen(
 
 /*
  * Takes a frame that came at `time`, by a clock of yours (0 if you do not ask for ages), if it is one of the telegram.
- * To a unit that the device cannot have nothing belongs.
  */
 bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time);
 
@@ -599,19 +605,16 @@ static void fieldscribe_can_words(
     }
 }
 
-bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time)
+bool fieldscribe_can_unpack(const fieldscribe_can_telegram *telegram, uint8_t unit, const fieldscribe_can_frame *frame,
+    size_t *part, uint16_t words[FIELDSCRIBE_CAN_WORDS])
 {
-    const fieldscribe_can_message *const message = receiver->telegram->message;
-    const fieldscribe_can_profile *const profile = receiver->telegram->profile;
-    volatile uint32_t *const changes = &receiver->changes; /* volatile: written in this order */
-    volatile fieldscribe_can_slot *slot;
-    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    const fieldscribe_can_message *const message = telegram->message;
     uint8_t multiplexer = 0U;
     unsigned at;
-    if ((receiver->unit < profile->first_unit) || (receiver->unit > profile->last_unit)) {
+    if ((unit < telegram->profile->first_unit) || (unit > telegram->profile->last_unit)) {
         return false;
     }
-    if (fieldscribe_can_recognize(message, receiver->unit, frame) != FIELDSCRIBE_CAN_OK) {
+    if (fieldscribe_can_recognize(message, unit, frame) != FIELDSCRIBE_CAN_OK) {
         return false;
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
@@ -619,11 +622,26 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
             multiplexer = frame->data[at];
         }
     }
-    if (multiplexer >= receiver->slot_count) {
+    if (multiplexer >= fieldscribe_can_slots(telegram)) {
         return false;
     }
     fieldscribe_can_words(message, frame, words);
-    slot = &receiver->slots[multiplexer];
+    *part = multiplexer;
+    return true;
+}
+
+bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time)
+{
+    volatile uint32_t *const changes = &receiver->changes; /* volatile: written in this order */
+    volatile fieldscribe_can_slot *slot;
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    size_t part = 0U;
+    unsigned at;
+    if (!fieldscribe_can_unpack(receiver->telegram, receiver->unit, frame, &part, words) ||
+        (part >= receiver->slot_count)) {
+        return false;
+    }
+    slot = &receiver->slots[part];
     ++receiver->clock;
     *changes = (*changes + 1U) & 0x7FFFFFFFU;
     slot->before = slot->now;

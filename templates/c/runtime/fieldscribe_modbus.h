@@ -1159,7 +1159,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_call(
     fieldscribe_modbus_reply reply = {words, count, 0U, 0U};
     fieldscribe_modbus_status status;
     request->transaction = unit->transaction;
-    unit->transaction = (uint16_t)(unit->transaction + 1U);
+    unit->transaction = (uint16_t)((unit->transaction + 1U) & 0xFFFFU);
     status = unit->ask(unit->line, request, &reply);
     unit->exception = reply.exception;
     return status;

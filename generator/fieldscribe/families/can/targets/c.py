@@ -9,6 +9,7 @@ from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
+from fieldscribe.targets.c.groups import Members, Part, StructView
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
@@ -43,6 +44,7 @@ class TelegramView:
     slots: int
     message: str
     per_frame: int
+    values: StructView
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +64,9 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     exchanges = [request_and_answer(device.messages, writes=writes) for writes in (False, True)]
     # the arrays of the messages that read, answer that, write, answer that; empty for a missing one
     arrays = tuple(_array(message, scope) for exchange in exchanges for message in exchange)
+    members = Members(scope)
     telegrams = [
-        _telegram(telegram, carrying[telegram.name], scope)
+        _telegram(telegram, carrying[telegram.name], placed, members)
         for telegram in device.telegrams
         if telegram.name in carrying and carrying[telegram.name].words
     ]
@@ -107,7 +110,8 @@ def _identifiers(
     for message in device.messages:
         yield Owner("message", message.name), (_array(message, scope),)
     for telegram in telegrams:
-        yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name)
+        names = *telegram.values.names, f"{telegram.values.struct}_take"
+        yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name, *names)
     for group in groups:
         yield Owner("group", group.title), (group.array, group.count_name)
 
@@ -127,10 +131,25 @@ def _role_number(role: Role) -> str:
     return hexadecimal(role.number, 2) if role.kind in ("constant", "xor") else f"{role.number}U"
 
 
-def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> TelegramView:
+def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPoint], members: Members) -> TelegramView:
+    """Return the view of a telegram. A point whose words come in two frames is no member of its struct."""
+    scope, per_frame = members.scope, message.words
     macro, name = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}", f"{scope.prefix}_telegram_{telegram.name}"
     array, slots = _array(message, scope), frame_count(telegram, message)
-    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, message.words)
+
+    def parts() -> Iterator[Part]:
+        brought: dict[int, dict[str, str]] = {}
+        for each in placed:
+            if each.point.telegram == telegram.name and each.point.addresses:
+                first, last = min(each.point.addresses), max(each.point.addresses)
+                if first // per_frame == last // per_frame and last - first < each.point.words:
+                    declaration, fill = members.of(each, first % per_frame)
+                    brought.setdefault(first // per_frame, {})[declaration] = fill
+        for frame in sorted(brought):
+            yield Part(f"{frame}U", {member: fill for member, fill in brought[frame].items() if member})
+
+    values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
+    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values)
 
 
 def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
