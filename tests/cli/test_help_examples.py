@@ -69,6 +69,7 @@ CLAIMS = {
         ),
         'woodward_mpu2s "DD 00 05 15 13 88 00 64" --can-id 321': Claim(0, r"telegram_identification = 1301 "),
         "woodward_mpu2s --log candump.log": Claim(0, r"^\(1\.5\) can0 321#(.|\n)*^\(1\.6\) can0 321#"),
+        "hitachi_l200 --log gateway.log": Claim(0, r"^  Says +A020 base_frequency: "),
         "woodward_mpu2s - --format jsonl": Claim(0, r'^{"device": .*"time": "1\.5".*}\n{.*"time": "1\.6".*}\n$'),
         'siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 58"': Claim(
             0, rf"{MAXIMUM}: (.|\n)*STW control_word = raw 1151 = 047Fh(.|\n)*  Bit 0 +1  on\n(.|\n)*ok \(58\)"

@@ -56,6 +56,22 @@ def log(count: int, *, dumped: bool = False) -> str:
     return "".join(lines)
 
 
+def test_the_log_of_the_python_package(decode: Callable[..., Output]) -> None:
+    """As a program writes it, with any text before; failures are no frames, and what is cut off is an error."""
+    lines = (
+        "DEBUG:fieldscribe:unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)",
+        "2026-11-29 12:00:00,123 unit 1 <- 01 03 02 01 F4 B8 53 after 8.3 ms",
+        "WARNING:fieldscribe:unit 1: timeout: unit 1 did not reply to function 03h (A020 base_frequency)",
+        "unit 1: not sent: line: 192.168.0.20:502: refused (holding 0x0001)",
+    )
+    output = decode("-", given="\n".join(lines), device="hitachi_l200")
+    assert (output.code, output.err, output.out.count("Says")) == (0, "", 2)
+    assert "A020 base_frequency = 50 Hz" in output.out
+    can = "DEBUG:fieldscribe:unit 1 <- 321: DD 00 05 15 13 88 00 64 after 8.3 ms"
+    assert "telegram_identification = 1301" in decode("-", given=can).out
+    assert decode("-", given="unit 1 -> 01 03 10 2", device="hitachi_l200").code == 2
+
+
 @pytest.mark.parametrize(
     "form", ["text", *(pytest.param(form, marks=pytest.mark.full(seconds=1)) for form in ("json", "jsonl"))]
 )

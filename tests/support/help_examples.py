@@ -78,6 +78,7 @@ def workplace(folder: Path) -> Path:
     subprocess.run([*git, "commit", "-qam", "second"], cwd=folder, check=True)
     for name, text in {
         "candump.log": "(1.5) can0 321#DD010302000007D0\n(1.6) can0 321#DD00051513880064\n",
+        "gateway.log": "DEBUG:fieldscribe:unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)\n",
         "registers.csv": _REGISTERS,
         "list.csv": "1;x;Speed;y;z;0..400\nA001;x;1;y;z;0..400\n",
         "manual.txt": "\n" * 700 + _TEXT,

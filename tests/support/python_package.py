@@ -119,8 +119,8 @@ class Slave:
         function, address, third = pdu[0], int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
         count = third if function in (1, 3, 15, 16) else 1
         self.log.append((function, address, count))
-        if address in self.refuses:
-            return bytes([function | 0x80, self.refuses[address]])
+        if codes := [self.refuses[at] for at in range(address, address + count) if at in self.refuses]:
+            return bytes([function | 0x80, codes[0]])
         if function == 1:
             bits = sum(self.coils.get(address + place, 0) << place for place in range(count))
             size = (count + 7) // 8

@@ -434,6 +434,11 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
             ("c", "hitachi_l200", "--out", "x", "--points", "fieldscribe_*"),
             "no point, group or command `fieldscribe_*`",
         ),
+        (("python", "hitachi_l200", "jumo_controller", "--out", "x"), "call it once for each, or name them in"),
+        (
+            ("c", "hitachi_l200", "--out", "x", "--points", "A001", "A002"),
+            "commas between points, as in --points A001,",
+        ),
         (("c", "hitachi_l2000", "--out", "x"), "did you mean `hitachi_l200`"),
     ],
 )

@@ -108,13 +108,16 @@ class MissingRawError(CodecError):
 
 
 class AccessError(FieldscribeError):
-    """The device does not offer this: another variant, or a bit group that cannot be read back."""
+    """The device has the point or the group, but not this: it is only written, belongs to another device, ..."""
 
     status = "no_access"
 
 
 class AbsentError(AccessError, AttributeError):
-    """The variant of the device decides whether it has this point, and it has not, or nobody said which one it is."""
+    """The device has no such point, by attribute or by name: why, the message says.
+
+    The name is unknown, the point is documented only, or only another variant has it (or nobody said which one it is).
+    """
 
 
 class RequestError(FieldscribeError, ValueError):
@@ -125,6 +128,7 @@ class RequestError(FieldscribeError, ValueError):
         self.status = status
 
 
+_OF_GATEWAYS = frozenset({0x0A, 0x0B})
 _FINAL = frozenset({"exception", "refused", "no_rights", "echo_mismatch", "wrong_type"})
 
 
@@ -160,6 +164,11 @@ class EchoError(FrameError):
 
 class ExceptionReplyError(FrameError):
     """The device refused the request with an exception `code`; `name` is the manual's name for it, where known."""
+
+    @property
+    def lost(self) -> bool:
+        """Whether a gateway says that the unit is not there (codes 0Ah and 0Bh, unless the device names them)."""
+        return self.name is None and self.code in _OF_GATEWAYS
 
     def __init__(self, code: int, name: str | None = None) -> None:
         super().__init__("exception", f"the device answered exception {code:02X}h" + (f" ({name})" if name else ""))
@@ -197,7 +206,14 @@ def no_reply(what: str, error: TimeoutError) -> NoReplyError:
 
 
 class LineError(FieldscribeError, ConnectionError):
-    """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more."""
+    """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more.
+
+    `unsent` is true if the request was not sent.
+    """
 
     status = "line"
     lost = True
+
+    def __init__(self, message: str, *, unsent: bool = False) -> None:
+        super().__init__(message)
+        self.unsent = unsent

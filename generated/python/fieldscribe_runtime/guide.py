@@ -19,6 +19,11 @@ if TYPE_CHECKING:
     from .points import Point
     from .rules import Bound
 
+_KEPT = {
+    "no": "lost",
+    "yes": "kept; each write wears the memory",
+    "choice": "lost unless it is written with keep=True, which wears the EEPROM",
+}
 _LISTED = 12
 """So many names are listed."""
 
@@ -60,8 +65,10 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _values(point: Point, name: str) -> Iterator[tuple[str, str]]:
-    """Yield the lines on how its values are displayed, and on the factory setting."""
+    """Yield the lines on how its values are kept and displayed, and on the factory setting."""
     facts = point.facts
+    if facts.keeps:
+        yield "At power-off a written value is", _KEPT.get(facts.keeps, f"lost unless {facts.keeps}.send() follows")
     if facts.display is not None:
         yield "Shown", f"with {facts.display} decimal{'' if facts.display == 1 else 's'}, by {name}.text(value)"
     if facts.default is not None:

@@ -267,7 +267,7 @@ class Point(Guided):
         return self._form.same(raw, other)
 
     def text(self, value: Any, raws: Raws = NO_RAWS) -> str:
-        """Return a value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50.00 Hz`.
+        """Return a value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50 Hz`.
 
         It has as many decimals as the description says, rounded from what the device holds for the value; without that
         as many as it takes. `raws` holds the raw numbers that the scale needs of others. Raises as `encode` does, but
@@ -282,6 +282,15 @@ class Point(Guided):
         except CodecError as error:
             raise self._named(error) from None
         return self.told(self._within(raw, *self.wire.limits(self.width)), raws)
+
+    def raw_of(self, value: Any) -> int | None:
+        """Return the raw number of a value or special code; None if there is none, or other points decide."""
+        if isinstance(value, Special):
+            return value.raw
+        try:
+            return self._form.converted(value, NO_RAWS)
+        except CodecError:
+            return None
 
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
         """Return a raw number as `text` says its value; as `raw ...` where `raws` do not say what it means."""

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from .arguments import check_name, shown
 from .commands import Command
 from .descriptors import ByVariant, PointAttribute, Renamed
-from .errors import AbsentError, AccessError, RequestError
+from .errors import AbsentError, AccessError, FieldscribeError, RequestError
 from .lookup import find, is_code, nearest
 from .points import Decoding, Point
+from .special import Special
 
 if TYPE_CHECKING:
     from .facts import Documented
@@ -71,7 +72,7 @@ class PointTable:
                 return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
             documented = type(self).DOCUMENTED.get(name)
             message = f"{type(self).__name__!r} object has no attribute {name!r}"
-            raise AttributeError(
+            raise AbsentError(
                 message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
             )
 
@@ -98,9 +99,23 @@ class NamedPoints(PointTable):
     variants: Mapping[str, str | None]
 
     def rows(self, values: Mapping[str, object]) -> list[dict[str, Any]]:
-        """Return values by name, as `read_many` gives them, as rows for a data frame or `csv.DictWriter`."""
-        facts = [(self._resolved(name).facts, value) for name, value in values.items()]
-        return [{"name": one.name, "code": one.code, "value": value, "unit": one.unit} for one, value in facts]
+        """Return values by name, as `read_many` gives them, as rows for a data frame, `csv.DictWriter` or `json.dumps`.
+
+        `value` is None where there is none: `status` is "ok", "special" or that of an error, and `detail` the name of
+        the special code or the message of the error. `raw` is None, too, if the scale needs other points.
+        """
+        return [self._row(name, value) for name, value in values.items()]
+
+    def _row(self, name: str, value: object) -> dict[str, Any]:
+        row: dict[str, Any] = {"name": name, "code": None, "value": value, "unit": "", "raw": None, "status": "ok"}
+        row["detail"] = ""
+        if isinstance(value, (FieldscribeError, Special)):
+            status = "special" if isinstance(value, Special) else value.status
+            row.update(value=None, status=status, detail=str(value))
+        if not isinstance(value, AbsentError):
+            point = self._resolved(name)
+            row.update(name=point.facts.name, code=point.facts.code, unit=point.facts.unit, raw=point.raw_of(value))
+        return row
 
     def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
         """Return a point by name, old name or code, that of this device's variant; raises AccessError."""
@@ -118,7 +133,7 @@ class NamedPoints(PointTable):
             raise AccessError(f"{what} means several points: {', '.join(point.facts.item for point in points)}")
         if len(points) != 1:
             name = points[0].facts.name if points else name
-            raise AccessError(f"{name} {self._absence(name)}")
+            raise AbsentError(f"{name} {self._absence(name)}")
         return points[0]
 
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
@@ -153,7 +168,8 @@ class NamedPoints(PointTable):
         if name in self._groups():
             return f"is a group of this device: read_many({name!r}) reads it"
         near = nearest([*self.POINTS.values()], name)
-        return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
+        hint = f"; did you mean {' or '.join(near)}?" if near else ": its `POINTS` lists their names"
+        return f"is no point of this device{hint}"
 
     def _groups(self) -> list[str]:
         return list(dict.fromkeys([point.facts.group for point in self.POINTS.values() if point.facts.group]))
@@ -189,17 +205,28 @@ class NamedPoints(PointTable):
         known = not axis or self.variants.get(axis) is not None
         return known and not point.facts.uncertain and self._has(point)
 
-    def _listed(self, what: Iterable[str | Point]) -> list[Decoding[Any]]:
+    def _listed(
+        self, what: Iterable[str | Point], absent: dict[str, FieldscribeError] | None = None
+    ) -> list[Decoding[Any]]:
+        """Return the points that are meant; raises AccessError, or notes it by name where `absent` takes it."""
         if isinstance(what, (Point, bytes, bytearray)) or not isinstance(what, Iterable):
             raise AccessError(f"takes the name of a group, or a list of points and their names, not {shown(what)}")
         points: list[Decoding[Any]] = []
         for one in what:
-            point = self._own(one)
-            self._require(point)
-            if not isinstance(point, Decoding):
-                raise AccessError(f"{point.label} cannot be read")
-            points.append(point)
+            try:
+                points.append(self._readable_point(one))
+            except AccessError as error:
+                if absent is None or not isinstance(one, str):
+                    raise
+                absent[one] = error
         return points
+
+    def _readable_point(self, one: Any) -> Decoding[Any]:
+        point = self._own(one)
+        self._require(point)
+        if not isinstance(point, Decoding):
+            raise AccessError(f"{point.label} cannot be read")
+        return point
 
     def _own(self, one: Any) -> PointAttribute[Any, Any]:
         """Return the point that a caller means by a name, a code, or a point of this device."""

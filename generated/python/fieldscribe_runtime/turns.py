@@ -16,6 +16,13 @@ class Turns:
         self._loop: Any = None
         self._turn: Any = None
 
+    @staticmethod
+    def pause(seconds: float) -> Any:
+        """Return what is awaited for so long."""
+        import asyncio
+
+        return asyncio.sleep(seconds)
+
     def lock(self) -> Any:
         """Return the lock, in the next loop once the one before is done; raises AccessError where it is not."""
         import asyncio  # costs more than all of this package, so it is imported where it is needed

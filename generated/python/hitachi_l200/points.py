@@ -54,7 +54,7 @@ class Points(PointTable):
     - d007 scaled_output_frequency: 'holding', 0x1008, 0x1009
     """
 
-    PROFILE = Profile(
+    PROFILE: ClassVar = Profile(
         functions={0x01: 32, 0x03: 4, 0x05: 1, 0x06: 1, 0x08: 1, 0x0F: 32, 0x10: 4},
         units=(1, 32),
         broadcast=0,
@@ -846,8 +846,9 @@ class Points(PointTable):
         references={"modicon": 4116, "reference": 404116},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Acceleration time: 0.01..3000 s."""
+    """Acceleration time: 0.01..3000 s. `enter.send()` keeps it."""
 
     acceleration_time_set_2 = ReadWrite(
         Scaled(U32, Rule(num=100), decimals=2),
@@ -857,8 +858,9 @@ class Points(PointTable):
         references={"modicon": 5377, "reference": 405377},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Acceleration time set 2: 0.01..3000 s."""
+    """Acceleration time set 2: 0.01..3000 s. `enter.send()` keeps it."""
 
     deceleration_time = ReadWrite(
         Scaled(U32, Rule(num=100), decimals=2),
@@ -868,8 +870,9 @@ class Points(PointTable):
         references={"modicon": 4118, "reference": 404118},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Deceleration time: 0.01..3000 s."""
+    """Deceleration time: 0.01..3000 s. `enter.send()` keeps it."""
 
     deceleration_time_set_2 = ReadWrite(
         Scaled(U32, Rule(num=100), decimals=2),
@@ -879,8 +882,9 @@ class Points(PointTable):
         references={"modicon": 5379, "reference": 405379},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Deceleration time set 2: 0.01..3000 s."""
+    """Deceleration time set 2: 0.01..3000 s. `enter.send()` keeps it."""
 
     motor_direction = ReadWrite(
         Named(U16, enums.MotorDirection, closed=True),
@@ -888,8 +892,9 @@ class Points(PointTable):
         group="basic_f",
         code="F004",
         references={"modicon": 4120, "reference": 404120},
+        keeps="enter",
     )
-    """Motor direction.
+    """Motor direction. `enter.send()` keeps it.
 
     Errata: f004_wire_decimal.
     """
@@ -902,8 +907,9 @@ class Points(PointTable):
         group="standard_a",
         code="A001",
         references={"modicon": 4121, "reference": 404121},
+        keeps="enter",
     )
-    """Frequency source."""
+    """Frequency source. `enter.send()` keeps it."""
 
     frequency_source_set_2 = ReadWrite(
         Named(U16, enums.FrequencySource, closed=True),
@@ -911,8 +917,9 @@ class Points(PointTable):
         group="standard_a",
         code="A201",
         references={"modicon": 5386, "reference": 405386},
+        keeps="enter",
     )
-    """Frequency source set 2."""
+    """Frequency source set 2. `enter.send()` keeps it."""
 
     run_source = ReadWrite(
         Named(U16, enums.RunSource, closed=True),
@@ -920,8 +927,9 @@ class Points(PointTable):
         group="standard_a",
         code="A002",
         references={"modicon": 4122, "reference": 404122},
+        keeps="enter",
     )
-    """Run source.
+    """Run source. `enter.send()` keeps it.
 
     Errata: a002_wire_decimal.
     """
@@ -932,8 +940,9 @@ class Points(PointTable):
         group="standard_a",
         code="A202",
         references={"modicon": 5387, "reference": 405387},
+        keeps="enter",
     )
-    """Run source set 2."""
+    """Run source set 2. `enter.send()` keeps it."""
 
     motor_rated_frequency = ReadWrite(
         Integer(U16),
@@ -953,8 +962,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
-    """Motor rated frequency: 30..min(400, maximum_frequency) Hz."""
+    """Motor rated frequency: 30..min(400, maximum_frequency) Hz. `enter.send()`
+    keeps it.
+    """
 
     motor_rated_frequency_set_2 = ReadWrite(
         Integer(U16),
@@ -974,8 +986,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
-    """Motor rated frequency set 2: 30..min(400, maximum_frequency_set_2) Hz."""
+    """Motor rated frequency set 2: 30..min(400, maximum_frequency_set_2) Hz.
+    `enter.send()` keeps it.
+    """
 
     maximum_frequency = ReadWrite(
         Integer(U16),
@@ -995,8 +1010,10 @@ class Points(PointTable):
                 400,
             ),
         ),
+        keeps="enter",
     )
-    """Maximum frequency: max(30, motor_rated_frequency)..400 Hz.
+    """Maximum frequency: max(30, motor_rated_frequency)..400 Hz. `enter.send()`
+    keeps it.
 
     Errata: a004_range.
     """
@@ -1019,8 +1036,10 @@ class Points(PointTable):
                 400,
             ),
         ),
+        keeps="enter",
     )
     """Maximum frequency set 2: max(30, motor_rated_frequency_set_2)..400 Hz.
+    `enter.send()` keeps it.
 
     Errata: a204_range.
     """
@@ -1031,8 +1050,9 @@ class Points(PointTable):
         group="standard_a",
         code="A005",
         references={"modicon": 4125, "reference": 404125},
+        keeps="enter",
     )
-    """At terminal selection."""
+    """At terminal selection. `enter.send()` keeps it."""
 
     input_o_minimum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1042,8 +1062,9 @@ class Points(PointTable):
         references={"modicon": 4128, "reference": 404128},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Input o minimum frequency: 0..400 Hz."""
+    """Input o minimum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     input_o_maximum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1053,8 +1074,9 @@ class Points(PointTable):
         references={"modicon": 4130, "reference": 404130},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Input o maximum frequency: 0..400 Hz."""
+    """Input o maximum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     input_o_minimum_setpoint = ReadWrite(
         Integer(U16),
@@ -1064,8 +1086,9 @@ class Points(PointTable):
         references={"modicon": 4131, "reference": 404131},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Input o minimum setpoint: 0..100 %."""
+    """Input o minimum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     input_o_maximum_setpoint = ReadWrite(
         Integer(U16),
@@ -1075,8 +1098,9 @@ class Points(PointTable):
         references={"modicon": 4132, "reference": 404132},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Input o maximum setpoint: 0..100 %."""
+    """Input o maximum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     input_o_start_condition = ReadWrite(
         Named(U16, enums.InputOStartCondition, closed=True),
@@ -1084,8 +1108,9 @@ class Points(PointTable):
         group="standard_a",
         code="A015",
         references={"modicon": 4133, "reference": 404133},
+        keeps="enter",
     )
-    """Input o start condition."""
+    """Input o start condition. `enter.send()` keeps it."""
 
     analog_input_filter = ReadWrite(
         Named(U16, enums.AnalogInputFilter),
@@ -1094,8 +1119,9 @@ class Points(PointTable):
         code="A016",
         references={"modicon": 4134, "reference": 404134},
         allowed=((1, 17),),
+        keeps="enter",
     )
-    """Analog input filter."""
+    """Analog input filter. `enter.send()` keeps it."""
 
     base_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1105,8 +1131,9 @@ class Points(PointTable):
         references={"modicon": 4137, "reference": 404137},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Base frequency: 0..400 Hz."""
+    """Base frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     base_frequency_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1116,8 +1143,9 @@ class Points(PointTable):
         references={"modicon": 5391, "reference": 405391},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Base frequency set 2: 0..400 Hz."""
+    """Base frequency set 2: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_1 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1127,8 +1155,9 @@ class Points(PointTable):
         references={"modicon": 4139, "reference": 404139},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 1: 0..400 Hz."""
+    """Fixed frequency 1: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1138,8 +1167,9 @@ class Points(PointTable):
         references={"modicon": 4141, "reference": 404141},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 2: 0..400 Hz."""
+    """Fixed frequency 2: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_3 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1149,8 +1179,9 @@ class Points(PointTable):
         references={"modicon": 4143, "reference": 404143},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 3: 0..400 Hz."""
+    """Fixed frequency 3: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_4 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1160,8 +1191,9 @@ class Points(PointTable):
         references={"modicon": 4145, "reference": 404145},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 4: 0..400 Hz."""
+    """Fixed frequency 4: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_5 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1171,8 +1203,9 @@ class Points(PointTable):
         references={"modicon": 4147, "reference": 404147},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 5: 0..400 Hz."""
+    """Fixed frequency 5: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_6 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1182,8 +1215,9 @@ class Points(PointTable):
         references={"modicon": 4149, "reference": 404149},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 6: 0..400 Hz."""
+    """Fixed frequency 6: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_7 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1193,8 +1227,9 @@ class Points(PointTable):
         references={"modicon": 4151, "reference": 404151},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 7: 0..400 Hz."""
+    """Fixed frequency 7: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_8 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1204,8 +1239,9 @@ class Points(PointTable):
         references={"modicon": 4153, "reference": 404153},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 8: 0..400 Hz."""
+    """Fixed frequency 8: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_9 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1215,8 +1251,9 @@ class Points(PointTable):
         references={"modicon": 4155, "reference": 404155},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 9: 0..400 Hz."""
+    """Fixed frequency 9: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_10 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1226,8 +1263,9 @@ class Points(PointTable):
         references={"modicon": 4157, "reference": 404157},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 10: 0..400 Hz."""
+    """Fixed frequency 10: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_11 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1237,8 +1275,9 @@ class Points(PointTable):
         references={"modicon": 4159, "reference": 404159},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 11: 0..400 Hz."""
+    """Fixed frequency 11: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_12 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1248,8 +1287,9 @@ class Points(PointTable):
         references={"modicon": 4161, "reference": 404161},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 12: 0..400 Hz."""
+    """Fixed frequency 12: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_13 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1259,8 +1299,9 @@ class Points(PointTable):
         references={"modicon": 4163, "reference": 404163},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 13: 0..400 Hz."""
+    """Fixed frequency 13: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_14 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1270,8 +1311,9 @@ class Points(PointTable):
         references={"modicon": 4165, "reference": 404165},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 14: 0..400 Hz."""
+    """Fixed frequency 14: 0..400 Hz. `enter.send()` keeps it."""
 
     fixed_frequency_15 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1281,8 +1323,9 @@ class Points(PointTable):
         references={"modicon": 4167, "reference": 404167},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Fixed frequency 15: 0..400 Hz."""
+    """Fixed frequency 15: 0..400 Hz. `enter.send()` keeps it."""
 
     jog_frequency = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -1292,8 +1335,9 @@ class Points(PointTable):
         references={"modicon": 4168, "reference": 404168},
         unit="Hz",
         allowed=((0, 999),),
+        keeps="enter",
     )
-    """Jog frequency: 0..9.99 Hz."""
+    """Jog frequency: 0..9.99 Hz. `enter.send()` keeps it."""
 
     jog_stop_mode = ReadWrite(
         Named(U16, enums.JogStopMode, closed=True),
@@ -1301,8 +1345,9 @@ class Points(PointTable):
         group="standard_a",
         code="A039",
         references={"modicon": 4169, "reference": 404169},
+        keeps="enter",
     )
-    """Jog stop mode."""
+    """Jog stop mode. `enter.send()` keeps it."""
 
     boost_mode = ReadWrite(
         Named(U16, enums.BoostMode, closed=True),
@@ -1310,8 +1355,9 @@ class Points(PointTable):
         group="standard_a",
         code="A041",
         references={"modicon": 4170, "reference": 404170},
+        keeps="enter",
     )
-    """Boost mode."""
+    """Boost mode. `enter.send()` keeps it."""
 
     boost_mode_set_2 = ReadWrite(
         Named(U16, enums.BoostMode, closed=True),
@@ -1319,8 +1365,9 @@ class Points(PointTable):
         group="standard_a",
         code="A241",
         references={"modicon": 5392, "reference": 405392},
+        keeps="enter",
     )
-    """Boost mode set 2."""
+    """Boost mode set 2. `enter.send()` keeps it."""
 
     manual_boost = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1330,8 +1377,9 @@ class Points(PointTable):
         references={"modicon": 4171, "reference": 404171},
         unit="%",
         allowed=((0, 200),),
+        keeps="enter",
     )
-    """Manual boost: 0..20 %."""
+    """Manual boost: 0..20 %. `enter.send()` keeps it."""
 
     manual_boost_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1341,8 +1389,9 @@ class Points(PointTable):
         references={"modicon": 5393, "reference": 405393},
         unit="%",
         allowed=((0, 200),),
+        keeps="enter",
     )
-    """Manual boost set 2: 0..20 %."""
+    """Manual boost set 2: 0..20 %. `enter.send()` keeps it."""
 
     manual_boost_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1352,8 +1401,9 @@ class Points(PointTable):
         references={"modicon": 4172, "reference": 404172},
         unit="%",
         allowed=((0, 500),),
+        keeps="enter",
     )
-    """Manual boost frequency: 0..50 %."""
+    """Manual boost frequency: 0..50 %. `enter.send()` keeps it."""
 
     manual_boost_frequency_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1363,8 +1413,9 @@ class Points(PointTable):
         references={"modicon": 5394, "reference": 405394},
         unit="%",
         allowed=((0, 500),),
+        keeps="enter",
     )
-    """Manual boost frequency set 2: 0..50 %."""
+    """Manual boost frequency set 2: 0..50 %. `enter.send()` keeps it."""
 
     vf_characteristic = ReadWrite(
         Named(U16, enums.VfCharacteristic, closed=True),
@@ -1372,8 +1423,9 @@ class Points(PointTable):
         group="standard_a",
         code="A044",
         references={"modicon": 4173, "reference": 404173},
+        keeps="enter",
     )
-    """Vf characteristic."""
+    """Vf characteristic. `enter.send()` keeps it."""
 
     vf_characteristic_set_2 = ReadWrite(
         Named(U16, enums.VfCharacteristic, closed=True),
@@ -1381,8 +1433,9 @@ class Points(PointTable):
         group="standard_a",
         code="A244",
         references={"modicon": 5395, "reference": 405395},
+        keeps="enter",
     )
-    """Vf characteristic set 2."""
+    """Vf characteristic set 2. `enter.send()` keeps it."""
 
     output_voltage_setting = ReadWrite(
         Integer(U16),
@@ -1392,8 +1445,9 @@ class Points(PointTable):
         references={"modicon": 4174, "reference": 404174},
         unit="%",
         allowed=((20, 100),),
+        keeps="enter",
     )
-    """Output voltage setting: 20..100 %."""
+    """Output voltage setting: 20..100 %. `enter.send()` keeps it."""
 
     output_voltage_setting_set_2 = ReadWrite(
         Integer(U16),
@@ -1403,8 +1457,9 @@ class Points(PointTable):
         references={"modicon": 5396, "reference": 405396},
         unit="%",
         allowed=((20, 100),),
+        keeps="enter",
     )
-    """Output voltage setting set 2: 20..100 %."""
+    """Output voltage setting set 2: 20..100 %. `enter.send()` keeps it."""
 
     dc_brake_enable = ReadWrite(
         Named(U16, enums.InactiveActive, closed=True),
@@ -1412,8 +1467,9 @@ class Points(PointTable):
         group="standard_a",
         code="A051",
         references={"modicon": 4177, "reference": 404177},
+        keeps="enter",
     )
-    """Dc brake enable."""
+    """Dc brake enable. `enter.send()` keeps it."""
 
     dc_brake_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1433,8 +1489,9 @@ class Points(PointTable):
                 600,
             ),
         ),
+        keeps="enter",
     )
-    """Dc brake frequency: max(0.5, start_frequency)..60 Hz."""
+    """Dc brake frequency: max(0.5, start_frequency)..60 Hz. `enter.send()` keeps it."""
 
     dc_brake_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1444,8 +1501,9 @@ class Points(PointTable):
         references={"modicon": 4179, "reference": 404179},
         unit="s",
         allowed=((0, 50),),
+        keeps="enter",
     )
-    """Dc brake delay: 0..5 s."""
+    """Dc brake delay: 0..5 s. `enter.send()` keeps it."""
 
     dc_brake_torque = ReadWrite(
         Integer(U16),
@@ -1455,8 +1513,9 @@ class Points(PointTable):
         references={"modicon": 4180, "reference": 404180},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Dc brake torque: 0..100 %."""
+    """Dc brake torque: 0..100 %. `enter.send()` keeps it."""
 
     dc_brake_time = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1466,8 +1525,9 @@ class Points(PointTable):
         references={"modicon": 4181, "reference": 404181},
         unit="s",
         allowed=((0, 600),),
+        keeps="enter",
     )
-    """Dc brake time: 0..60 s."""
+    """Dc brake time: 0..60 s. `enter.send()` keeps it."""
 
     dc_brake_trigger = ReadWrite(
         Named(U16, enums.DcBrakeTrigger, closed=True),
@@ -1475,8 +1535,9 @@ class Points(PointTable):
         group="standard_a",
         code="A056",
         references={"modicon": 4182, "reference": 404182},
+        keeps="enter",
     )
-    """Dc brake trigger."""
+    """Dc brake trigger. `enter.send()` keeps it."""
 
     upper_frequency_limit = ReadWrite(
         WithWritableCodes(
@@ -1504,10 +1565,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
     """Upper frequency limit: lower_frequency_limit..min(400, maximum_frequency) Hz;
-    while lower_frequency_limit.raw is 0: from 0. Special code: 0 inactive (may be
-    written).
+    while lower_frequency_limit.raw is 0: from 0. `enter.send()` keeps it. Special
+    code: 0 inactive (may be written).
     """
 
     upper_frequency_limit_set_2 = ReadWrite(
@@ -1536,10 +1598,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
     """Upper frequency limit set 2: lower_frequency_limit_set_2..min(400,
     maximum_frequency_set_2) Hz; while lower_frequency_limit_set_2.raw is 0: from
-    0. Special code: 0 inactive (may be written).
+    0. `enter.send()` keeps it. Special code: 0 inactive (may be written).
     """
 
     lower_frequency_limit = ReadWrite(
@@ -1568,10 +1631,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
     """Lower frequency limit: max(0.5, start_frequency)..min(400,
     upper_frequency_limit) Hz; while upper_frequency_limit.raw is 0: to 400.
-    Special code: 0 inactive (may be written).
+    `enter.send()` keeps it. Special code: 0 inactive (may be written).
 
     The manual leaves open what limits it while the upper limit is inactive
     (a062_limit_when_a061_inactive).
@@ -1603,10 +1667,11 @@ class Points(PointTable):
                 ),
             ),
         ),
+        keeps="enter",
     )
     """Lower frequency limit set 2: max(0.5, start_frequency)..min(400,
     upper_frequency_limit_set_2) Hz; while upper_frequency_limit_set_2.raw is 0:
-    to 400. Special code: 0 inactive (may be written).
+    to 400. `enter.send()` keeps it. Special code: 0 inactive (may be written).
 
     The manual leaves open what limits it while the upper limit is inactive
     (a062_limit_when_a061_inactive).
@@ -1620,8 +1685,9 @@ class Points(PointTable):
         references={"modicon": 4189, "reference": 404189},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Jump frequency 1: 0..400 Hz."""
+    """Jump frequency 1: 0..400 Hz. `enter.send()` keeps it."""
 
     jump_frequency_1_width = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1631,8 +1697,9 @@ class Points(PointTable):
         references={"modicon": 4190, "reference": 404190},
         unit="Hz",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Jump frequency 1 width: 0..10 Hz."""
+    """Jump frequency 1 width: 0..10 Hz. `enter.send()` keeps it."""
 
     jump_frequency_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1642,8 +1709,9 @@ class Points(PointTable):
         references={"modicon": 4192, "reference": 404192},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Jump frequency 2: 0..400 Hz."""
+    """Jump frequency 2: 0..400 Hz. `enter.send()` keeps it."""
 
     jump_frequency_2_width = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1653,8 +1721,9 @@ class Points(PointTable):
         references={"modicon": 4193, "reference": 404193},
         unit="Hz",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Jump frequency 2 width: 0..10 Hz."""
+    """Jump frequency 2 width: 0..10 Hz. `enter.send()` keeps it."""
 
     jump_frequency_3 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1664,8 +1733,9 @@ class Points(PointTable):
         references={"modicon": 4195, "reference": 404195},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Jump frequency 3: 0..400 Hz."""
+    """Jump frequency 3: 0..400 Hz. `enter.send()` keeps it."""
 
     jump_frequency_3_width = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1675,8 +1745,9 @@ class Points(PointTable):
         references={"modicon": 4196, "reference": 404196},
         unit="Hz",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Jump frequency 3 width: 0..10 Hz."""
+    """Jump frequency 3 width: 0..10 Hz. `enter.send()` keeps it."""
 
     pid_enable = ReadWrite(
         Named(U16, enums.InactiveActive, closed=True),
@@ -1684,8 +1755,9 @@ class Points(PointTable):
         group="standard_a",
         code="A071",
         references={"modicon": 4200, "reference": 404200},
+        keeps="enter",
     )
-    """Pid enable."""
+    """Pid enable. `enter.send()` keeps it."""
 
     pid_proportional_gain = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1694,8 +1766,9 @@ class Points(PointTable):
         code="A072",
         references={"modicon": 4201, "reference": 404201},
         allowed=((2, 50),),
+        keeps="enter",
     )
-    """Pid proportional gain: 0.2..5."""
+    """Pid proportional gain: 0.2..5. `enter.send()` keeps it."""
 
     pid_integral_time = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1705,8 +1778,9 @@ class Points(PointTable):
         references={"modicon": 4202, "reference": 404202},
         unit="s",
         allowed=((0, 1500),),
+        keeps="enter",
     )
-    """Pid integral time: 0..150 s."""
+    """Pid integral time: 0..150 s. `enter.send()` keeps it."""
 
     pid_derivative_time = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1716,8 +1790,9 @@ class Points(PointTable):
         references={"modicon": 4203, "reference": 404203},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Pid derivative time: 0..100 s."""
+    """Pid derivative time: 0..100 s. `enter.send()` keeps it."""
 
     pid_display_factor = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -1726,8 +1801,9 @@ class Points(PointTable):
         code="A075",
         references={"modicon": 4204, "reference": 404204},
         allowed=((1, 9999),),
+        keeps="enter",
     )
-    """Pid display factor: 0.01..99.99."""
+    """Pid display factor: 0.01..99.99. `enter.send()` keeps it."""
 
     pid_process_value_source = ReadWrite(
         Named(U16, enums.PidProcessValueSource),
@@ -1736,8 +1812,9 @@ class Points(PointTable):
         code="A076",
         references={"modicon": 4205, "reference": 404205},
         allowed=((0, 3), (10, 10)),
+        keeps="enter",
     )
-    """Pid process value source.
+    """Pid process value source. `enter.send()` keeps it.
 
     The manual leaves open whether 3 and 10 may be written (a076_range).
     """
@@ -1748,8 +1825,9 @@ class Points(PointTable):
         group="standard_a",
         code="A077",
         references={"modicon": 4206, "reference": 404206},
+        keeps="enter",
     )
-    """Pid inversion."""
+    """Pid inversion. `enter.send()` keeps it."""
 
     pid_output_limit = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1759,8 +1837,9 @@ class Points(PointTable):
         references={"modicon": 4207, "reference": 404207},
         unit="%",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Pid output limit: 0..100 %."""
+    """Pid output limit: 0..100 %. `enter.send()` keeps it."""
 
     avr_mode = ReadWrite(
         Named(U16, enums.AvrMode, closed=True),
@@ -1768,8 +1847,9 @@ class Points(PointTable):
         group="standard_a",
         code="A081",
         references={"modicon": 4208, "reference": 404208},
+        keeps="enter",
     )
-    """Avr mode."""
+    """Avr mode. `enter.send()` keeps it."""
 
     motor_voltage = ReadWrite(
         Integer(U16),
@@ -1778,8 +1858,9 @@ class Points(PointTable):
         code="A082",
         references={"modicon": 4209, "reference": 404209},
         allowed=((0, 5),),
+        keeps="enter",
     )
-    """Motor voltage: 0..5.
+    """Motor voltage: 0..5. `enter.send()` keeps it.
 
     The manual leaves open which voltage a number stands for (a082_codes), whether
     5 may be written in a 200 V unit (a082_range_200v).
@@ -1793,8 +1874,9 @@ class Points(PointTable):
         references={"modicon": 4212, "reference": 404212},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Acceleration time 2: 0.01..3000 s.
+    """Acceleration time 2: 0.01..3000 s. `enter.send()` keeps it.
 
     Errata: a092_resolution.
     """
@@ -1807,8 +1889,9 @@ class Points(PointTable):
         references={"modicon": 4214, "reference": 404214},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Deceleration time 2: 0.01..3000 s.
+    """Deceleration time 2: 0.01..3000 s. `enter.send()` keeps it.
 
     Errata: a093_resolution.
     """
@@ -1821,8 +1904,9 @@ class Points(PointTable):
         references={"modicon": 5402, "reference": 405402},
         unit="s",
         allowed=((1, 300000),),
+        keeps="enter",
     )
-    """Deceleration time 2 set 2: 0.01..3000 s.
+    """Deceleration time 2 set 2: 0.01..3000 s. `enter.send()` keeps it.
 
     Errata: a293_resolution.
     """
@@ -1833,8 +1917,9 @@ class Points(PointTable):
         group="standard_a",
         code="A094",
         references={"modicon": 4216, "reference": 404216},
+        keeps="enter",
     )
-    """Ramp 2 selection."""
+    """Ramp 2 selection. `enter.send()` keeps it."""
 
     ramp_2_selection_set_2 = ReadWrite(
         Named(U16, enums.Ramp2Selection, closed=True),
@@ -1842,8 +1927,9 @@ class Points(PointTable):
         group="standard_a",
         code="A294",
         references={"modicon": 5404, "reference": 405404},
+        keeps="enter",
     )
-    """Ramp 2 selection set 2."""
+    """Ramp 2 selection set 2. `enter.send()` keeps it."""
 
     acceleration_change_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1853,8 +1939,9 @@ class Points(PointTable):
         references={"modicon": 4218, "reference": 404218},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Acceleration change frequency: 0..400 Hz."""
+    """Acceleration change frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     acceleration_change_frequency_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1864,8 +1951,9 @@ class Points(PointTable):
         references={"modicon": 5406, "reference": 405406},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Acceleration change frequency set 2: 0..400 Hz."""
+    """Acceleration change frequency set 2: 0..400 Hz. `enter.send()` keeps it."""
 
     deceleration_change_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1875,8 +1963,9 @@ class Points(PointTable):
         references={"modicon": 4220, "reference": 404220},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Deceleration change frequency: 0..400 Hz."""
+    """Deceleration change frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     deceleration_change_frequency_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1886,8 +1975,9 @@ class Points(PointTable):
         references={"modicon": 5408, "reference": 405408},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Deceleration change frequency set 2: 0..400 Hz."""
+    """Deceleration change frequency set 2: 0..400 Hz. `enter.send()` keeps it."""
 
     acceleration_curve = ReadWrite(
         Named(U16, enums.RampCurve, closed=True),
@@ -1895,8 +1985,9 @@ class Points(PointTable):
         group="standard_a",
         code="A097",
         references={"modicon": 4221, "reference": 404221},
+        keeps="enter",
     )
-    """Acceleration curve."""
+    """Acceleration curve. `enter.send()` keeps it."""
 
     deceleration_curve = ReadWrite(
         Named(U16, enums.RampCurve, closed=True),
@@ -1904,8 +1995,9 @@ class Points(PointTable):
         group="standard_a",
         code="A098",
         references={"modicon": 4222, "reference": 404222},
+        keeps="enter",
     )
-    """Deceleration curve."""
+    """Deceleration curve. `enter.send()` keeps it."""
 
     input_oi_minimum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1915,8 +2007,9 @@ class Points(PointTable):
         references={"modicon": 4224, "reference": 404224},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Input oi minimum frequency: 0..400 Hz."""
+    """Input oi minimum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     input_oi_maximum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1926,8 +2019,9 @@ class Points(PointTable):
         references={"modicon": 4226, "reference": 404226},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Input oi maximum frequency: 0..400 Hz."""
+    """Input oi maximum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     input_oi_minimum_setpoint = ReadWrite(
         Integer(U16),
@@ -1937,8 +2031,9 @@ class Points(PointTable):
         references={"modicon": 4227, "reference": 404227},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Input oi minimum setpoint: 0..100 %."""
+    """Input oi minimum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     input_oi_maximum_setpoint = ReadWrite(
         Integer(U16),
@@ -1948,8 +2043,9 @@ class Points(PointTable):
         references={"modicon": 4228, "reference": 404228},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Input oi maximum setpoint: 0..100 %."""
+    """Input oi maximum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     input_oi_start_condition = ReadWrite(
         Named(U16, enums.InputOiStartCondition, closed=True),
@@ -1957,8 +2053,9 @@ class Points(PointTable):
         group="standard_a",
         code="A105",
         references={"modicon": 4229, "reference": 404229},
+        keeps="enter",
     )
-    """Input oi start condition."""
+    """Input oi start condition. `enter.send()` keeps it."""
 
     calculation_input_a = ReadWrite(
         Named(U16, enums.CalculationInput, closed=True),
@@ -1966,8 +2063,9 @@ class Points(PointTable):
         group="standard_a",
         code="A141",
         references={"modicon": 4238, "reference": 404238},
+        keeps="enter",
     )
-    """Calculation input a.
+    """Calculation input a. `enter.send()` keeps it.
 
     The manual leaves open which register the network variable is
     (a141_network_variable).
@@ -1979,8 +2077,9 @@ class Points(PointTable):
         group="standard_a",
         code="A142",
         references={"modicon": 4239, "reference": 404239},
+        keeps="enter",
     )
-    """Calculation input b.
+    """Calculation input b. `enter.send()` keeps it.
 
     The manual leaves open which register the network variable is
     (a141_network_variable).
@@ -1992,8 +2091,9 @@ class Points(PointTable):
         group="standard_a",
         code="A143",
         references={"modicon": 4240, "reference": 404240},
+        keeps="enter",
     )
-    """Calculation operator.
+    """Calculation operator. `enter.send()` keeps it.
 
     Errata: a143_wire_hex.
     """
@@ -2006,8 +2106,9 @@ class Points(PointTable):
         references={"modicon": 4241, "reference": 404241},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Frequency offset: 0..400 Hz."""
+    """Frequency offset: 0..400 Hz. `enter.send()` keeps it."""
 
     frequency_offset_sign = ReadWrite(
         Named(U16, enums.FrequencyOffsetSign, closed=True),
@@ -2015,8 +2116,9 @@ class Points(PointTable):
         group="standard_a",
         code="A146",
         references={"modicon": 4243, "reference": 404243},
+        keeps="enter",
     )
-    """Frequency offset sign."""
+    """Frequency offset sign. `enter.send()` keeps it."""
 
     potentiometer_minimum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2026,8 +2128,9 @@ class Points(PointTable):
         references={"modicon": 4245, "reference": 404245},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Potentiometer minimum frequency: 0..400 Hz."""
+    """Potentiometer minimum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     potentiometer_maximum_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2037,8 +2140,9 @@ class Points(PointTable):
         references={"modicon": 4247, "reference": 404247},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Potentiometer maximum frequency: 0..400 Hz."""
+    """Potentiometer maximum frequency: 0..400 Hz. `enter.send()` keeps it."""
 
     potentiometer_minimum_setpoint = ReadWrite(
         Integer(U16),
@@ -2048,8 +2152,9 @@ class Points(PointTable):
         references={"modicon": 4248, "reference": 404248},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Potentiometer minimum setpoint: 0..100 %."""
+    """Potentiometer minimum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     potentiometer_maximum_setpoint = ReadWrite(
         Integer(U16),
@@ -2059,8 +2164,9 @@ class Points(PointTable):
         references={"modicon": 4249, "reference": 404249},
         unit="%",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Potentiometer maximum setpoint: 0..100 %."""
+    """Potentiometer maximum setpoint: 0..100 %. `enter.send()` keeps it."""
 
     potentiometer_start_condition = ReadWrite(
         Named(U16, enums.PotentiometerStartCondition, closed=True),
@@ -2068,8 +2174,9 @@ class Points(PointTable):
         group="standard_a",
         code="A155",
         references={"modicon": 4250, "reference": 404250},
+        keeps="enter",
     )
-    """Potentiometer start condition."""
+    """Potentiometer start condition. `enter.send()` keeps it."""
 
     # fine_tuning_b: Fine tuning b
 
@@ -2079,8 +2186,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b001",
         references={"modicon": 4261, "reference": 404261},
+        keeps="enter",
     )
-    """Restart mode."""
+    """Restart mode. `enter.send()` keeps it."""
 
     allowed_power_failure_time = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2090,8 +2198,9 @@ class Points(PointTable):
         references={"modicon": 4262, "reference": 404262},
         unit="s",
         allowed=((3, 250),),
+        keeps="enter",
     )
-    """Allowed power failure time: 0.3..25 s."""
+    """Allowed power failure time: 0.3..25 s. `enter.send()` keeps it."""
 
     restart_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2101,8 +2210,9 @@ class Points(PointTable):
         references={"modicon": 4263, "reference": 404263},
         unit="s",
         allowed=((3, 1000),),
+        keeps="enter",
     )
-    """Restart delay: 0.3..100 s."""
+    """Restart delay: 0.3..100 s. `enter.send()` keeps it."""
 
     power_failure_trip_at_standstill = ReadWrite(
         Named(U16, enums.PowerFailureTripAtStandstill, closed=True),
@@ -2110,8 +2220,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b004",
         references={"modicon": 4264, "reference": 404264},
+        keeps="enter",
     )
-    """Power failure trip at standstill."""
+    """Power failure trip at standstill. `enter.send()` keeps it."""
 
     power_failure_restarts = ReadWrite(
         Named(U16, enums.PowerFailureRestarts, closed=True),
@@ -2119,8 +2230,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b005",
         references={"modicon": 4265, "reference": 404265},
+        keeps="enter",
     )
-    """Power failure restarts."""
+    """Power failure restarts. `enter.send()` keeps it."""
 
     motor_protection_level = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -2130,8 +2242,9 @@ class Points(PointTable):
         references={"modicon": 4269, "reference": 404269},
         unit="%",
         allowed=((2000, 12000),),
+        keeps="enter",
     )
-    """Motor protection level: 20..120 %."""
+    """Motor protection level: 20..120 %. `enter.send()` keeps it."""
 
     motor_protection_level_set_2 = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -2141,8 +2254,9 @@ class Points(PointTable):
         references={"modicon": 5414, "reference": 405414},
         unit="%",
         allowed=((2000, 12000),),
+        keeps="enter",
     )
-    """Motor protection level set 2: 20..120 %."""
+    """Motor protection level set 2: 20..120 %. `enter.send()` keeps it."""
 
     motor_protection_characteristic = ReadWrite(
         Named(U16, enums.MotorProtectionCharacteristic, closed=True),
@@ -2150,8 +2264,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b013",
         references={"modicon": 4270, "reference": 404270},
+        keeps="enter",
     )
-    """Motor protection characteristic.
+    """Motor protection characteristic. `enter.send()` keeps it.
 
     Errata: b013_choices.
     """
@@ -2162,8 +2277,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b213",
         references={"modicon": 5415, "reference": 405415},
+        keeps="enter",
     )
-    """Motor protection characteristic set 2.
+    """Motor protection characteristic set 2. `enter.send()` keeps it.
 
     Errata: b013_choices.
     """
@@ -2174,8 +2290,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b021",
         references={"modicon": 4277, "reference": 404277},
+        keeps="enter",
     )
-    """Current limit mode."""
+    """Current limit mode. `enter.send()` keeps it."""
 
     current_limit_mode_set_2 = ReadWrite(
         Named(U16, enums.CurrentLimitMode, closed=True),
@@ -2183,8 +2300,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b221",
         references={"modicon": 5416, "reference": 405416},
+        keeps="enter",
     )
-    """Current limit mode set 2."""
+    """Current limit mode set 2. `enter.send()` keeps it."""
 
     current_limit_level = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -2194,8 +2312,9 @@ class Points(PointTable):
         references={"modicon": 4278, "reference": 404278},
         unit="%",
         allowed=((1000, 15000),),
+        keeps="enter",
     )
-    """Current limit level: 10..150 %."""
+    """Current limit level: 10..150 %. `enter.send()` keeps it."""
 
     current_limit_level_set_2 = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -2205,8 +2324,9 @@ class Points(PointTable):
         references={"modicon": 5417, "reference": 405417},
         unit="%",
         allowed=((1000, 15000),),
+        keeps="enter",
     )
-    """Current limit level set 2: 10..150 %."""
+    """Current limit level set 2: 10..150 %. `enter.send()` keeps it."""
 
     current_limit_time = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2216,8 +2336,9 @@ class Points(PointTable):
         references={"modicon": 4279, "reference": 404279},
         unit="s",
         allowed=((1, 300),),
+        keeps="enter",
     )
-    """Current limit time: 0.1..30 s."""
+    """Current limit time: 0.1..30 s. `enter.send()` keeps it."""
 
     current_limit_time_set_2 = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2227,8 +2348,9 @@ class Points(PointTable):
         references={"modicon": 5418, "reference": 405418},
         unit="s",
         allowed=((1, 300),),
+        keeps="enter",
     )
-    """Current limit time set 2: 0.1..30 s."""
+    """Current limit time set 2: 0.1..30 s. `enter.send()` keeps it."""
 
     current_limit_source = ReadWrite(
         Named(U16, enums.CurrentLimitSource, closed=True),
@@ -2236,8 +2358,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b028",
         references={"modicon": 4283, "reference": 404283},
+        keeps="enter",
     )
-    """Current limit source."""
+    """Current limit source. `enter.send()` keeps it."""
 
     current_limit_source_set_2 = ReadWrite(
         Named(U16, enums.CurrentLimitSource, closed=True),
@@ -2245,8 +2368,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b228",
         references={"modicon": 5419, "reference": 405419},
+        keeps="enter",
     )
-    """Current limit source set 2."""
+    """Current limit source set 2. `enter.send()` keeps it."""
 
     parameter_lock = ReadWrite(
         Named(U16, enums.ParameterLock, closed=True),
@@ -2254,8 +2378,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b031",
         references={"modicon": 4284, "reference": 404284},
+        keeps="enter",
     )
-    """Parameter lock."""
+    """Parameter lock. `enter.send()` keeps it."""
 
     analog_output_gain = ReadWrite(
         Integer(U16),
@@ -2264,8 +2389,9 @@ class Points(PointTable):
         code="b080",
         references={"modicon": 4303, "reference": 404303},
         allowed=((0, 255),),
+        keeps="enter",
     )
-    """Analog output gain: 0..255."""
+    """Analog output gain: 0..255. `enter.send()` keeps it."""
 
     start_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2275,8 +2401,9 @@ class Points(PointTable):
         references={"modicon": 4305, "reference": 404305},
         unit="Hz",
         allowed=((5, 99),),
+        keeps="enter",
     )
-    """Start frequency: 0.5..9.9 Hz."""
+    """Start frequency: 0.5..9.9 Hz. `enter.send()` keeps it."""
 
     carrier_frequency = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2286,8 +2413,9 @@ class Points(PointTable):
         references={"modicon": 4306, "reference": 404306},
         unit="kHz",
         allowed=((20, 140),),
+        keeps="enter",
     )
-    """Carrier frequency: 2..14 kHz.
+    """Carrier frequency: 2..14 kHz. `enter.send()` keeps it.
 
     Errata: b083_unit.
     """
@@ -2298,8 +2426,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b084",
         references={"modicon": 4307, "reference": 404307},
+        keeps="enter",
     )
-    """Initialization mode."""
+    """Initialization mode. `enter.send()` keeps it."""
 
     frequency_display_factor = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2308,8 +2437,9 @@ class Points(PointTable):
         code="b086",
         references={"modicon": 4309, "reference": 404309},
         allowed=((1, 999),),
+        keeps="enter",
     )
-    """Frequency display factor: 0.1..99.9."""
+    """Frequency display factor: 0.1..99.9. `enter.send()` keeps it."""
 
     stop_key_lock = ReadWrite(
         Named(U16, enums.StopKeyLock, closed=True),
@@ -2317,8 +2447,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b087",
         references={"modicon": 4310, "reference": 404310},
+        keeps="enter",
     )
-    """Stop key lock."""
+    """Stop key lock. `enter.send()` keeps it."""
 
     coast_restart_mode = ReadWrite(
         Named(U16, enums.CoastRestartMode, closed=True),
@@ -2326,8 +2457,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b088",
         references={"modicon": 4311, "reference": 404311},
+        keeps="enter",
     )
-    """Coast restart mode."""
+    """Coast restart mode. `enter.send()` keeps it."""
 
     network_display = ReadWrite(
         Named(U16, enums.NetworkDisplay, closed=True),
@@ -2335,8 +2467,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b089",
         references={"modicon": 4312, "reference": 404312},
+        keeps="enter",
     )
-    """Network display."""
+    """Network display. `enter.send()` keeps it."""
 
     stop_mode = ReadWrite(
         Named(U16, enums.StopMode, closed=True),
@@ -2344,8 +2477,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b091",
         references={"modicon": 4314, "reference": 404314},
+        keeps="enter",
     )
-    """Stop mode."""
+    """Stop mode. `enter.send()` keeps it."""
 
     overvoltage_deceleration_enable = ReadWrite(
         Named(U16, enums.InactiveActive, closed=True),
@@ -2353,8 +2487,9 @@ class Points(PointTable):
         group="fine_tuning_b",
         code="b130",
         references={"modicon": 4341, "reference": 404341},
+        keeps="enter",
     )
-    """Overvoltage deceleration enable."""
+    """Overvoltage deceleration enable. `enter.send()` keeps it."""
 
     overvoltage_deceleration_level_200v = ReadWrite(
         Integer(U16),
@@ -2364,10 +2499,11 @@ class Points(PointTable):
         references={"modicon": 4342, "reference": 404342},
         unit="V",
         allowed=((330, 390),),
+        keeps="enter",
         variant=("voltage_class", "200V"),
         name="overvoltage_deceleration_level",
     )
-    """Overvoltage deceleration level 200v: 330..390 V."""
+    """Overvoltage deceleration level 200v: 330..390 V. `enter.send()` keeps it."""
 
     overvoltage_deceleration_level_400v = ReadWrite(
         Integer(U16),
@@ -2377,10 +2513,11 @@ class Points(PointTable):
         references={"modicon": 4342, "reference": 404342},
         unit="V",
         allowed=((660, 780),),
+        keeps="enter",
         variant=("voltage_class", "400V"),
         name="overvoltage_deceleration_level",
     )
-    """Overvoltage deceleration level 400v: 660..780 V."""
+    """Overvoltage deceleration level 400v: 660..780 V. `enter.send()` keeps it."""
 
     overvoltage_deceleration_level = ByVariant(
         "voltage_class",
@@ -2409,9 +2546,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 1 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53,
-    255.
+    255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2432,9 +2570,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 1 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31,
-    50..53, 255.
+    50..53, 255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2455,9 +2594,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 2 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53,
-    255.
+    255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2478,9 +2618,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 2 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31,
-    50..53, 255.
+    50..53, 255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2501,9 +2642,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 3 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53,
-    255.
+    255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2524,9 +2666,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 3 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31,
-    50..53, 255.
+    50..53, 255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2547,9 +2690,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 4 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53,
-    255.
+    255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2570,9 +2714,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 4 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31,
-    50..53, 255.
+    50..53, 255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2593,9 +2738,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 5 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53,
-    255.
+    255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2616,9 +2762,10 @@ class Points(PointTable):
             (50, 53),
             (255, 255),
         ),
+        keeps="enter",
     )
     """Digital input 5 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31,
-    50..53, 255.
+    50..53, 255. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c001_functions).
     """
@@ -2629,8 +2776,9 @@ class Points(PointTable):
         group="control_c",
         code="C011",
         references={"modicon": 4363, "reference": 404363},
+        keeps="enter",
     )
-    """Digital input 1 contact."""
+    """Digital input 1 contact. `enter.send()` keeps it."""
 
     digital_input_2_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2638,8 +2786,9 @@ class Points(PointTable):
         group="control_c",
         code="C012",
         references={"modicon": 4364, "reference": 404364},
+        keeps="enter",
     )
-    """Digital input 2 contact."""
+    """Digital input 2 contact. `enter.send()` keeps it."""
 
     digital_input_3_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2647,8 +2796,9 @@ class Points(PointTable):
         group="control_c",
         code="C013",
         references={"modicon": 4365, "reference": 404365},
+        keeps="enter",
     )
-    """Digital input 3 contact."""
+    """Digital input 3 contact. `enter.send()` keeps it."""
 
     digital_input_4_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2656,8 +2806,9 @@ class Points(PointTable):
         group="control_c",
         code="C014",
         references={"modicon": 4366, "reference": 404366},
+        keeps="enter",
     )
-    """Digital input 4 contact."""
+    """Digital input 4 contact. `enter.send()` keeps it."""
 
     digital_input_5_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2665,8 +2816,9 @@ class Points(PointTable):
         group="control_c",
         code="C015",
         references={"modicon": 4367, "reference": 404367},
+        keeps="enter",
     )
-    """Digital input 5 contact."""
+    """Digital input 5 contact. `enter.send()` keeps it."""
 
     digital_output_11_function = ReadWrite(
         Integer(U16),
@@ -2675,8 +2827,9 @@ class Points(PointTable):
         code="C021",
         references={"modicon": 4372, "reference": 404372},
         allowed=((0, 10),),
+        keeps="enter",
     )
-    """Digital output 11 function: 0..10.
+    """Digital output 11 function: 0..10. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c021_functions).
     """
@@ -2688,8 +2841,9 @@ class Points(PointTable):
         code="C022",
         references={"modicon": 4373, "reference": 404373},
         allowed=((0, 10),),
+        keeps="enter",
     )
-    """Digital output 12 function: 0..10.
+    """Digital output 12 function: 0..10. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c021_functions).
     """
@@ -2701,8 +2855,9 @@ class Points(PointTable):
         code="C026",
         references={"modicon": 4377, "reference": 404377},
         allowed=((0, 10),),
+        keeps="enter",
     )
-    """Relay output function: 0..10.
+    """Relay output function: 0..10. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c021_functions).
     """
@@ -2713,8 +2868,9 @@ class Points(PointTable):
         group="control_c",
         code="C028",
         references={"modicon": 4379, "reference": 404379},
+        keeps="enter",
     )
-    """Analog output source."""
+    """Analog output source. `enter.send()` keeps it."""
 
     digital_output_11_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2722,8 +2878,9 @@ class Points(PointTable):
         group="control_c",
         code="C031",
         references={"modicon": 4381, "reference": 404381},
+        keeps="enter",
     )
-    """Digital output 11 contact."""
+    """Digital output 11 contact. `enter.send()` keeps it."""
 
     digital_output_12_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2731,8 +2888,9 @@ class Points(PointTable):
         group="control_c",
         code="C032",
         references={"modicon": 4382, "reference": 404382},
+        keeps="enter",
     )
-    """Digital output 12 contact."""
+    """Digital output 12 contact. `enter.send()` keeps it."""
 
     relay_output_contact = ReadWrite(
         Named(U16, enums.Contact, closed=True),
@@ -2740,8 +2898,9 @@ class Points(PointTable):
         group="control_c",
         code="C036",
         references={"modicon": 4386, "reference": 404386},
+        keeps="enter",
     )
-    """Relay output contact.
+    """Relay output contact. `enter.send()` keeps it.
 
     Errata: c036_decimals.
     """
@@ -2754,8 +2913,9 @@ class Points(PointTable):
         references={"modicon": 4388, "reference": 404388},
         unit="%",
         allowed=((0, 20000),),
+        keeps="enter",
     )
-    """Overload alarm level: 0..200 %."""
+    """Overload alarm level: 0..200 %. `enter.send()` keeps it."""
 
     overload_alarm_level_set_2 = ReadWrite(
         Scaled(U16, Rule(num=100), decimals=2),
@@ -2765,8 +2925,9 @@ class Points(PointTable):
         references={"modicon": 5433, "reference": 405433},
         unit="%",
         allowed=((0, 20000),),
+        keeps="enter",
     )
-    """Overload alarm level set 2: 0..200 %."""
+    """Overload alarm level set 2: 0..200 %. `enter.send()` keeps it."""
 
     arrival_frequency_acceleration = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2776,8 +2937,9 @@ class Points(PointTable):
         references={"modicon": 4390, "reference": 404390},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Arrival frequency acceleration: 0..400 Hz."""
+    """Arrival frequency acceleration: 0..400 Hz. `enter.send()` keeps it."""
 
     arrival_frequency_deceleration = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2787,8 +2949,9 @@ class Points(PointTable):
         references={"modicon": 4392, "reference": 404392},
         unit="Hz",
         allowed=((0, 4000),),
+        keeps="enter",
     )
-    """Arrival frequency deceleration: 0..400 Hz."""
+    """Arrival frequency deceleration: 0..400 Hz. `enter.send()` keeps it."""
 
     pid_deviation_level = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2798,8 +2961,9 @@ class Points(PointTable):
         references={"modicon": 4393, "reference": 404393},
         unit="%",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Pid deviation level: 0..100 %."""
+    """Pid deviation level: 0..100 %. `enter.send()` keeps it."""
 
     pid_process_value_upper_limit = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2809,8 +2973,9 @@ class Points(PointTable):
         references={"modicon": 4398, "reference": 404398},
         unit="%",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Pid process value upper limit: 0..100 %."""
+    """Pid process value upper limit: 0..100 %. `enter.send()` keeps it."""
 
     pid_process_value_lower_limit = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2820,8 +2985,9 @@ class Points(PointTable):
         references={"modicon": 4399, "reference": 404399},
         unit="%",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Pid process value lower limit: 0..100 %."""
+    """Pid process value lower limit: 0..100 %. `enter.send()` keeps it."""
 
     input_o_calibration = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2831,8 +2997,9 @@ class Points(PointTable):
         references={"modicon": 4417, "reference": 404417},
         unit="%",
         allowed=((0, 2000),),
+        keeps="enter",
     )
-    """Input o calibration: 0..200 %."""
+    """Input o calibration: 0..200 %. `enter.send()` keeps it."""
 
     input_oi_calibration = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2842,8 +3009,9 @@ class Points(PointTable):
         references={"modicon": 4418, "reference": 404418},
         unit="%",
         allowed=((0, 2000),),
+        keeps="enter",
     )
-    """Input oi calibration: 0..200 %."""
+    """Input oi calibration: 0..200 %. `enter.send()` keeps it."""
 
     thermistor_input_calibration = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2853,8 +3021,9 @@ class Points(PointTable):
         references={"modicon": 4420, "reference": 404420},
         unit="%",
         allowed=((0, 2000),),
+        keeps="enter",
     )
-    """Thermistor input calibration: 0..200 %."""
+    """Thermistor input calibration: 0..200 %. `enter.send()` keeps it."""
 
     analog_output_offset = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2864,8 +3033,9 @@ class Points(PointTable):
         references={"modicon": 4421, "reference": 404421},
         unit="V",
         allowed=((0, 100),),
+        keeps="enter",
     )
-    """Analog output offset: 0..10 V."""
+    """Analog output offset: 0..10 V. `enter.send()` keeps it."""
 
     motor_potentiometer_memory = ReadWrite(
         Named(U16, enums.MotorPotentiometerMemory, closed=True),
@@ -2873,8 +3043,9 @@ class Points(PointTable):
         group="control_c",
         code="C101",
         references={"modicon": 4425, "reference": 404425},
+        keeps="enter",
     )
-    """Motor potentiometer memory."""
+    """Motor potentiometer memory. `enter.send()` keeps it."""
 
     reset_mode = ReadWrite(
         Named(U16, enums.ResetMode, closed=True),
@@ -2882,8 +3053,9 @@ class Points(PointTable):
         group="control_c",
         code="C102",
         references={"modicon": 4426, "reference": 404426},
+        keeps="enter",
     )
-    """Reset mode."""
+    """Reset mode. `enter.send()` keeps it."""
 
     logic_input_a = ReadWrite(
         Integer(U16),
@@ -2892,8 +3064,9 @@ class Points(PointTable):
         code="C141",
         references={"modicon": 4432, "reference": 404432},
         allowed=((0, 10),),
+        keeps="enter",
     )
-    """Logic input a: 0..10.
+    """Logic input a: 0..10. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c021_functions).
     """
@@ -2905,8 +3078,9 @@ class Points(PointTable):
         code="C142",
         references={"modicon": 4433, "reference": 404433},
         allowed=((0, 10),),
+        keeps="enter",
     )
-    """Logic input b: 0..10.
+    """Logic input b: 0..10. `enter.send()` keeps it.
 
     The manual leaves open what the numbers mean (c021_functions).
     """
@@ -2917,8 +3091,9 @@ class Points(PointTable):
         group="control_c",
         code="C143",
         references={"modicon": 4434, "reference": 404434},
+        keeps="enter",
     )
-    """Logic operator."""
+    """Logic operator. `enter.send()` keeps it."""
 
     digital_output_11_on_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2928,8 +3103,9 @@ class Points(PointTable):
         references={"modicon": 4435, "reference": 404435},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Digital output 11 on delay: 0..100 s."""
+    """Digital output 11 on delay: 0..100 s. `enter.send()` keeps it."""
 
     digital_output_11_off_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2939,8 +3115,9 @@ class Points(PointTable):
         references={"modicon": 4436, "reference": 404436},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Digital output 11 off delay: 0..100 s."""
+    """Digital output 11 off delay: 0..100 s. `enter.send()` keeps it."""
 
     digital_output_12_on_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2950,8 +3127,9 @@ class Points(PointTable):
         references={"modicon": 4437, "reference": 404437},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Digital output 12 on delay: 0..100 s."""
+    """Digital output 12 on delay: 0..100 s. `enter.send()` keeps it."""
 
     digital_output_12_off_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2961,8 +3139,9 @@ class Points(PointTable):
         references={"modicon": 4438, "reference": 404438},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Digital output 12 off delay: 0..100 s."""
+    """Digital output 12 off delay: 0..100 s. `enter.send()` keeps it."""
 
     relay_output_on_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2972,8 +3151,9 @@ class Points(PointTable):
         references={"modicon": 4439, "reference": 404439},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Relay output on delay: 0..100 s."""
+    """Relay output on delay: 0..100 s. `enter.send()` keeps it."""
 
     relay_output_off_delay = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2983,8 +3163,9 @@ class Points(PointTable):
         references={"modicon": 4440, "reference": 404440},
         unit="s",
         allowed=((0, 1000),),
+        keeps="enter",
     )
-    """Relay output off delay: 0..100 s."""
+    """Relay output off delay: 0..100 s. `enter.send()` keeps it."""
 
     # motor_h: Motor h
 
@@ -2994,8 +3175,9 @@ class Points(PointTable):
         group="motor_h",
         code="H003",
         references={"modicon": 4453, "reference": 404453},
+        keeps="enter",
     )
-    """Motor power."""
+    """Motor power. `enter.send()` keeps it."""
 
     motor_power_set_2 = ReadWrite(
         Named(U16, enums.MotorPower, closed=True),
@@ -3003,8 +3185,9 @@ class Points(PointTable):
         group="motor_h",
         code="H203",
         references={"modicon": 5440, "reference": 405440},
+        keeps="enter",
     )
-    """Motor power set 2."""
+    """Motor power set 2. `enter.send()` keeps it."""
 
     motor_poles = ReadWrite(
         Named(U16, enums.MotorPoles, closed=True),
@@ -3012,8 +3195,9 @@ class Points(PointTable):
         group="motor_h",
         code="H004",
         references={"modicon": 4454, "reference": 404454},
+        keeps="enter",
     )
-    """Motor poles."""
+    """Motor poles. `enter.send()` keeps it."""
 
     motor_poles_set_2 = ReadWrite(
         Named(U16, enums.MotorPoles, closed=True),
@@ -3021,8 +3205,9 @@ class Points(PointTable):
         group="motor_h",
         code="H204",
         references={"modicon": 5441, "reference": 405441},
+        keeps="enter",
     )
-    """Motor poles set 2."""
+    """Motor poles set 2. `enter.send()` keeps it."""
 
     stabilization_constant = ReadWrite(
         Integer(U16),
@@ -3031,8 +3216,9 @@ class Points(PointTable):
         code="H006",
         references={"modicon": 4456, "reference": 404456},
         allowed=((0, 255),),
+        keeps="enter",
     )
-    """Stabilization constant: 0..255."""
+    """Stabilization constant: 0..255. `enter.send()` keeps it."""
 
     stabilization_constant_set_2 = ReadWrite(
         Integer(U16),
@@ -3041,8 +3227,9 @@ class Points(PointTable):
         code="H206",
         references={"modicon": 5443, "reference": 405443},
         allowed=((0, 255),),
+        keeps="enter",
     )
-    """Stabilization constant set 2: 0..255."""
+    """Stabilization constant set 2: 0..255. `enter.send()` keeps it."""
 
     # commands
 

@@ -30,7 +30,7 @@ Group = Literal["process_data", "examples", "command_words"]
 class Points(PointTable):
     """All points of JUMO Controller with MOD-Bus; on this class they are pure codecs."""
 
-    PROFILE = Profile(
+    PROFILE: ClassVar = Profile(
         functions={0x03: 32, 0x04: 32, 0x06: 1, 0x10: 32},
         units=(1, 254),
         broadcast=0,
@@ -209,23 +209,26 @@ class Points(PointTable):
         Floating(F32),
         at=holding(0x3101, 0x3100),
         group="examples",
+        keeps="yes",
     )
-    """Setpoint 1: any number."""
+    """Setpoint 1: any number. Each write wears the memory."""
 
     setpoint_2 = ReadWrite(
         Floating(F32),
         at=holding(0x3103, 0x3102),
         group="examples",
+        keeps="yes",
     )
-    """Setpoint 2: any number."""
+    """Setpoint 2: any number. Each write wears the memory."""
 
     proportional_band_1_set_2 = ReadWrite(
         Floating(F32),
         at=holding(0x3015, 0x3014),
         group="examples",
         code="Pb1",
+        keeps="yes",
     )
-    """Proportional band 1 set 2: any number."""
+    """Proportional band 1 set 2: any number. Each write wears the memory."""
 
     value_0077 = WriteOnly(
         Floating(F32),

@@ -68,7 +68,7 @@ class Points(PointTable):
     - P741[1] sent_status_word: 'holding', 0xB940
     """
 
-    PROFILE = Profile(
+    PROFILE: ClassVar = Profile(
         functions={0x01: 2000, 0x05: 1, 0x0F: 1968, 0x03: 125, 0x06: 1, 0x10: 123},
         units=(1, 247),
         broadcast=None,

@@ -63,7 +63,7 @@ class Points(PointTable):
     - HIW2 second_actual_value: 'answer', 2
     """
 
-    PROFILE = Profile(
+    PROFILE: ClassVar = Profile(
         units=(0, 31),
         pkw=(0, 3, 4, 127),
         pzd=(0, 8),
@@ -202,8 +202,9 @@ class Points(PointTable):
         at=parameter(3),
         group="parameters",
         code="P0003",
+        keeps="choice",
     )
-    """User access level."""
+    """User access level. `keep=True` keeps it and wears the EEPROM."""
 
     inverter_status_word = ReadOnly(
         Flags(U16, enums.InverterStatusWord),
@@ -223,24 +224,27 @@ class Points(PointTable):
         at=parameter(700),
         group="parameters",
         code="P0700",
+        keeps="choice",
     )
-    """Command source."""
+    """Command source. `keep=True` keeps it and wears the EEPROM."""
 
     p0731_source = Stored(
         Flags(U32, enums.P0731Source),
         at=parameter(731),
         group="parameters",
         code="P0731",
+        keeps="choice",
     )
-    """P0731 source."""
+    """P0731 source. `keep=True` keeps it and wears the EEPROM."""
 
     main_setpoint_source = Stored(
         Named(U16, enums.MainSetpointSource),
         at=parameter(1000),
         group="parameters",
         code="P1000",
+        keeps="choice",
     )
-    """Main setpoint source."""
+    """Main setpoint source. `keep=True` keeps it and wears the EEPROM."""
 
     maximum_frequency = Stored(
         Floating(F32),
@@ -249,32 +253,38 @@ class Points(PointTable):
         code="P1082",
         unit="Hz",
         conditions=("stopped",),
+        keeps="choice",
     )
-    """Maximum frequency: any number. To write it takes: stopped."""
+    """Maximum frequency: any number. To write it takes: stopped. `keep=True` keeps
+    it and wears the EEPROM.
+    """
 
     jog_time_selection_source = Stored(
         Flags(U32, enums.JogTimeSelectionSource),
         at=parameter(1124),
         group="parameters",
         code="P1124",
+        keeps="choice",
     )
-    """Jog time selection source."""
+    """Jog time selection source. `keep=True` keeps it and wears the EEPROM."""
 
     dc_braking_source = Stored(
         Flags(U32, enums.DcBrakingSource),
         at=parameter(1230),
         group="parameters",
         code="P1230",
+        keeps="choice",
     )
-    """Dc braking source."""
+    """Dc braking source. `keep=True` keeps it and wears the EEPROM."""
 
     output_phase_sequence = Stored(
         Named(U16, enums.OutputPhaseSequence),
         at=parameter(1820),
         group="parameters",
         code="P1820",
+        keeps="choice",
     )
-    """Output phase sequence."""
+    """Output phase sequence. `keep=True` keeps it and wears the EEPROM."""
 
     reference_frequency = Stored(
         Floating(F32),
@@ -282,8 +292,9 @@ class Points(PointTable):
         group="parameters",
         code="P2000",
         unit="Hz",
+        keeps="choice",
     )
-    """Reference frequency: any number."""
+    """Reference frequency: any number. `keep=True` keeps it and wears the EEPROM."""
 
     uss_normalisation_rs485 = Stored(
         Named(U16, enums.UssNormalisation, closed=True),
@@ -292,10 +303,13 @@ class Points(PointTable):
         code="P2009",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("interface", "rs485"),
         name="uss_normalisation",
     )
-    """Uss normalisation rs485. To write it takes: access level 3."""
+    """Uss normalisation rs485. To write it takes: access level 3. `keep=True` keeps
+    it and wears the EEPROM.
+    """
 
     uss_normalisation_rs232 = Stored(
         Named(U16, enums.UssNormalisation, closed=True),
@@ -304,10 +318,13 @@ class Points(PointTable):
         code="P2009",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("interface", "rs232"),
         name="uss_normalisation",
     )
-    """Uss normalisation rs232. To write it takes: access level 3."""
+    """Uss normalisation rs232. To write it takes: access level 3. `keep=True` keeps
+    it and wears the EEPROM.
+    """
 
     uss_baud_rate_index_0 = Stored(
         Integer(U16),
@@ -315,8 +332,10 @@ class Points(PointTable):
         group="parameters",
         code="P2010",
         conditions=("access_level_2",),
+        keeps="choice",
     )
     """Uss baud rate index 0: 0..65535. To write it takes: access level 2.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open which baud rate a number stands for (baud_codes).
     """
@@ -327,8 +346,10 @@ class Points(PointTable):
         group="parameters",
         code="P2010",
         conditions=("access_level_2",),
+        keeps="choice",
     )
     """Uss baud rate index 1: 0..65535. To write it takes: access level 2.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open which baud rate a number stands for (baud_codes).
     """
@@ -339,8 +360,11 @@ class Points(PointTable):
         group="parameters",
         code="P2011",
         conditions=("access_level_2",),
+        keeps="choice",
     )
-    """Uss slave address index 0: 0..65535. To write it takes: access level 2."""
+    """Uss slave address index 0: 0..65535. To write it takes: access level 2.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_slave_address_index_1 = Stored(
         Integer(U16),
@@ -348,8 +372,11 @@ class Points(PointTable):
         group="parameters",
         code="P2011",
         conditions=("access_level_2",),
+        keeps="choice",
     )
-    """Uss slave address index 1: 0..65535. To write it takes: access level 2."""
+    """Uss slave address index 1: 0..65535. To write it takes: access level 2.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_0_mm410 = Stored(
         Integer(U16),
@@ -359,10 +386,13 @@ class Points(PointTable):
         allowed=((0, 4),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm410"),
         name="uss_pzd_length_index_0",
     )
-    """Uss pzd length index 0 mm410: 0..4. To write it takes: access level 3."""
+    """Uss pzd length index 0 mm410: 0..4. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_0_mm420 = Stored(
         Integer(U16),
@@ -372,10 +402,13 @@ class Points(PointTable):
         allowed=((0, 4),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm420"),
         name="uss_pzd_length_index_0",
     )
-    """Uss pzd length index 0 mm420: 0..4. To write it takes: access level 3."""
+    """Uss pzd length index 0 mm420: 0..4. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_0_mm430 = Stored(
         Integer(U16),
@@ -385,10 +418,13 @@ class Points(PointTable):
         allowed=((0, 8),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm430"),
         name="uss_pzd_length_index_0",
     )
-    """Uss pzd length index 0 mm430: 0..8. To write it takes: access level 3."""
+    """Uss pzd length index 0 mm430: 0..8. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_0_mm440 = Stored(
         Integer(U16),
@@ -398,10 +434,13 @@ class Points(PointTable):
         allowed=((0, 8),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm440"),
         name="uss_pzd_length_index_0",
     )
-    """Uss pzd length index 0 mm440: 0..8. To write it takes: access level 3."""
+    """Uss pzd length index 0 mm440: 0..8. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_1_mm410 = Stored(
         Integer(U16),
@@ -411,10 +450,13 @@ class Points(PointTable):
         allowed=((0, 4),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm410"),
         name="uss_pzd_length_index_1",
     )
-    """Uss pzd length index 1 mm410: 0..4. To write it takes: access level 3."""
+    """Uss pzd length index 1 mm410: 0..4. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_1_mm420 = Stored(
         Integer(U16),
@@ -424,10 +466,13 @@ class Points(PointTable):
         allowed=((0, 4),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm420"),
         name="uss_pzd_length_index_1",
     )
-    """Uss pzd length index 1 mm420: 0..4. To write it takes: access level 3."""
+    """Uss pzd length index 1 mm420: 0..4. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_1_mm430 = Stored(
         Integer(U16),
@@ -437,10 +482,13 @@ class Points(PointTable):
         allowed=((0, 8),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm430"),
         name="uss_pzd_length_index_1",
     )
-    """Uss pzd length index 1 mm430: 0..8. To write it takes: access level 3."""
+    """Uss pzd length index 1 mm430: 0..8. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pzd_length_index_1_mm440 = Stored(
         Integer(U16),
@@ -450,10 +498,13 @@ class Points(PointTable):
         allowed=((0, 8),),
         default=2,
         conditions=("access_level_3",),
+        keeps="choice",
         variant=("model", "mm440"),
         name="uss_pzd_length_index_1",
     )
-    """Uss pzd length index 1 mm440: 0..8. To write it takes: access level 3."""
+    """Uss pzd length index 1 mm440: 0..8. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
+    """
 
     uss_pkw_length_index_0 = Stored(
         Named(U16, enums.UssPkwLength, closed=True),
@@ -462,8 +513,11 @@ class Points(PointTable):
         code="P2013",
         default=127,
         conditions=("access_level_3",),
+        keeps="choice",
     )
-    """Uss pkw length index 0. To write it takes: access level 3."""
+    """Uss pkw length index 0. To write it takes: access level 3. `keep=True` keeps
+    it and wears the EEPROM.
+    """
 
     uss_pkw_length_index_1 = Stored(
         Named(U16, enums.UssPkwLength, closed=True),
@@ -472,8 +526,11 @@ class Points(PointTable):
         code="P2013",
         default=127,
         conditions=("access_level_3",),
+        keeps="choice",
     )
-    """Uss pkw length index 1. To write it takes: access level 3."""
+    """Uss pkw length index 1. To write it takes: access level 3. `keep=True` keeps
+    it and wears the EEPROM.
+    """
 
     uss_telegram_off_time_index_0 = Stored(
         WithWritableCodes(
@@ -487,9 +544,11 @@ class Points(PointTable):
         allowed=((1, 65535),),
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss telegram off time index 0: 1..65535 ms. To write it takes: access level 3.
-    Special code: 0 monitoring_off (may be written).
+    `keep=True` keeps it and wears the EEPROM. Special code: 0 monitoring_off (may
+    be written).
     """
 
     uss_telegram_off_time_index_1 = Stored(
@@ -504,9 +563,11 @@ class Points(PointTable):
         allowed=((1, 65535),),
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss telegram off time index 1: 1..65535 ms. To write it takes: access level 3.
-    Special code: 0 monitoring_off (may be written).
+    `keep=True` keeps it and wears the EEPROM. Special code: 0 monitoring_off (may
+    be written).
     """
 
     uss_rs232_answer_source_index_0 = Stored(
@@ -516,8 +577,10 @@ class Points(PointTable):
         code="P2016",
         default=3407872,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs232 answer source index 0. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -530,8 +593,10 @@ class Points(PointTable):
         code="P2016",
         default=1376256,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs232 answer source index 1. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -544,8 +609,10 @@ class Points(PointTable):
         code="P2016",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs232 answer source index 2. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -558,8 +625,10 @@ class Points(PointTable):
         code="P2016",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs232 answer source index 3. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -572,8 +641,10 @@ class Points(PointTable):
         code="P2019",
         default=3407872,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs485 answer source index 0. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -586,8 +657,10 @@ class Points(PointTable):
         code="P2019",
         default=1376256,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs485 answer source index 1. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -600,8 +673,10 @@ class Points(PointTable):
         code="P2019",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs485 answer source index 2. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -614,8 +689,10 @@ class Points(PointTable):
         code="P2019",
         default=0,
         conditions=("access_level_3",),
+        keeps="choice",
     )
     """Uss rs485 answer source index 3. To write it takes: access level 3.
+    `keep=True` keeps it and wears the EEPROM.
 
     The manual leaves open where the sources of words 5 to 8 are set
     (answer_source_count).
@@ -658,8 +735,9 @@ class Points(PointTable):
         code="STW",
         references={"pzd": 1},
         fixed=(0x0400, 0x0400),
+        keeps="no",
     )
-    """Control word.
+    """Control word. Lost at power-off.
 
     The manual leaves open whether the edge or the level of acknowledge_fault
     acknowledges (stw_bit_7_edge).
@@ -686,8 +764,9 @@ class Points(PointTable):
         code="HSW",
         references={"pzd": 2},
         unit="Hz",
+        keeps="no",
     )
-    """Main setpoint.
+    """Main setpoint. Lost at power-off.
 
     The manual leaves open whether 8000h and above are negative (hsw_sign), which
     numbers it takes (hsw_range).
@@ -699,8 +778,9 @@ class Points(PointTable):
         group="task",
         code="STW2",
         references={"pzd": 4},
+        keeps="no",
     )
-    """Second control word.
+    """Second control word. Lost at power-off.
 
     The manual leaves open whether an external fault is 0 or 1
     (external_fault_polarity).

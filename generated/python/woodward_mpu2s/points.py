@@ -76,7 +76,7 @@ class Points(PointTable):
     - frequency_controller_ramp: 'parameter', 68
     """
 
-    PROFILE = Profile(
+    PROFILE: ClassVar = Profile(
         units=(0, 30),
         identifier_bits=11,
         messages=(

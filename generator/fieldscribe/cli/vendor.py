@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from argparse import ArgumentParser, Namespace
+from argparse import SUPPRESS, ArgumentParser, Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -50,6 +50,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
     add("device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
+    add("more", nargs="*", help=SUPPRESS)
     add_descriptions(parser)
     add("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
     points = "codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)"
@@ -69,6 +70,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Deliver or compare, and return the exit code."""
+    if arguments.more:
+        each = f"call it once for each, or name them in {NAME}"
+        hint = each if arguments.points is None else "put commas between points, as in --points A001,A002"
+        raise StopError(f"one DEVICE is taken, and `{' '.join(arguments.more)}` is one more", hint)
     report, inputs = Report(), Inputs()
     orders = _orders(arguments, report, inputs)
     if report.has_errors:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -30,6 +31,12 @@ _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Item: lambda _state, item: (item,),
 }
 """Each kind of content of a frame, and the function that makes items of it."""
+
+_LOGGED = re.compile(
+    r".*?\bunit \d+(?:"
+    r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8}): )?(?P<data>[0-9A-F]{2}(?: [0-9A-F]{2})*)(?: \(.*\)| after [0-9.]+ ms)"
+    r"|: (?:not sent: )?[a-z_]+: .*)"
+)
 
 
 def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[FrameResult]:
@@ -66,7 +73,8 @@ class StreamDecoder:
 
     def pasted(self, texts: Sequence[str]) -> list[FrameResult]:
         """Decode the frames in the texts. Raises UnclearError for a text that is no frame."""
-        return [self.decode(frame) for frame in self._frame_decoder.frames(texts)]
+        frames = [frame for text in texts if (frame := _logged_frame(text) if "unit " in text else text) is not None]
+        return [self.decode(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
 
     def decode(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it."""
@@ -88,6 +96,14 @@ class StreamDecoder:
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
             yield _misprint_text(misprint)
+
+
+def _logged_frame(text: str) -> str | None:
+    """Return the frame in a line that the Python runtime logs; None for a failure, any other text as it is."""
+    match = _LOGGED.fullmatch(text.strip())
+    if match is None:
+        return text
+    return match["id"] + "#" + match["data"].replace(" ", "") if match["id"] else match["data"]
 
 
 def _off_by_one(directory: Directory, span: decoded_frame.Span) -> Iterator[str]:

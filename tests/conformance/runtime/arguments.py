@@ -317,7 +317,8 @@ def check_can_frames(package: Package) -> None:
 
 def check_lists_of_points(package: Package) -> None:
     """Reading many takes a group, or points and their names; what else is meant is told."""
-    runtime, access = package.runtime, package.runtime.AccessError
+    runtime = package.runtime
+    access, absent = runtime.AccessError, runtime.AbsentError
     word = runtime.Integer(runtime.U16)
     points: dict[str, Any] = {
         "PROFILE": runtime.Profile(functions={3: 4}),
@@ -342,9 +343,9 @@ def check_lists_of_points(package: Package) -> None:
         refuses(access, "there is no group one; it is a point: read_many(['one']) reads it", device.read_many, "one")
         refuses(access, "there is no group A1; it is a point: read_many(['A1']) reads it", device.read_many, "A1")
         refuses(access, "a group is named by a text, not ''", device.read_many, "")
-        refuses(access, "go is a command of this device: go.send() gives it", device.point, "go")
-        refuses(access, "main is a group of this device: read_many('main') reads it", device.point, "main")
+        refuses(absent, "go is a command of this device: go.send() gives it", device.point, "go")
+        refuses(absent, "main is a group of this device: read_many('main') reads it", device.point, "main")
         for what in ("odd_", "odd", "o1"):
             shown = f"{what} is documented only{'' if what == 'odd_' else ', as odd_'}: nobody knows"
-            refuses(access, shown, device.point, what)
+            refuses(absent, shown, device.point, what)
         assert now(device.read_many([kind.way, kind.one])) == {"way": 6, "one": 5}

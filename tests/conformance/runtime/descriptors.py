@@ -55,8 +55,8 @@ def check_access(package: Package) -> None:
         refuses(AttributeError, "a point is not assigned to: use its write method", setattr, device, "both", 1)
         refuses(AttributeError, "a point is not assigned to: use its write method", setattr, device, "one", 1)
         refuses(AttributeError, "a command is not assigned to: use its send method", setattr, device, "any", 1)
-        refuses(AttributeError, "odd is documented only: nobody knows", getattr, device, "odd")
-        refuses(AttributeError, "'Made' object has no attribute 'none'", getattr, device, "none")
+        refuses(package.runtime.AbsentError, "odd is documented only: nobody knows", getattr, device, "odd")
+        refuses(package.runtime.AbsentError, "'Made' object has no attribute 'none'", getattr, device, "none")
         missing = refusal(getattr, device, "none")
         assert (missing.name, missing.obj) == ("none", device)
         assert (device.read.facts, device.class_.facts.item) == (kind.read.facts, "class")
@@ -78,7 +78,7 @@ def check_commands(package: Package) -> None:
 
 def check_variants(package: Package) -> None:
     """A name that variants share is the point of the device's variant."""
-    access, absent = package.runtime.AccessError, package.runtime.AbsentError
+    absent = package.runtime.AbsentError
     for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
         devices = {value: kind(line({5: 1, 6: 2, 7: 3}), 1, {"model": value}) for value in ("a", "b", "c", None)}
         assert [now(devices[value].one.read()) for value in ("a", "b")] == [1, 2]
@@ -86,9 +86,11 @@ def check_variants(package: Package) -> None:
         assert kind.one.points == {"a": kind.one_a, "b": kind.one_b}
         refuses(absent, "one does not exist for model c", getattr, devices["c"], "one")
         refuses(absent, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
-        refuses(access, "one does not exist for model c", devices["c"].point, "one")
-        refuses(access, "one depends on model: pass it when the device is made", devices[None].point, "one")
-        refuses(access, "nothing is no point of this device", devices["a"].point, "nothing")
+        refuses(absent, "one does not exist for model c", devices["c"].point, "one")
+        refuses(absent, "one depends on model: pass it when the device is made", devices[None].point, "one")
+        refuses(
+            absent, "nothing is no point of this device: its `POINTS` lists their names", devices["a"].point, "nothing"
+        )
         refuses(absent, "one_a exists only for model a", getattr, devices["b"], "one_a")
         refuses(absent, "some exists only for model a or c", getattr, devices["b"], "some")
         assert [now(devices[value].some.read()) for value in ("a", "c", None)] == [3, 3, 3]
@@ -147,7 +149,7 @@ def check_points_by_text(package: Package) -> None:
         "level_b": runtime.ReadOnly(word, at=runtime.holding(6), code="L", variant=("model", "b"), name="level"),
         "nameless": runtime.ReadOnly(word, at=runtime.holding(7)),
     }
-    access = runtime.AccessError
+    access, absent = runtime.AccessError, runtime.AbsentError
     kinds = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
     for kind, line in zip(kinds, (Memory, AsyncMemory), strict=True):
         device, undecided = kind(line({}), 1, {"model": "b"}), kind(line({}), 1)
@@ -158,12 +160,12 @@ def check_points_by_text(package: Package) -> None:
             assert device.point(what).facts.item == item, what
         assert device.point("A020") is device.speed
         refuses(access, "P1 means several points: first, second", device.point, "P1")
-        refuses(access, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
-        refuses(access, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
-        refuses(access, "zzz is no point of this device", device.point, "zzz")
+        refuses(absent, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
+        refuses(absent, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
+        refuses(absent, "zzz is no point of this device: its `POINTS` lists their names", device.point, "zzz")
         refuses(access, "a point is named by a text, not ''", device.point, "")
         refuses(access, "a point is named by a text, not None", device.point, None)
-        refuses(access, "level depends on model: pass it when the device is made", undecided.point, "L")
+        refuses(absent, "level depends on model: pass it when the device is made", undecided.point, "L")
         refuses(runtime.AbsentError, "L level_a exists only for model a", device.point, "level_a")
         assert now(device.read_many(["A020", "P1[1]"])) == {"speed": 0, "second": 0}
 

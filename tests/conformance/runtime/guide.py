@@ -84,7 +84,8 @@ def _points(package: Package) -> dict[str, Any]:
         "number": runtime.ReadWrite(runtime.Floating(runtime.F32, units=((0.5, 2.0),)), at=at(6, 7), unit="V"),
         "free": runtime.ReadWrite(runtime.Floating(runtime.F32), at=at(8, 9)),
         "bound": runtime.ReadWrite(
-            runtime.Integer(runtime.U16), at=at(10), allowed=((limit, 9),), conditions=("stopped", "access_level_2")
+            runtime.Integer(runtime.U16), at=at(10), allowed=((limit, 9),), conditions=("stopped", "access_level_2"),
+            keeps="go",
         ),
         "go": runtime.Command(at=at(11)),
         "one": runtime.Command(at=at(12), value=7),
@@ -109,6 +110,7 @@ def check_help(package: Package) -> None:
     assert "    free.encode(value) -> raw" in kind.free.__doc__.splitlines()
     assert "What may be written: 0..9, whole numbers." in kind.bound.__doc__.splitlines()
     assert "To write it takes: stopped, access level 2." in kind.bound.__doc__.splitlines()
+    assert "At power-off a written value is: lost unless go.send() follows." in kind.bound.__doc__.splitlines()
     assert kind.go.__doc__ == (
         "go, a command: it writes any number (1 if none is given) to holding 0x000B.\n\nOn a device: device.go.send()"
     )

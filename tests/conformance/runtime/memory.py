@@ -98,7 +98,7 @@ def check_forgetting(package: Package) -> None:
 def check_missing(package: Package) -> None:
     """A point that needs another one that there is not says so."""
     device, _ = _device(package)
-    message = "L1 lost needs nothing, which is no point of this device"
+    message = "L1 lost needs nothing, which is no point of this device: its `POINTS` lists their names"
     refuses(package.runtime.AccessError, message, device.lost.read)
     refuses(package.runtime.AccessError, message, device.read_many, ["lost"])
 

@@ -63,7 +63,8 @@ def check_many(package: Package) -> None:
         assert memory.since() == [(1, 7, 1), (2, 7, 1), (3, 7, 1), (4, 9, 1), (4, 7, 1)]
         refuses(package.runtime.AccessError, "there is no group none, only planned", device.read_many, "none")
         refuses(package.runtime.AccessError, "H1 high cannot be read", device.read_many, ["high"])
-        refuses(package.runtime.AccessError, "nobody is no point of this device", device.read_many, ["nobody"])
+        text = "nobody is no point of this device: its `POINTS` lists their names"
+        refuses(package.runtime.AbsentError, text, device.read_many, ["nobody"])
 
 
 def check_plan(package: Package) -> None:

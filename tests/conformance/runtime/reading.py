@@ -83,7 +83,7 @@ def check_other_families(package: Package) -> None:
     for device, bus, _ in can_lines(package, waiting=True):
         bus.answer = lambda frame: []
         error = refusal(device.read_many, "g")
-        assert (error.group, error.point) == ("g", "long"), str(error)
+        assert (error.group, error.point) == ("g", "long, same"), str(error)
     for device, line in uss_lines(package):
         line.fails = TimeoutError()
         error = refusal(device.read_many, "g")

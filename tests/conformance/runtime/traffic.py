@@ -91,13 +91,20 @@ def check_log(package: Package) -> None:
             now(device.read_at("holding", 1))
             memory.fails = TimeoutError("nothing came")
             refusal(device.store.send)
+            memory.fails, device.retries = package.runtime.LineError("no line", unsent=True), 1
+            logger.setLevel(logging.WARNING)
+            traffic = device.traffic
+            before = traffic.requests
+            refusal(device.a.read)
+            assert (traffic.requests - before, traffic.errors) == (0, {"timeout": 1, "line": 2})
+            assert messages.pop() == "unit 1: not sent: line: no line (A1 a)"
             memory.fails = None
             sent, came, by_address, _, command, failed = messages
             assert sent == "unit 1 -> 01 03 00 00 00 01 84 0A (A1 a)"
             assert came.startswith("unit 1 <- 01 03 02 00 03 F8 45 after ")
             assert by_address.endswith("(holding 0x0001)")
             assert command.endswith("(store)")
-            assert failed == "unit 1: timeout: unit 1 did not reply to function 06h: nothing came"
+            assert failed == "unit 1: timeout: unit 1 did not reply to function 06h: nothing came (store)"
             messages.clear()
     finally:
         logger.setLevel(level)
@@ -105,14 +112,25 @@ def check_log(package: Package) -> None:
 
 
 def check_rows(package: Package) -> None:
-    """Values become rows with units, and JSON with the names of special codes."""
+    """Values become rows that JSON takes, with units; special codes and errors stand in columns that hold no value."""
     for device, _ in _made(package):
         values = now(device.read_many(["a", "b"]))
         assert device.rows(values) == [
-            {"name": "a", "code": "A1", "value": 3, "unit": "Hz"},
-            {"name": "b", "code": None, "value": device.b.special.off, "unit": ""},
+            _row("a", 3, code="A1", unit="Hz", raw=3),
+            _row("b", None, raw=device.b.special.off.raw, status="special", detail="off"),
         ]
-        assert json.dumps(values, default=str) == '{"a": 3, "b": "off"}'
+        values = now(device.read_many(["a", "zzz"], errors="return"))
+        values["b"] = error = package.runtime.RangeError("too far")
+        lost = "zzz is no point of this device: its `POINTS` lists their names"
+        assert device.rows(values)[1:] == [
+            _row("zzz", None, status="no_access", detail=lost),
+            _row("b", None, status=error.status, detail="too far"),
+        ]
+        assert json.loads(json.dumps(device.rows(values))) == device.rows(values)
+
+
+def _row(name: str, value: object, **others: object) -> dict[str, object]:
+    return {"name": name, "code": None, "value": value, "unit": "", "raw": None, "status": "ok", "detail": ""} | others
 
 
 def check_limits(package: Package) -> None:

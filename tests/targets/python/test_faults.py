@@ -261,8 +261,10 @@ def test_what_is_lost_is_sent_again(name: str, made: Any, caplog: pytest.LogCapt
         assert (device.traffic.requests, device.traffic.replies, device.traffic.errors) == (3, 1, {"timeout": 2})
         assert point.label in caplog.messages[0]
         assert "timeout" in repr(device.traffic)
-        device.transport.times = 1
+        device.transport.times, device.retry_pause = 1, 0.05
+        before = time.monotonic()
         point.read()
+        assert time.monotonic() - before > device.retry_pause
         assert device.traffic.errors == {"timeout": 3}
 
 

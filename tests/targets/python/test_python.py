@@ -162,6 +162,7 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
             "read_at",
             "read_many",
             "retries",
+            "retry_pause",
             "rows",
             "traffic",
             "transport",
@@ -222,6 +223,36 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     refused = status(drive.read_many, [other.power])
     assert refused[0] == "no_access"
     assert "is a point of another device" in refused[1]
+
+
+REFUSED = [  # the point that is refused, the exception, and what a later round requests
+    ("power", 2, [(0x2007, 3), (0x2010, 1)]),
+    ("power_exponent", 3, [(0x2007, 2), (0x200A, 1), (0x2010, 1)]),
+    ("power", 4, [(0x2007, 4), (0x2008, 1), (0x200A, 1), (0x2007, 1), (0x2009, 1), (0x2010, 1)]),
+]
+
+
+@pytest.mark.parametrize(("name", "code", "later"), REFUSED)
+def test_a_refused_point_costs_no_group(
+    drive: Any, slave: Slave, name: str, code: int, later: list[tuple[int, int]]
+) -> None:
+    wanted, at = ["voltage_setpoint", "power", "status_word", "zzz", "absent"], drive.point(name).facts.at.address
+    slave.words.update({0x2007: 400, 0x2008: 230})
+    slave.refuses[at] = code
+    for _ in range(2):
+        slave.log.clear()
+        values = drive.read_many(wanted, errors="return")
+        assert [one for one in wanted if isinstance(values[one], Exception)] == ["power", "zzz", "absent"]
+        assert (values["power"].code, values["power"].point, values["voltage_setpoint"]) == (code, "power", 230.0)
+    assert [(address, count) for _, address, count in slave.log] == later
+    slave.refuses.clear()
+    drive.point(name).read()
+    assert drive.read_many(wanted[:3], errors="return")["power"] == 0
+    slave.refuses[at] = code
+    drive.read_many(wanted, errors="return")
+    drive.forget()
+    slave.refuses = {at: 0x0B}  # a gateway whose unit does not answer
+    assert status(partial(drive.read_many, wanted, errors="return"))[0] == "exception"
 
 
 def test_what_is_documented_only_is_said_once(package: Any, folder: Path) -> None:

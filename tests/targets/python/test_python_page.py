@@ -7,16 +7,18 @@ import logging
 import re
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import can
 import pytest
+from fieldscribe.cli import main
 from pymodbus import FramerType
 from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import ROOT
 from support.python_families import UssDrive
-from support.python_package import imported
+from support.python_package import imported, typed_findings
 
 PAGE = "\n".join(
     (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("python", "python-transports")
@@ -62,10 +64,15 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str], caplog: pytest.Log
     assert first == ["0.1 Hz"]
     assert watch == client == gateway == ["0.1"]
     assert [line[0] for line in many] == ["{", "{"]
-    assert rest[0] == "output_frequency = 0.1"
-    assert table[:2] == ["name,code,value,unit", "output_frequency,d001,0.1,Hz"]
-    assert json.loads(table[-1])["output_frequency"] == 0.1
-    assert facts == ["Base frequency 0.0 400.0 Hz []", "Upper frequency limit 0.0 400.0 Hz ['inactive']"]
+    assert rest[:2] == ["output_frequency = 0.1", "base_frequency = 50.0"]
+    assert rest[2].startswith("d007 error: d007 is documented only, as scaled_output_frequency: ")
+    assert table[:2] == ["name,code,value,unit,raw,status,detail", "output_frequency,d001,0.1,Hz,10,ok,"]
+    assert json.loads(table[-1])[0]["value"] == 0.1
+    assert facts[:2] == ["Base frequency 0.0 400.0 Hz []", "Upper frequency limit 0.0 400.0 Hz ['inactive']"]
+    assert facts[2:] == ["A020 base_frequency 50 Hz", "<enum 'RunSource'> modbus"]
+    decode = ["decode", "hitachi_l200", "--descriptions", str(ROOT / "descriptions")]
+    assert main([*decode, *caplog.messages[:2]]) == 0
+    assert "A020 base_frequency = 50 Hz" in capsys.readouterr().out
     assert caplog.messages[0] == "unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)"
     assert caplog.messages[1].startswith("unit 1 <- 01 03 02 01 F4 B8 53 after ")
     assert traffic[0].startswith("<Traffic 1 requests, 1 replies; ")
@@ -76,6 +83,12 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str], caplog: pytest.Log
     assert failing[0].startswith("out_of_range")
     assert failing[1].startswith("2 ")
     assert "battery_voltage" in "".join(bus)
+
+
+@pytest.mark.full(seconds=8)
+def test_the_programs_have_types(tmp_path: Path) -> None:
+    program = "\n".join(re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
+    assert typed_findings(program, GENERATED, "hitachi_l200", tmp_path) == ""
 
 
 def test_the_readme_has_the_first_program() -> None:

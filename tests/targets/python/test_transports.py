@@ -138,14 +138,18 @@ def hang_up(listening: socket.socket) -> None:
         listening.accept()[0].close()
 
 
-@pytest.mark.parametrize("kind", ["closed", "nobody", "silent"])
+@pytest.mark.parametrize("kind", ["closed", "nobody", "silent", "full"])
 def test_ends_that_fail(kind: str, l200: Any) -> None:
     tcp = transport("tcp")
     with socket.socket() as listening:
         listening.bind(("127.0.0.1", 0))
         port = listening.getsockname()[1]
         if kind != "nobody":
-            listening.listen()
+            listening.listen(0 if kind == "full" else 8)
+        waiting = [socket.socket() for _ in range(4 if kind == "full" else 0)]
+        for one in waiting:
+            one.setblocking(False)
+            one.connect_ex(listening.getsockname())
         if kind == "closed":
             threading.Thread(target=hang_up, args=(listening,), daemon=True).start()
         expected = "timeout" if kind == "silent" else "line"
@@ -153,6 +157,8 @@ def test_ends_that_fail(kind: str, l200: Any) -> None:
         failure = error(drive.base_frequency.read)
         assert failure.status == expected, failure
         assert "A020" in str(failure)
+        is_sent = kind in ("closed", "silent")
+        assert (drive.traffic.requests, getattr(failure, "unsent", False)) == (is_sent, not is_sent)
 
         async def asynchronous() -> Any:
             line = tcp.AsyncTcpLine("127.0.0.1", port, timeout=0.2)
@@ -162,7 +168,10 @@ def test_ends_that_fail(kind: str, l200: Any) -> None:
                 return raised
             return None
 
-        assert asyncio.run(asynchronous()).status == expected
+        failure = asyncio.run(asynchronous())
+        assert (failure.status, getattr(failure, "unsent", False)) == (expected, not is_sent)
+        for one in waiting:
+            one.close()
 
 
 def test_a_connection_comes_back(l200: Any) -> None:

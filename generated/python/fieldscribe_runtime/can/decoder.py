@@ -68,6 +68,7 @@ class Decoder(Receiver):
     def decode(self, frame: Frame, raws: Raws = NO_RAWS, moment: float = 0.0) -> dict[str, Value]:
         """The values that a frame brings, by the names of points; none for a frame of something else.
 
+        A frame with another identifier or length, or that a check byte does not fit, is something else.
         `raws` holds the raw numbers that scales need of points that are not in the telegram. What needs a number that
         has not come yet is left out, and so is a number that two frames carry while they may not belong together, and
         one that has no value (see `errors`): a scale may need an implausible number.

@@ -18,7 +18,7 @@ from ..errors import (
     TelegramError,
 )
 from ..facts import Place
-from ..session import Session
+from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
 from .decoder import layouts_of
 from .frames import Frame, Message, Profile, build, parse
@@ -93,11 +93,11 @@ class CanSession(Session):
             )
         return words
 
-    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points; those of a telegram out of the same frames."""
         self._since = monotonic() - self.fresh_for
         try:
-            return (yield from super()._gather_steps(points, group))
+            return (yield from super()._gather_steps(points, group, refusals))
         finally:
             self._since = None
 

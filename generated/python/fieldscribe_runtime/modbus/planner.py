@@ -25,6 +25,11 @@ class Block(Record):
     address: int
     count: int
 
+    @property
+    def places(self) -> list[tuple[str, int]]:
+        """The space and the address of each of its words or bits."""
+        return [(self.space, address) for address in range(self.address, self.address + self.count)]
+
     def covers(self, place: Place) -> bool:
         """Whether the block brings all of a place."""
         last = max(place.addresses)

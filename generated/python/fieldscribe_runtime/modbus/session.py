@@ -8,7 +8,7 @@ from contextlib import suppress
 from itertools import count
 from typing import ClassVar, TypeVar
 
-from ..about import About, about_place
+from ..about import about_place
 from ..arguments import check_bytes, check_name, check_place, check_values
 from ..bits import BitLayout
 from ..errors import AccessError, RequestError, no_reply
@@ -16,7 +16,7 @@ from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
 from ..receiving import Broadcast
-from ..session import Session
+from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
     BIT_READS,
@@ -125,20 +125,34 @@ class ModbusSession(Session):
             function = place.function
         yield from self._ask(function, place.address, values=values)
 
-    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
         planned: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
         blocks = [block for block in planned if any(block.covers(one.facts.at) for one in points)]
+        bridges = self._bridges()
+        if holes := self._holes():
+            blocks = [block for block in blocks if holes.isdisjoint(block.places)]
+            bridges -= holes
         rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
         raws: dict[str, int] = {}
-        for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
+        for block in (*blocks, *plan(rest, self.PROFILE, bridges)):
             inside = [point for point in points if block.covers(point.facts.at)]
-            with About(self.traffic, *inside):
-                words = yield from self._ask(block.function, block.address, block.count)
-            for point in inside:
-                own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
-                raws[point.facts.item] = self._taken(point, own)
+            raws.update((yield from self._part_steps(inside, refusals, self._block_steps, block, inside)))
         return raws
+
+    def _block_steps(self, block: Block, points: Sequence[Point]) -> Steps[dict[str, int]]:
+        """Read points by one request."""
+        words = yield from self._ask(block.function, block.address, block.count)
+        raws: dict[str, int] = {}
+        for point in points:
+            own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
+            raws[point.facts.item] = self._taken(point, own)
+        return raws
+
+    def _holes(self) -> frozenset[tuple[str, int]]:
+        """Return the addresses of the points that the device has refused."""
+        places = [self.POINTS[item].facts.at for item in self._refused]
+        return frozenset((place.space, address) for place in places for address in place.addresses)
 
     @classmethod
     def layouts(cls, group: str, **variants: str) -> tuple[Layout, ...]:

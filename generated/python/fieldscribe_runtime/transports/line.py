@@ -56,15 +56,17 @@ class Line(ABC):
         Raises TimeoutError, LineError and FrameError.
         """
         with self._turn:
+            is_sent = False
             try:
                 self._send(request)
+                is_sent = True
                 return self._after_broadcast() if isinstance(request, Broadcast) else self._received(request)
             except (TimeoutError, FrameError):
                 self._failed(request)
                 raise
             except OSError as error:
                 self.close()
-                raise LineError(f"{self}: {error.strerror or error}") from error
+                raise LineError(f"{self}: {error.strerror or error}", unsent=not is_sent) from error
             except BaseException:
                 self.close()  # also where a program is interrupted: the answer must not come to the next request
                 raise

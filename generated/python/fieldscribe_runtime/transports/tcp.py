@@ -78,9 +78,16 @@ class Connection:
     def send(self, request: bytes) -> None:
         """Send a frame, over a new connection if there is none; raises OSError."""
         if self.socket is None:
-            self.opened(socket.create_connection((self.host, self.port), self.timeout))
+            try:
+                self.opened(socket.create_connection((self.host, self.port), self.timeout))
+            except TimeoutError as error:
+                raise self.no_connection() from error
         assert self.socket is not None
         self.socket.sendall(request)
+
+    def no_connection(self) -> ConnectionError:
+        """Return the error where nobody answers in time."""
+        return ConnectionError(f"no connection within {self.timeout:g} s")
 
     def read(self, most: int, until: float) -> bytes:
         """Return what has come, up to so many bytes; none when none comes in time. Raises OSError."""
@@ -155,28 +162,35 @@ class AsyncTcpLine:
         Raises TimeoutError, LineError and FrameError.
         """
         async with self._turns.lock():
-            receiver = Receiver(self._framing, request)
+            receiver, is_sent = Receiver(self._framing, request), False
             try:
                 async with asyncio.timeout(self._connection.timeout):
-                    return await self._exchanged(request, receiver)
+                    line = await self._send(request)
+                    is_sent = True
+                    return b"" if isinstance(request, Broadcast) else await self._received(line, receiver)
             except TimeoutError:
+                is_open = self._connection.socket is not None
                 self.close()
-                return receiver.give_up()
+                if is_open:
+                    return receiver.give_up()
+                text = f"{self._connection}: {self._connection.no_connection()}"
+                raise LineError(text, unsent=True) from None
             except OSError as error:
                 self.close()
-                raise LineError(f"{self._connection}: {error.strerror or error}") from error
+                raise LineError(f"{self._connection}: {error.strerror or error}", unsent=not is_sent) from error
             except BaseException:
                 self.close()  # also when the task is cancelled: the answer must not come to the next one
                 raise
 
-    async def _exchanged(self, request: bytes, receiver: Receiver) -> bytes:
-        loop = asyncio.get_running_loop()
+    async def _send(self, request: bytes) -> socket.socket:
         await asyncio.sleep(0)  # other tasks, and timeouts, have their turn even if each byte is there already
         self._connection.drop_old()
         line = self._connection.socket or await self._connected()
-        await loop.sock_sendall(line, request)
-        if isinstance(request, Broadcast):
-            return b""
+        await asyncio.get_running_loop().sock_sendall(line, request)
+        return line
+
+    async def _received(self, line: socket.socket, receiver: Receiver) -> bytes:
+        loop = asyncio.get_running_loop()
         while data := await loop.sock_recv(line, _PIECE):
             if (reply := receiver.take(data)) is not None:
                 return reply

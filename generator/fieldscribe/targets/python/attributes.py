@@ -26,6 +26,14 @@ _WITH_RANGE = ("scaled", "float", "integer")
 """The forms whose docstring says the range."""
 
 
+_KEEPS = {
+    "no": "Lost at power-off",
+    "yes": "Each write wears the memory",
+    "choice": "`keep=True` keeps it and wears the EEPROM",
+}
+"""What becomes of a written value."""
+
+
 class AttributeFields(NamedTuple):
     """The words that only one point has, or placeholders for them; what it lacks is empty.
 
@@ -161,10 +169,17 @@ def _remarks(point: Point, scope: PackageScope) -> str:
         remarks += f" Exists only when {condition_text(point.when, scope.lowered.points)}."
     if point.conditions and point.writable:
         remarks += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
+    if point.keeps and point.writable:
+        remarks += f" {_KEEPS.get(point.keeps) or f'`{_keeps(point, scope)}.send()` keeps it'}."
     if point.specials:
         remarks += f" {codes_text(point)}."
     remarks += "".join(f" O{text[1:]}." for text in overflow_texts(point))
     return remarks
+
+
+def _keeps(point: Point, scope: PackageScope) -> str:
+    """Return what keeps a written value, a command by its attribute."""
+    return scope.commands.get(point.keeps or "", point.keeps or "")
 
 
 def _errata(point: Point, scope: PackageScope) -> list[str]:
@@ -199,6 +214,8 @@ def _arguments(point: Point, fields: AttributeFields, scope: PackageScope) -> It
         yield Group("changes_with=(", tuple([python_string(name) for name in point.changes_with]))
     if point.conditions and point.writable:
         yield Group("conditions=(", tuple([python_string(condition) for condition in point.conditions]))
+    if point.keeps and point.writable:
+        yield f"keeps={python_string(_keeps(point, scope))}"
     yield from _existence(point, scope)
 
 

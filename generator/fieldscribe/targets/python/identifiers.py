@@ -22,7 +22,19 @@ _RESERVED = frozenset(
 
 DEVICE_MEMBERS = frozenset(
     {"broadcast", "drop_process_data", "forget", "layouts", "fresh_for", "link", "patience", "point"}
-    | {"read_at", "read_many", "repeats", "retries", "rows", "take", "traffic", "transport", "unit", "variants"}
+    | {
+        "read_at",
+        "read_many",
+        "repeats",
+        "retries",
+        "retry_pause",
+        "rows",
+        "take",
+        "traffic",
+        "transport",
+        "unit",
+        "variants",
+    }
     | {"write_at"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
@@ -171,6 +183,8 @@ class PackageScope:
     names: Identifiers
     lowered: Lowered
     variants: Mapping[str, tuple[str, ...]]
+    commands: Mapping[str, str]
+    """The attributes of the commands, by name."""
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)
 

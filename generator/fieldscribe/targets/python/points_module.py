@@ -31,7 +31,8 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     and the text of its attributes.
     """
     family = in_python(device)
-    scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
+    named = {command.name: name for command, name in command_attributes(device)}
+    scope = PackageScope(names, lower(device), device.variants, named, {"PointTable"})
     attributes = Attributes(device, scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
     groups: dict[str, list[str]] = {group: [] for group in titles}

@@ -4,16 +4,17 @@
 from __future__ import annotations
 
 import threading
+import time
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
 from .errors import FieldscribeError
-from .session import Session, Steps, Value
+from .session import Pause, Session, Steps, Value
 from .turns import Turns
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from typing import Literal, Protocol
 
     from .descriptors import PointAttribute
@@ -41,6 +42,9 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
+
+
+_pause: Callable[[float], object] = time.sleep
 
 
 class AnyDevice(Session):
@@ -82,7 +86,7 @@ class AnyDevice(Session):
                 request = next(steps)
                 while True:
                     try:
-                        reply = self._carry(request)
+                        reply = _pause(request) if type(request) is Pause else self._carry(request)
                     except (TimeoutError, FieldscribeError) as error:
                         request = steps.throw(error)
                     else:
@@ -106,7 +110,9 @@ class AnyDevice(Session):
     def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
-        With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
+        With errors="return" a point that is absent, refused or without a value has its error as value, and only a lost
+        line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the
+        same error, until it was read in another way or `forget()` is called.
         """
         values: dict[str, Any] = self._run(self._read_many_steps(what, errors))
         return values
@@ -151,7 +157,7 @@ class AnyAsyncDevice(Session):
                 request = next(steps)
                 while True:
                     try:
-                        reply = await self._carry(request)
+                        reply = await (self._turns.pause(request) if type(request) is Pause else self._carry(request))
                     except (TimeoutError, FieldscribeError) as error:
                         request = steps.throw(error)
                     else:
@@ -175,7 +181,9 @@ class AnyAsyncDevice(Session):
     async def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
-        With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
+        With errors="return" a point that is absent, refused or without a value has its error as value, and only a lost
+        line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the
+        same error, until it was read in another way or `forget()` is called.
         """
         values: dict[str, Any] = await self._run(self._read_many_steps(what, errors))
         return values

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
         conditions: NotRequired[tuple[str, ...]]
+        keeps: NotRequired[str]
         name: NotRequired[str]
 
 
@@ -148,6 +149,8 @@ class Facts:
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
     it too, such as another point or a firmware. `conditions` name what has to hold before it is written.
+    `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory), `choice` (if it
+    is written with `keep=True`, which wears it) or the command that has to follow; empty where the manual does not say.
     """
 
     at: Place
@@ -167,6 +170,7 @@ class Facts:
     only_for: tuple[str, tuple[str, ...]] | None = None
     uncertain: bool = False
     conditions: tuple[str, ...] = ()
+    keeps: str = ""
     name: str = ""
     item: str = ""
 

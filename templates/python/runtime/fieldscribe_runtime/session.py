@@ -9,11 +9,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from copy import copy
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .about import About, needing, of_group
 from .arguments import check_name, shown
-from .errors import AccessError, EchoError, FieldscribeError, RequestError
+from .errors import (
+    AccessError,
+    EchoError,
+    ExceptionReplyError,
+    FieldscribeError,
+    RequestError,
+)
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
@@ -27,11 +34,20 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Steps = Generator[Any, Any, T]
 """What goes in and out between the steps is the family's own."""
+Refusals = dict[str, FieldscribeError] | None
+"""Notes what the device refuses, by item; None if that is to be raised."""
 Value = float | str | tuple[int, ...] | Special
 """What reading a point can give (also bool, IntEnum and IntFlag)."""
 
+
+class Pause(float):
+    """A step that asks for nothing: so many seconds later the next one follows."""
+
+
 _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})
+_LASTING = frozenset({0x01, 0x02, 0x03})
+"""Exceptions that say that a request does not suit the device: no such function, address, or number of words."""
 
 
 class Session(NamedPoints, ABC):
@@ -41,6 +57,8 @@ class Session(NamedPoints, ABC):
     traffic: Traffic
     retries: int = 0
     """So often a request is sent again after the line lost it or its reply; a command is sent once."""
+    retry_pause: float = 0.0
+    """Seconds between a failure and the next try."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         check_variants(self.VARIANTS, variants)
@@ -48,6 +66,8 @@ class Session(NamedPoints, ABC):
         self.traffic = Traffic(unit)
         self.variants = variants
         self._kept: dict[str, int] = {}
+        self._refused: dict[str, FieldscribeError] = {}
+        """What `read_many` does not request again, by item."""
 
     def __repr__(self) -> str:
         known = "".join(f", {axis} {value}" for axis, value in self.variants.items() if value is not None)
@@ -67,23 +87,52 @@ class Session(NamedPoints, ABC):
             try:
                 return (yield from ask(*arguments))
             except FieldscribeError as error:
-                self.traffic.failed(error)
-                if left <= 0 or not error.lost:
+                is_final = left <= 0 or not error.lost
+                self.traffic.failed(error, is_final=is_final)
+                if is_final:
                     raise
+            if self.retry_pause:
+                yield Pause(self.retry_pause)
             left -= 1
 
-    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
         del group
-        words: dict[Place, tuple[int, ...]] = {}
+        places: dict[Place, list[Point]] = {}
+        for point in points:
+            places.setdefault(point.facts.at, []).append(point)
+        raws: dict[str, int] = {}
+        for place, inside in places.items():
+            raws.update((yield from self._part_steps(inside, refusals, self._place_steps, place, inside)))
+        return raws
+
+    def _place_steps(self, place: Place, points: Sequence[Point]) -> Steps[dict[str, int]]:
+        words = yield from self._get_steps(place)
+        return {point.facts.item: self._taken(point, words) for point in points}
+
+    def _part_steps(
+        self, points: Sequence[Point], refusals: Refusals, ask: Callable[..., Steps[dict[str, int]]], *arguments: Any
+    ) -> Steps[dict[str, int]]:
+        """Read some points by one request; where `refusals` are noted, by one each if the device refuses that."""
+        try:
+            with About(self.traffic, *points):
+                return (yield from ask(*arguments))
+        except FieldscribeError as error:
+            if refusals is None or error.lost:
+                raise
+            if len(points) == 1:
+                self._note(points[0], error, refusals)
+                return {}
         raws: dict[str, int] = {}
         for point in points:
-            at = point.facts.at
-            if at not in words:
-                with About(self.traffic, point):
-                    words[at] = yield from self._get_steps(at)
-            raws[point.facts.item] = self._taken(point, words[at])
+            raws.update((yield from self._gather_steps([point], None, refusals)))
         return raws
+
+    def _note(self, point: Point, error: FieldscribeError, refusals: dict[str, FieldscribeError]) -> None:
+        """Note that a point is refused; if that lasts, for the next time, too."""
+        refusals[point.facts.item] = error
+        if isinstance(error, ExceptionReplyError) and error.code in _LASTING:
+            self._refused[point.facts.item] = copy(error)
 
     def _shared_word_steps(self, point: Point) -> Steps[int]:
         """Yield the word that a bit group shares with others, as it is before the group is written."""
@@ -92,8 +141,9 @@ class Session(NamedPoints, ABC):
         return (yield from self._get_steps(point.facts.at))[0]
 
     def forget(self) -> None:
-        """Read everything anew that was remembered because it changes rarely or never."""
+        """Read everything anew: what changes rarely or never, and what the device has refused."""
         self._kept.clear()
+        self._refused.clear()
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
@@ -105,10 +155,18 @@ class Session(NamedPoints, ABC):
         raw = point.joined(words) if len(words) == point.size else point.from_words(words)
         if point.facts.changes in _KEPT or point.facts.changes_with:
             self._kept[point.facts.item] = raw
+        if self._refused:
+            self._refused.pop(point.facts.item, None)
         return raw
 
     def _raws_steps(
-        self, point: Point, names: Iterable[str], known: Mapping[str, int] = NO_RAWS, *, writes: bool = False
+        self,
+        point: Point,
+        names: Iterable[str],
+        known: Mapping[str, int] = NO_RAWS,
+        refusals: Refusals = None,
+        *,
+        writes: bool = False,
     ) -> Steps[dict[str, int]]:
         """Yield the raw numbers that a point needs of others: those known (by item), those remembered, the rest read.
 
@@ -125,6 +183,8 @@ class Session(NamedPoints, ABC):
                 raws[name] = self._kept[item]
             else:
                 with needing(self.traffic, point, other):
+                    if refusals and item in refusals:
+                        raise copy(refusals[item])
                     raws[name] = yield from self._read_raw_steps(other)
         return raws
 
@@ -178,38 +238,39 @@ class Session(NamedPoints, ABC):
         """Read a group, or any points, with as few requests as the device allows.
 
         Of a group those points are left out that do not travel the way the link is set. With `errors` "return", a point
-        that the device refuses, or whose number has no value, has the error as its value: all are read one by one then.
+        that is absent, that the device refuses, or whose number has no value, has the error as its value.
         """
         if errors not in ("raise", "return"):
             raise RequestError("bad_errors", f"errors is 'raise' or 'return', not {shown(errors)}")
+        absent: dict[str, FieldscribeError] | None = None if errors == "raise" else {}
         group = what if isinstance(what, str) else None
-        points = self._group(what) if isinstance(what, str) else self._listed(what)
-        try:
-            with of_group(group):
-                return (yield from self._values_steps(points, group))
-        except FieldscribeError as error:
-            if errors == "raise" or error.lost:
-                raise
+        points = self._group(what) if isinstance(what, str) else self._listed(what, absent)
+        with of_group(group):
+            values = yield from self._values_steps(points, group, None if absent is None else dict(self._refused))
+        return {**values, **absent} if absent else values
+
+    def _values_steps(
+        self, points: Sequence[Decoding[Any]], group: str | None, refusals: Refusals
+    ) -> Steps[dict[str, Any]]:
+        """Yield the values of points, by name, and before them what their scales need."""
+        find = self._needed if refusals is None else lambda _, name: self._found(name)
+        needed = [find(point, name) for point in points for name in point.scale_needs]
+        wanted: dict[str, Point] = {point.facts.item: point for point in points}
+        wanted.update({point.facts.item: point for point in needed if point and point.facts.item not in self._kept})
+        left = [point for item, point in wanted.items() if not refusals or item not in refusals]
+        raws = yield from self._gather_steps(left, group, refusals)
         values: dict[str, Any] = {}
         for point in points:
             try:
-                values.update((yield from self._values_steps([point], None)))
+                if refusals and point.facts.item in refusals:
+                    raise copy(refusals[point.facts.item])
+                known = yield from self._raws_steps(point, point.scale_needs, raws, refusals)
+                values[point.facts.name] = point.decode(raws[point.facts.item], known)
             except FieldscribeError as error:
-                if error.lost:
+                if refusals is None or error.lost:
                     raise
+                error.group = group
                 values[point.facts.name] = error
-        return values
-
-    def _values_steps(self, points: Sequence[Decoding[Any]], group: str | None) -> Steps[dict[str, Value]]:
-        """Yield the values of points, by name, and before them what their scales need."""
-        needed = [self._needed(point, name) for point in points for name in point.scale_needs]
-        wanted: dict[str, Point] = {point.facts.item: point for point in points}
-        wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
-        raws = yield from self._gather_steps(list(wanted.values()), group)
-        values: dict[str, Value] = {}
-        for point in points:
-            known = yield from self._raws_steps(point, point.scale_needs, raws)
-            values[point.facts.name] = point.decode(raws[point.facts.item], known)
         return values
 
     def _group(self, group: str) -> list[Decoding[Any]]:

@@ -7,6 +7,8 @@ import sys
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from .errors import LineError
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Protocol
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 
 _DEBUG = 10
 """The level of debug messages."""
+_WARNING = 30
 
 
 class Traffic:
@@ -66,11 +69,15 @@ class Traffic:
         self.requests += 1
         if self._logger is None and "logging" in sys.modules:  # a program that logs has imported it: nobody else does
             self._logger = sys.modules["logging"].getLogger("fieldscribe")
+            if not self._logger.handlers:
+                self._logger.addHandler(sys.modules["logging"].NullHandler())  # no log set up: nothing is printed
         self._is_logged = self._logger is not None and self._logger.isEnabledFor(_DEBUG)
         if self._is_logged:
-            names = ", ".join([one.label for one in self.about])
-            self._logger.debug("unit %d -> %s (%s)", self._unit, frame.hex(" ").upper(), names)
+            self._logger.debug("unit %d -> %s (%s)", self._unit, frame.hex(" ").upper(), self._names())
         return monotonic()
+
+    def _names(self) -> str:
+        return ", ".join([one.label for one in self.about])
 
     def came(self, frame: Frame, sent: float) -> None:
         """Count a reply to a request that was sent then."""
@@ -81,8 +88,12 @@ class Traffic:
         if self._is_logged:
             self._logger.debug("unit %d <- %s after %.1f ms", self._unit, frame.hex(" ").upper(), took * 1000)
 
-    def failed(self, error: FieldscribeError) -> None:
-        """Count a failure."""
+    def failed(self, error: FieldscribeError, *, is_final: bool) -> None:
+        """Count a failure, and no request if none was sent; a final one, which the program gets, is a warning."""
         self.errors[error.status] = self.errors.get(error.status, 0) + 1
-        if self._is_logged:
-            self._logger.debug("unit %d: %s: %s", self._unit, error.status, error)
+        if unsent := isinstance(error, LineError) and error.unsent:
+            self.requests -= 1
+        if self._logger is not None:
+            level = _WARNING if is_final else _DEBUG
+            what = f"not sent: {error.status}" if unsent else error.status
+            self._logger.log(level, "unit %d: %s: %s (%s)", self._unit, what, error, self._names())

@@ -107,7 +107,7 @@ class CanLine:
         try:
             self.bus.send(_message(frame), self.timeout)
         except (can.CanError, OSError) as error:
-            raise LineError(f"{self.bus}: {error}") from error
+            raise LineError(f"{self.bus}: {error}", unsent=True) from error
 
     def receive(self) -> Frame:
         """Return the next data frame, whoever sent it; raises TimeoutError and LineError."""
@@ -246,7 +246,7 @@ class AsyncCanLine:
         try:
             await asyncio.to_thread(self.bus.send, _message(frame), self.timeout)
         except (can.CanError, OSError) as error:
-            raise LineError(f"{self.bus}: {error}") from error
+            raise LineError(f"{self.bus}: {error}", unsent=True) from error
 
     async def receive(self) -> Frame:
         """The next data frame, whoever sent it; raises TimeoutError and LineError."""

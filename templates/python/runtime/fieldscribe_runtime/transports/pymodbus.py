@@ -120,7 +120,7 @@ class PymodbusLine:
         with self._turn:
             try:
                 if not self.client.connect():
-                    raise LineError("the client cannot connect")
+                    raise LineError("the client cannot connect", unsent=True)
                 answer: Any = self.client.execute(silent, _Request(request))
             except (ConnectionException, ModbusIOException) as error:
                 raise _raised(error) from error
@@ -150,7 +150,7 @@ class AsyncPymodbusLine:
         silent = isinstance(request, Broadcast)
         try:
             if not self.client.connected and not await self.client.connect():
-                raise LineError("the client cannot connect")
+                raise LineError("the client cannot connect", unsent=True)
             answer: Any = await self.client.execute(silent, _Request(request))
         except (ConnectionException, ModbusIOException) as error:
             raise _raised(error) from error

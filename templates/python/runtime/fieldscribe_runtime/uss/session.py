@@ -22,7 +22,7 @@ from ..errors import AccessError, EchoError, FrameError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
 from ..receiving import Broadcast
-from ..session import Session
+from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
     NO_TASK,
@@ -103,18 +103,23 @@ class UssSession(Session):
         reply = yield from self._exchange_steps(Request(self.unit), self._sent)
         return self._chosen(reply.words, place)
 
-    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points; process data out of one telegram."""
         raws: dict[str, int] = {}
         heard = [point for point in points if point.facts.at.telegram and not self._is_sent(point.facts.at)]
         if heard:
-            with About(self.traffic, *heard):
-                reply = yield from self._exchange_steps(Request(self.unit), self._sent)
-            for point in heard:
-                with About(self.traffic, point):
-                    raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
+            raws = yield from self._part_steps(heard, refusals, self._process_data_steps, heard)
         rest = [point for point in points if point not in heard]
-        return {**raws, **(yield from super()._gather_steps(rest, group))}
+        return {**raws, **(yield from super()._gather_steps(rest, group, refusals))}
+
+    def _process_data_steps(self, points: Sequence[Point]) -> Steps[dict[str, int]]:
+        """Read points of the process data by one telegram."""
+        reply = yield from self._exchange_steps(Request(self.unit), self._sent)
+        raws: dict[str, int] = {}
+        for point in points:
+            with About(self.traffic, point):
+                raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
+        return raws
 
     def _shared_word_steps(self, point: Point) -> Steps[int]:
         """The word that a bit group shares with others; of process data that is sent, the word as it will be sent."""
