@@ -66,15 +66,16 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str], caplog: pytest.Log
     assert [line[0] for line in many] == ["{", "{"]
     assert rest[:2] == ["output_frequency = 0.1", "base_frequency = 50.0"]
     assert rest[2].startswith("d007 error: d007 is documented only, as scaled_output_frequency: ")
-    assert table[:2] == ["name,code,value,unit,raw,status,detail", "output_frequency,d001,0.1,Hz,10,ok,"]
+    assert table[:2] == ["name,code,value,unit,raw,status,detail", "output_frequency,d001,0.1,Hz,1,ok,"]
     assert json.loads(table[-1])[0]["value"] == 0.1
     assert facts[:2] == ["Base frequency 0.0 400.0 Hz []", "Upper frequency limit 0.0 400.0 Hz ['inactive']"]
     assert facts[2:] == ["A020 base_frequency 50 Hz", "<enum 'RunSource'> modbus"]
     decode = ["decode", "hitachi_l200", "--descriptions", str(ROOT / "descriptions")]
-    assert main([*decode, *caplog.messages[:2]]) == 0
+    assert main([*decode, *caplog.messages[:3]]) == 0
     assert "A020 base_frequency = 50 Hz" in capsys.readouterr().out
-    assert caplog.messages[0] == "unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)"
-    assert caplog.messages[1].startswith("unit 1 <- 01 03 02 01 F4 B8 53 after ")
+    assert caplog.messages[0].startswith("unit 1: exception: the device answered exception 02h ")
+    assert caplog.messages[1] == "unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)"
+    assert caplog.messages[2].startswith("unit 1 <- 01 03 02 01 F4 B8 53 after ")
     assert traffic[0].startswith("<Traffic 1 requests, 1 replies; ")
     assert traffic[1] == "1 {} True"
     assert raw == ["500 50.0", "(500,)", "True", "<RunSource.MODBUS: 3>"]

@@ -96,4 +96,4 @@ class Traffic:
         if self._logger is not None:
             level = _WARNING if is_final else _DEBUG
             what = f"not sent: {error.status}" if unsent else error.status
-            self._logger.log(level, "unit %d: %s: %s (%s)", self._unit, what, error, self._names())
+            self._logger.log(level, "unit %d: %s: %s (%s)", self._unit, what, str(error), self._names())
