@@ -36,6 +36,7 @@ mod rule;
 mod scale;
 mod special;
 pub mod text;
+mod trace;
 pub mod transports;
 pub mod uss;
 

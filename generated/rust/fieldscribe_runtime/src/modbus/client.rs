@@ -9,10 +9,11 @@ use super::{
     About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
 };
 use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
+use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
 };
-use crate::{Error, NeedsNothing, Point, Readable, Whole, Writable};
+use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
 
 /// Why a point could not be read or written.
 ///
@@ -149,47 +150,69 @@ impl Unit {
     /// The frame to send and the space for its reply: none if the request goes to all units.
     fn frames(&mut self, request: &Request<'_>) -> Result<(&[u8], &mut [u8]), BuildError> {
         self.length = 0;
-        let length = request.build(self.profile, &mut self.sent)?;
-        let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
-        if self.profile.is_broadcast(request.unit()) {
-            Ok((sent, &mut []))
-        } else {
-            Ok((sent, &mut self.received))
-        }
+        let sent = request.build_in(self.profile, &mut self.sent)?;
+        let is_broadcast = self.profile.is_broadcast(request.unit());
+        let end = if is_broadcast { 0 } else { LONGEST };
+        trace::frame(request.unit(), Way::Sent, None, sent);
+        Ok((sent, self.received.get_mut(..end).unwrap_or_default()))
     }
 
-    /// What the bytes that came say; nothing if the request went to all units.
-    fn reply<D, E>(
-        &mut self,
-        request: &Request<'_>,
-        length: usize,
-    ) -> Result<Option<Reply<'_, D>>, ClientError<E>> {
-        if self.profile.is_broadcast(request.unit()) {
-            return Ok(None);
-        }
-        self.length = length.min(LONGEST);
-        let parsed = if length > LONGEST {
-            Err(wrong_length(length, LONGEST))
-        } else {
-            request.parse_of(self.received())
+    /// Proves that the bytes that came are a reply to the request.
+    fn prove(&mut self, request: &Request<'_>, length: usize) -> Result<(), ReplyError> {
+        self.length = length;
+        trace::frame(request.unit(), Way::Came, None, self.received());
+        let proven = match self.received.get(..length) {
+            Some(received) => request.prove(received),
+            None => Err(wrong_length(length, LONGEST)),
         };
-        match parsed {
-            Ok(reply) => Ok(Some(reply)),
-            Err(error) => Err(ClientError::Reply(
-                self.profile.named(error),
-                Some(request.about()),
-            )),
+        proven.map_err(|error| self.profile.named(error))
+    }
+
+    /// The reply to a request, after it was proven.
+    fn reply<D>(&self, request: &Request<'_>) -> Reply<'_, D> {
+        request.reply(self.received())
+    }
+
+    /// Copies the words of a point, or its bit, out of a reply that was proven.
+    fn copy(&self, request: &Request<'_>, words: &mut [u16]) {
+        for (word, item) in words
+            .iter_mut()
+            .zip(self.reply::<AnyDevice>(request).items())
+        {
+            *word = item;
         }
     }
 
     fn received(&self) -> &[u8] {
-        self.received.get(..self.length).unwrap_or_default()
+        self.received.get(..self.length).unwrap_or(&self.received)
     }
 }
 
-/// The same client twice: what differs is how it waits for the transport.
+/// The same client for each way to wait for the transport.
 macro_rules! client {
-    ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
+    ($client:ident, $transport:ident, $ask:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
+        /// Asks, and proves that the reply in the unit is one to the request; a request to all units has none.
+        $($async)? fn $ask<T: $transport>(
+            transport: &mut T,
+            unit: &mut Unit,
+            request: &mut Request<'_>,
+        ) -> Result<(), ClientError<T::Error>> {
+            unit.number(request);
+            let (sent, space) = match unit.frames(request) {
+                Ok(frames) => frames,
+                Err(error) => return Err(ClientError::Build(error, Some(request.about()))),
+            };
+            let is_for_all = space.is_empty();
+            match transport.exchange(sent, space)$($wait)* {
+                Ok(_) if is_for_all => Ok(()),
+                Ok(length) => match unit.prove(request, length) {
+                    Ok(()) => Ok(()),
+                    Err(error) => Err(ClientError::Reply(error, Some(request.about()))),
+                },
+                Err(error) => Err(ClientError::Transport(error, Some(request.about()))),
+            }
+        }
+
         #[doc = $about]
         #[derive(Debug)]
         pub struct $client<T, D = AnyDevice> {
@@ -250,13 +273,9 @@ macro_rules! client {
                 &mut self,
                 mut request: Request<'_>,
             ) -> Result<Option<Reply<'_, D>>, ClientError<T::Error>> {
-                self.unit.number(&mut request);
-                let about = Some(request.about());
-                let frames = self.unit.frames(&request);
-                let (sent, space) = frames.map_err(|error| ClientError::Build(error, about))?;
-                let answer = self.transport.exchange(sent, space)$($wait)*;
-                let length = answer.map_err(|error| ClientError::Transport(error, about))?;
-                self.unit.reply(&request, length)
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                let is_for_all = self.unit.profile.is_broadcast(request.unit());
+                Ok((!is_for_all).then(|| self.unit.reply(&request)))
             }
 
             /// A point's raw number.
@@ -267,9 +286,17 @@ macro_rules! client {
             where
                 D: Accepts<P::Device>,
             {
-                let request = Request::read::<P>(self.unit.number);
-                let reply = self.answered(request)$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(reply.raw::<P>()?)
+                let mut words = P::Raw::MIN.into_words();
+                self.get::<P>(words.as_mut())$($wait)*?;
+                Ok(P::from_words(words))
+            }
+
+            /// The words of a point, or its bit.
+            $($async)? fn get<P: Readable>(&mut self, words: &mut [u16]) -> Result<(), ClientError<T::Error>> {
+                let mut request = Request::read::<P>(self.unit.number);
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                self.unit.copy(&request, words);
+                Ok(())
             }
 
             /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` gives each point that it brings.
@@ -277,15 +304,9 @@ macro_rules! client {
             /// # Errors
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_block(&mut self, block: &Block<D>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
-                let request = Request::block(self.unit.number, block);
-                self.answered(request)$($wait)*
-            }
-
-            /// The reply to a request that cannot go to all units.
-            $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
-                let about = Some(request.about());
-                let reply = self.exchange(request)$($wait)*?;
-                reply.ok_or(ClientError::Build(BuildError::NotForAll, about))
+                let mut request = Request::block(self.unit.number, block);
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                Ok(self.unit.reply(&request))
             }
 
             read_methods! {
@@ -301,9 +322,8 @@ macro_rules! client {
             /// Writes a raw number that was checked.
             $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
-                let request = Request::write_words::<P>(self.unit.number, words.as_ref());
-                self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(())
+                let mut request = Request::write_words::<P>(self.unit.number, words.as_ref());
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
 
             /// Gives a command, one of `commands`.
@@ -326,12 +346,11 @@ macro_rules! client {
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
-                let read = Request::read::<P>(self.unit.number);
-                let reply = self.answered(read)$($wait)*.map_err(ClientError::of::<P>)?;
-                let word = reply.item(0).ok_or(Error::NotBrought(Some(P::NAME)))?;
-                let write = Request::update::<P>(self.unit.number, word, raw);
-                self.exchange(write)$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(())
+                let mut word = [0];
+                self.get::<P>(&mut word)$($wait)*?;
+                let [word] = word;
+                let mut request = Request::update::<P>(self.unit.number, word, raw);
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
         }
     };
@@ -340,6 +359,7 @@ macro_rules! client {
 client!(
     Client,
     Transport,
+    ask,
     "One unit behind a transport that blocks.",
     [],
     []
@@ -347,6 +367,7 @@ client!(
 client!(
     AsyncClient,
     AsyncTransport,
+    ask_async,
     "One unit behind a transport that does not block.",
     [async],
     [.await]
@@ -354,6 +375,7 @@ client!(
 client!(
     LocalClient,
     LocalTransport,
+    ask_local,
     "One unit behind a transport of one thread, which does not block.",
     [async],
     [.await]

@@ -9,10 +9,11 @@ use crate::{Accepts, AnyDevice, PointInfo, Readable, Space};
 
 /// A function that a device knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Function {
     /// The number in the frame.
     pub number: u8,
-    /// The largest count of items in one request.
+    /// The largest count of items in one request: what the device takes and a frame holds.
     pub most: u16,
     /// Whether it may be sent to all units at once.
     pub broadcast: bool,
@@ -22,9 +23,10 @@ impl Function {
     /// A function and the largest count of items in one request; it may be broadcast if it writes.
     #[must_use]
     pub const fn new(number: u8, most: u16) -> Self {
+        let longest = longest_count(number);
         Self {
             number,
-            most,
+            most: if most < longest { most } else { longest },
             broadcast: writes(number),
         }
     }
@@ -43,7 +45,8 @@ impl Function {
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
     functions: &'static [Function],
-    framings: &'static [Framing],
+    /// Whether it speaks RTU, and TCP.
+    framings: [bool; 2],
     pub(super) units: (u8, u8),
     broadcast: Option<u8>,
     pub(super) pad_coil_bytes_even: bool,
@@ -61,7 +64,7 @@ impl Profile {
     ) -> Self {
         Self {
             functions,
-            framings,
+            framings: spoken(framings),
             units,
             broadcast,
             pad_coil_bytes_even: false,
@@ -81,7 +84,10 @@ impl Profile {
     /// ```
     #[must_use]
     pub const fn with_framings(self, framings: &'static [Framing]) -> Self {
-        Self { framings, ..self }
+        Self {
+            framings: spoken(framings),
+            ..self
+        }
     }
 
     /// The same device, whose exception codes have names.
@@ -111,13 +117,17 @@ impl Profile {
     /// Whether the device speaks the framing.
     #[must_use]
     pub fn speaks(&self, framing: Framing) -> bool {
-        self.framings.contains(&framing)
+        let [rtu, tcp] = self.framings;
+        match framing {
+            Framing::Rtu => rtu,
+            Framing::Tcp => tcp,
+        }
     }
 
     /// Whether the device knows the function.
     #[must_use]
     pub fn knows(&self, function: u8) -> bool {
-        self.most(function).is_some()
+        self.find(function).is_some()
     }
 
     /// Whether a frame to this unit goes to all units, so that none answers.
@@ -126,19 +136,23 @@ impl Profile {
         self.broadcast == Some(unit)
     }
 
-    /// Whether the function may be sent to all units at once.
-    pub(super) fn broadcasts(&self, function: u8) -> bool {
-        self.find(function).is_some_and(|known| known.broadcast)
+    pub(super) fn find(&self, function: u8) -> Option<&Function> {
+        let mut known = self.functions.iter();
+        known.find(|one| one.number == function && one.most > 0)
     }
+}
 
-    pub(super) fn most(&self, function: u8) -> Option<u16> {
-        let known = self.find(function)?;
-        Some(known.most.min(longest_count(function)?))
+/// Whether RTU is among the framings, and whether TCP is.
+const fn spoken(mut framings: &[Framing]) -> [bool; 2] {
+    let [mut rtu, mut tcp] = [false; 2];
+    while let [framing, others @ ..] = framings {
+        match framing {
+            Framing::Rtu => rtu = true,
+            Framing::Tcp => tcp = true,
+        }
+        framings = others;
     }
-
-    fn find(&self, function: u8) -> Option<&Function> {
-        self.functions.iter().find(|one| one.number == function)
-    }
+    [rtu, tcp]
 }
 
 /// A read of consecutive addresses that keeps to the device's limits and holes.

@@ -3,16 +3,9 @@
 
 use core::marker::PhantomData;
 
-use super::function::{is_read, longest_count, read_function, write_function};
+use super::function::{is_of_bits, is_ours, is_read, read_function, write_function};
 use super::{crc, Framing, ReplyError, Request};
 use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, Readable};
-
-#[derive(Clone, Copy, Debug)]
-enum Items<'a> {
-    Words(&'a [u8]),
-    Bits(&'a [u8]),
-    Echo(u16),
-}
 
 /// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +13,8 @@ pub struct Reply<'a, D = AnyDevice> {
     function: u8,
     address: u16,
     count: u16,
-    items: Items<'a>,
+    /// Words with the high byte first, or bits with the first one lowest, and what is behind them.
+    data: &'a [u8],
     device: PhantomData<D>,
 }
 
@@ -34,19 +28,19 @@ impl<D> Reply<'_, D> {
     /// The word, or the bit, of that place in the reply.
     #[must_use]
     pub fn item(&self, place: u16) -> Option<u16> {
+        self.item_of(is_of_bits(self.function), place)
+    }
+
+    fn item_of(&self, is_bit: bool, place: u16) -> Option<u16> {
         if place >= self.count {
             return None;
         }
         let place = usize::from(place);
-        match self.items {
-            Items::Words(bytes) => {
-                let start = place.checked_mul(2)?;
-                let word = bytes.get(start..)?.first_chunk::<2>()?;
-                Some(u16::from_be_bytes(*word))
-            }
-            Items::Bits(bytes) => Some(u16::from(bytes.get(place / 8)? >> (place % 8) & 1)),
-            Items::Echo(value) => Some(value),
+        if is_bit {
+            return Some(u16::from(self.data.get(place / 8)? >> (place % 8) & 1));
         }
+        let word = self.data.get(place.checked_mul(2)?..)?.first_chunk()?;
+        Some(u16::from_be_bytes(*word))
     }
 
     /// All items in their order.
@@ -70,9 +64,10 @@ impl<D> Reply<'_, D> {
         } else {
             return Err(Error::WrongSpace(Some(P::NAME)));
         };
+        let is_bit = is_of_bits(read_function(P::SPACE));
         let offset = address.checked_sub(self.address);
         let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
-        let items = places.map(|places| places.map_while(|place| self.item(place)));
+        let items = places.map(|places| places.map_while(|place| self.item_of(is_bit, place)));
         let raw = items.and_then(|items| P::from_received(items).ok());
         raw.ok_or(Error::NotBrought(Some(P::NAME)))
     }
@@ -106,57 +101,24 @@ impl Request<'_> {
     /// # Errors
     /// Why the bytes are no such reply, or the exception that the device answers with.
     pub fn parse<'b>(&self, bytes: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
-        self.parse_of(bytes)
+        self.prove(bytes)?;
+        Ok(self.reply(bytes))
     }
 
-    /// As `parse`, of a device.
-    #[inline(never)]
-    pub(super) fn parse_of<'b, D>(&self, bytes: &'b [u8]) -> Result<Reply<'b, D>, ReplyError> {
-        if longest_count(self.function).is_none() {
+    /// Whether the bytes are a reply to this request.
+    pub(super) fn prove(&self, bytes: &[u8]) -> Result<(), ReplyError> {
+        if !is_ours(self.function) {
             return Err(ReplyError::BadFunction);
         }
-        // How many bytes are around the data.
-        let (before, after) = match self.framing {
-            Framing::Rtu => (2, 2),
-            Framing::Tcp => (8, 0),
-        };
-        let around = before + after;
-        let head = bytes.get(before - 2..).unwrap_or_default();
-        let &[unit, function, first, ..] = head else {
+        let is_tcp = self.framing == Framing::Tcp;
+        // How many bytes are before the unit, and behind the data.
+        let (start, after) = if is_tcp { (6, 0) } else { (0, 2) };
+        let around = start + 2 + after;
+        let Some(&[unit, function, first, ..]) = bytes.get(start..) else {
             return Err(wrong_length(bytes.len(), around + 1));
         };
-        self.check_frame(bytes, function, first)?;
-        if unit != self.unit {
-            let (expected, received) = (self.unit, unit);
-            return Err(ReplyError::WrongUnit { expected, received });
-        }
-        if function & 0x7F != self.function {
-            let (expected, received) = (self.function, function & 0x7F);
-            return Err(ReplyError::WrongFunction { expected, received });
-        }
-        let data = bytes
-            .get(before..bytes.len().saturating_sub(after))
-            .unwrap_or_default();
-        if function != self.function {
-            return Err(match *data {
-                [code] => ReplyError::Exception { code, name: None },
-                _ => wrong_length(bytes.len(), around + 1),
-            });
-        }
-        if is_read(function) {
-            return self.parse_read(data);
-        }
-        let &[a1, a0, v1, v0] = data else {
-            return Err(wrong_length(bytes.len(), around + 4));
-        };
-        let (address, value) = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
-        self.parse_echo((address, value))
-    }
-
-    /// Whether the bytes are a frame that came unharmed.
-    fn check_frame(&self, bytes: &[u8], function: u8, first: u8) -> Result<(), ReplyError> {
-        let length = match (self.framing, bytes) {
-            (Framing::Tcp, &[_, _, p1, p0, l1, l0, ..]) => {
+        let length = match *bytes {
+            [_, _, p1, p0, l1, l0, ..] if is_tcp => {
                 if [p1, p0] != [0, 0] {
                     return Err(ReplyError::BadProtocol);
                 }
@@ -168,68 +130,76 @@ impl Request<'_> {
         if bytes.len() != length {
             return Err(wrong_length(bytes.len(), length));
         }
-        match (self.framing, bytes) {
-            (Framing::Rtu, _) if crc(bytes) != 0 => Err(ReplyError::BadCrc),
-            (Framing::Tcp, &[high, low, ..]) => {
+        match *bytes {
+            [high, low, ..] if is_tcp => {
                 let (expected, received) = (self.transaction, u16::from_be_bytes([high, low]));
-                if expected == received {
-                    Ok(())
-                } else {
-                    Err(ReplyError::WrongTransaction { expected, received })
+                if expected != received {
+                    return Err(ReplyError::WrongTransaction { expected, received });
                 }
             }
-            _ => Ok(()),
+            _ if crc(bytes) != 0 => return Err(ReplyError::BadCrc),
+            _ => {}
+        }
+        if unit != self.unit {
+            let (expected, received) = (self.unit, unit);
+            return Err(ReplyError::WrongUnit { expected, received });
+        }
+        if function & 0x7F != self.function {
+            let (expected, received) = (self.function, function & 0x7F);
+            return Err(ReplyError::WrongFunction { expected, received });
+        }
+        // What is behind the function, without the checksum.
+        let end = bytes.len().saturating_sub(after);
+        let data = bytes.get(start + 2..end).unwrap_or_default();
+        if function != self.function {
+            return Err(match data.len() {
+                1 => ReplyError::Exception {
+                    code: first,
+                    name: None,
+                },
+                _ => wrong_length(bytes.len(), around + 1),
+            });
+        }
+        if is_read(function) {
+            let expected = if is_of_bits(function) {
+                self.count.div_ceil(8)
+            } else {
+                self.count.saturating_mul(2)
+            };
+            let came = u16::try_from(data.len().saturating_sub(1)).unwrap_or(u16::MAX);
+            let counted = u16::from(first);
+            let received = if counted == expected { came } else { counted };
+            return if received == expected {
+                Ok(())
+            } else {
+                Err(ReplyError::BadByteCount { expected, received })
+            };
+        }
+        let &[a1, a0, v1, v0] = data else {
+            return Err(wrong_length(bytes.len(), around + 4));
+        };
+        let received = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
+        let expected = (self.address, self.echo_value());
+        if received == expected {
+            Ok(())
+        } else {
+            Err(ReplyError::EchoMismatch { expected, received })
         }
     }
 
-    fn parse_read<'b, D>(&self, data: &'b [u8]) -> Result<Reply<'b, D>, ReplyError> {
-        let wide = self.function > 2;
-        let asked = if wide {
-            self.count.saturating_mul(2)
-        } else {
-            self.count.div_ceil(8)
+    /// The reply in bytes that were proven to be one.
+    pub(super) fn reply<'b, D>(&self, bytes: &'b [u8]) -> Reply<'b, D> {
+        let (count, before) = match self.function {
+            1..=4 => (self.count, 3),
+            15.. => (0, 4),
+            _ => (1, 4),
         };
-        let (count, data) = data
-            .split_first()
-            .map_or((0, data), |(count, data)| (u16::from(*count), data));
-        let came = u16::try_from(data.len()).unwrap_or(u16::MAX);
-        if let Some(received) = [count, came].into_iter().find(|one| *one != asked) {
-            let expected = asked;
-            return Err(ReplyError::BadByteCount { expected, received });
-        }
-        let items = if wide {
-            Items::Words(data)
-        } else {
-            Items::Bits(data)
-        };
-        Ok(self.reply(items, self.count))
-    }
-
-    fn parse_echo<D>(&self, received: (u16, u16)) -> Result<Reply<'static, D>, ReplyError> {
-        let several = matches!(self.function, 15 | 16);
-        let sent = if several {
-            self.count
-        } else {
-            self.echo_value()
-        };
-        let expected = (self.address, sent);
-        if received != expected {
-            return Err(ReplyError::EchoMismatch { expected, received });
-        }
-        let value = if self.function == 5 {
-            u16::from(sent != 0)
-        } else {
-            sent
-        };
-        Ok(self.reply(Items::Echo(value), u16::from(!several)))
-    }
-
-    const fn reply<'b, D>(&self, items: Items<'b>, count: u16) -> Reply<'b, D> {
+        let head = if self.framing == Framing::Tcp { 6 } else { 0 };
         Reply {
             function: self.function,
             address: self.address,
             count,
-            items,
+            data: bytes.get(head + before..).unwrap_or_default(),
             device: PhantomData,
         }
     }
@@ -249,21 +219,16 @@ impl Request<'_> {
 #[must_use]
 pub fn reply_length(framing: Framing, head: &[u8]) -> Option<usize> {
     match framing {
-        Framing::Rtu => rtu_reply_length(head),
+        Framing::Rtu => match *head {
+            [_, function, third, ..] if is_ours(function & 0x7F) => {
+                Some(rtu_length(function, third))
+            }
+            _ => None,
+        },
         Framing::Tcp => match *head {
             [_, _, 0, 0, high, low, ..] => Some(usize::from(u16::from_be_bytes([high, low])) + 6),
             _ => None,
         },
-    }
-}
-
-fn rtu_reply_length(head: &[u8]) -> Option<usize> {
-    match head {
-        [_, function, ..] if longest_count(function & 0x7F).is_none() => None,
-        [_, function @ (1..=4), count, ..] => Some(rtu_length(*function, *count)),
-        [_, 1..=4] => None,
-        [_, function, ..] => Some(rtu_length(*function, 0)),
-        _ => None,
     }
 }
 
@@ -278,7 +243,8 @@ fn rtu_length(function: u8, count: u8) -> usize {
 /// What is said of a frame of that length.
 #[cold]
 pub(super) fn wrong_length(length: usize, expected: usize) -> ReplyError {
-    let [received, expected] = [length, expected].map(|one| u16::try_from(one).unwrap_or(u16::MAX));
+    let received = u16::try_from(length).unwrap_or(u16::MAX);
+    let expected = u16::try_from(expected).unwrap_or(u16::MAX);
     if received < expected {
         ReplyError::ShortFrame { expected, received }
     } else {

@@ -3,7 +3,7 @@
 
 use super::function::{is_read, read_function, write_function};
 use super::{crc, About, Block, BuildError, Command, Framing, Profile};
-use crate::{BitGroup, Readable, Whole, Writable};
+use crate::{BitGroup, Point, Readable, Whole, Writable};
 
 /// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
 ///
@@ -38,6 +38,8 @@ pub struct Request<'a> {
     pub(super) address: u16,
     pub(super) count: u16,
     values: Values<'a>,
+    /// The name of the point that it reads or writes.
+    point: Option<&'static str>,
 }
 
 impl Request<'static> {
@@ -52,27 +54,29 @@ impl Request<'static> {
             address,
             count,
             values: Values::Own([0; 4], 0),
+            point: None,
         }
     }
 
     /// A request that reads a point.
     #[must_use]
     pub fn read<P: Readable>(unit: u8) -> Self {
-        Self::new(unit, read_function(P::SPACE), P::ADDRESS, P::WORDS)
+        let request = Self::new(unit, read_function(P::SPACE), P::ADDRESS, P::WORDS);
+        request.of::<P>()
     }
 
     /// A request that writes a point's raw number; [`Request::write_words`] writes texts of more than four words.
     #[must_use]
     pub fn write<P: Writable + Whole>(unit: u8, raw: P::Raw) -> Self {
         let function = writing_function::<P>();
-        Self::own(unit, function, P::WRITE_ADDRESS, P::to_words(raw).as_ref())
+        Self::own(unit, function, P::WRITE_ADDRESS, P::to_words(raw).as_ref()).of::<P>()
     }
 
     /// A request that writes a word back with a group of its bits replaced.
     #[must_use]
     pub fn update<P: Writable + BitGroup>(unit: u8, word: u16, raw: P::Raw) -> Self {
         let function = writing_function::<P>();
-        Self::own(unit, function, P::WRITE_ADDRESS, &[P::insert(word, raw)])
+        Self::own(unit, function, P::WRITE_ADDRESS, &[P::insert(word, raw)]).of::<P>()
     }
 
     /// A request that reads a block.
@@ -106,7 +110,7 @@ impl<'a> Request<'a> {
     /// A request that writes a point's words, as [`Whole::to_words`] gives them.
     #[must_use]
     pub fn write_words<P: Writable + Whole>(unit: u8, words: &'a [u16]) -> Self {
-        Self::write_values(unit, writing_function::<P>(), P::WRITE_ADDRESS, words)
+        Self::write_values(unit, writing_function::<P>(), P::WRITE_ADDRESS, words).of::<P>()
     }
 
     /// A request that writes words, or bits as 0 and 1.
@@ -120,6 +124,15 @@ impl<'a> Request<'a> {
             address,
             count: u16::try_from(values.len()).unwrap_or(u16::MAX),
             values: Values::Lent(values),
+            point: None,
+        }
+    }
+
+    /// The same request, whose errors name the point.
+    const fn of<P: Point>(self) -> Self {
+        Self {
+            point: Some(P::NAME),
+            ..self
         }
     }
 
@@ -135,11 +148,14 @@ impl<'a> Request<'a> {
 
     /// What an error says that it is about.
     pub(super) const fn about(&self) -> About {
-        About::Request {
-            unit: self.unit,
-            function: self.function,
-            address: self.address,
-            count: self.count,
+        match self.point {
+            Some(name) => About::Point(name),
+            None => About::Request {
+                unit: self.unit,
+                function: self.function,
+                address: self.address,
+                count: self.count,
+            },
         }
     }
 
@@ -154,6 +170,15 @@ impl<'a> Request<'a> {
     /// # Errors
     /// Whatever the device would not take, and a buffer that is too small.
     pub fn build(&self, profile: &Profile, buffer: &mut [u8]) -> Result<usize, BuildError> {
+        self.build_in(profile, buffer).map(<[u8]>::len)
+    }
+
+    /// As `build`, and gives the frame.
+    pub(super) fn build_in<'b>(
+        &self,
+        profile: &Profile,
+        buffer: &'b mut [u8],
+    ) -> Result<&'b [u8], BuildError> {
         self.check(profile)?;
         let mut frame = Writer { buffer, length: 0 };
         if self.framing == Framing::Tcp {
@@ -161,30 +186,34 @@ impl<'a> Request<'a> {
             frame.word(0);
             frame.word(0); // the length, which stands below
         }
-        frame.word(u16::from_be_bytes([self.unit, self.function]));
+        frame.byte(self.unit);
+        frame.byte(self.function);
         frame.word(self.address);
         self.build_data(profile, &mut frame);
         if self.framing == Framing::Rtu {
             let crc = crc(frame.written()?);
             frame.word(crc.swap_bytes());
         }
-        let length = frame.written()?.len();
+        let length = frame.length;
         if self.framing == Framing::Tcp {
-            let counted = u16::try_from(length.saturating_sub(6)).unwrap_or(u16::MAX);
             frame.length = 4;
-            frame.word(counted);
+            frame.word(length.wrapping_sub(6));
         }
-        Ok(length)
+        let frame: &[u8] = frame.buffer;
+        frame
+            .get(..usize::from(length))
+            .ok_or(BuildError::BufferTooSmall)
     }
 
     fn check(&self, profile: &Profile) -> Result<(), BuildError> {
         if !profile.speaks(self.framing) {
             return Err(BuildError::BadFraming);
         }
-        let most = profile.most(self.function).ok_or(BuildError::BadFunction)?;
+        let known = profile.find(self.function);
+        let known = known.ok_or(BuildError::BadFunction)?;
         let (least, greatest) = profile.units;
         if profile.is_broadcast(self.unit) {
-            if !profile.broadcasts(self.function) {
+            if !known.broadcast || is_read(self.function) {
                 return Err(BuildError::NotForAll);
             }
         } else if !(least..=greatest).contains(&self.unit) {
@@ -192,7 +221,7 @@ impl<'a> Request<'a> {
         }
         let values = self.values.as_slice();
         let missing = !is_read(self.function) && values.len() != usize::from(self.count);
-        if self.count == 0 || self.count > most || missing {
+        if self.count == 0 || self.count > known.most || missing {
             return Err(BuildError::BadCount);
         }
         let strange = self.function == 8 && self.address != 0;
@@ -207,18 +236,19 @@ impl<'a> Request<'a> {
     }
 
     fn build_data(&self, profile: &Profile, frame: &mut Writer<'_>) {
+        frame.word(self.echo_value());
         let values = self.values.as_slice();
-        if matches!(self.function, 5 | 6 | 8) {
-            return frame.word(self.echo_value());
-        }
-        frame.word(self.count);
         match self.function {
             15 => {
                 let bytes = coil_bytes(self.count, profile.pad_coil_bytes_even);
                 frame.byte(bytes);
-                for place in 0..usize::from(bytes) {
-                    let bits = values.get(place.saturating_mul(8)..);
-                    frame.byte(pack(bits.unwrap_or_default()));
+                let mut byte = 0;
+                for place in 0..usize::from(bytes) * 8 {
+                    let is_set = values.get(place).is_some_and(|bit| *bit != 0);
+                    byte = byte >> 1 | u8::from(is_set) << 7;
+                    if place % 8 == 7 {
+                        frame.byte(byte);
+                    }
                 }
             }
             16 => {
@@ -231,12 +261,13 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// The value as functions 05h, 06h and 08h send it, and as the device repeats it.
+    /// What is behind the address, which a device repeats that is written to: the value of a single item, else the count.
     pub(super) fn echo_value(&self) -> u16 {
-        match (self.function, self.values.as_slice().first()) {
-            (_, None) | (5, Some(0)) => 0,
-            (5, Some(_)) => 0xFF00,
-            (_, Some(value)) => *value,
+        let first = self.values.as_slice().first().copied();
+        match (self.function, first.unwrap_or_default()) {
+            (5, 1..) => 0xFF00,
+            (5 | 6 | 8, value) => value,
+            _ => self.count,
         }
     }
 }
@@ -276,12 +307,6 @@ fn coil_bytes(count: u16, pad_even: bool) -> u8 {
     })
 }
 
-/// The first eight bits as a byte; bits that are missing are 0.
-fn pack(bits: &[u16]) -> u8 {
-    let first = bits.iter().take(8).rev();
-    first.fold(0, |byte, bit| byte << 1 | u8::from(*bit != 0))
-}
-
 const fn low_byte(word: u16) -> u8 {
     let [_, low] = word.to_be_bytes();
     low
@@ -290,15 +315,16 @@ const fn low_byte(word: u16) -> u8 {
 /// Fills a buffer from its start, and counts what it does not hold.
 struct Writer<'a> {
     buffer: &'a mut [u8],
-    length: usize,
+    length: u16,
 }
 
 impl Writer<'_> {
+    #[inline(never)]
     fn byte(&mut self, byte: u8) {
-        if let Some(place) = self.buffer.get_mut(self.length) {
+        if let Some(place) = self.buffer.get_mut(usize::from(self.length)) {
             *place = byte;
         }
-        self.length = self.length.saturating_add(1);
+        self.length = self.length.wrapping_add(1);
     }
 
     #[inline(never)]
@@ -309,7 +335,7 @@ impl Writer<'_> {
     }
 
     fn written(&self) -> Result<&[u8], BuildError> {
-        let written = self.buffer.get(..self.length);
+        let written = self.buffer.get(..usize::from(self.length));
         written.ok_or(BuildError::BufferTooSmall)
     }
 }

@@ -11,6 +11,7 @@ use super::{
 use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
 use crate::error::lead;
 use crate::point::joined;
+use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
 };
@@ -174,6 +175,7 @@ impl Drive {
         if process.is_changed {
             self.process = Process::NOTHING;
         }
+        trace::frame(self.unit, Way::Sent, None, sent);
         Ok((sent, &mut self.received))
     }
 
@@ -188,7 +190,9 @@ impl Drive {
             return Err(BuildError::BadMask);
         }
         let length = broadcast(self.profile, self.link, masks, words, &mut self.sent)?;
-        self.sent.get(..length).ok_or(BuildError::BufferTooSmall)
+        let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
+        trace::frame(self.unit, Way::Sent, None, sent);
+        Ok(sent)
     }
 
     /// The answer in the first bytes that were received; its process data are kept.
@@ -200,6 +204,7 @@ impl Drive {
     ) -> Result<Reply<'_>, ParseError> {
         let received = self.received.get(..length);
         let received = received.ok_or(ParseError::WrongLength)?;
+        trace::frame(self.unit, Way::Came, None, received);
         let reply = request.parse(self.profile, self.link, received);
         // A drive that does not do the task has taken the process data of the telegram all the same.
         let is_about_this = matches!(

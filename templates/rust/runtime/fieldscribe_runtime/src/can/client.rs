@@ -12,6 +12,7 @@ use super::{
 use crate::client::{read_methods, write_methods};
 use crate::error::lead;
 use crate::point::joined;
+use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
 };
@@ -370,6 +371,11 @@ impl Unit {
         Ok((dialogue, frame))
     }
 
+    /// Tells of a frame on the bus.
+    fn trace(&self, way: Way, frame: &Frame) {
+        trace::frame(self.number, way, Some(frame.id()), frame.bytes());
+    }
+
     /// The raw number of a frame that answers about the address, if it answers.
     fn answer(&self, answer: &Message, address: u16, frame: &Frame) -> Option<u16> {
         let content = answer.parse(self.number, frame).ok()?;
@@ -450,12 +456,14 @@ macro_rules! client {
             ) -> Result<u16, ClientError<T::Error>> {
                 let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
                 self.drain()$($wait)*?;
+                self.unit.trace(Way::Sent, &asked);
                 self.transport.send(&asked)$($wait)*.map_err(lost)?;
                 let Some(answer) = dialogue.answer else {
                     return Ok(raw);
                 };
                 for _ in 0..self.unit.patience {
                     let frame = self.transport.receive()$($wait)*.map_err(lost)?;
+                    self.unit.trace(Way::Came, &frame);
                     if let Some(raw) = self.unit.answer(answer, address, &frame) {
                         return Ok(raw);
                     }
@@ -471,6 +479,7 @@ macro_rules! client {
                     let Some(frame) = frame else {
                         break;
                     };
+                    self.unit.trace(Way::Came, &frame);
                     self.listener.hear(&frame);
                 }
                 Ok(())
@@ -558,6 +567,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn listen(&mut self) -> Result<(), ClientError<T::Error>> {
                 let frame = self.transport.receive()$($wait)*.map_err(lost)?;
+                self.unit.trace(Way::Came, &frame);
                 self.listener.hear(&frame);
                 Ok(())
             }

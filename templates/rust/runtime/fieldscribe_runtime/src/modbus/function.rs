@@ -27,16 +27,26 @@ pub const fn write_function(space: Space, count: u16) -> u8 {
     }
 }
 
-/// The largest count that a frame of the function can hold; none for a function that is not ours.
-pub(super) const fn longest_count(function: u8) -> Option<u16> {
+/// The largest count that a frame of the function can hold; 0 for a function that is not ours.
+pub(super) const fn longest_count(function: u8) -> u16 {
     match function {
-        1 | 2 => Some(2000),
-        3 | 4 => Some(125),
-        5 | 6 | 8 => Some(1),
-        15 => Some(1968),
-        16 => Some(123),
-        _ => None,
+        1 | 2 => 2000,
+        3 | 4 => 125,
+        5 | 6 | 8 => 1,
+        15 => 1968,
+        16 => 123,
+        _ => 0,
     }
+}
+
+/// Whether requests of the function are built here, and replies to it parsed.
+pub(super) const fn is_ours(function: u8) -> bool {
+    matches!(function, 1..=6 | 8 | 15 | 16)
+}
+
+/// Whether the items of the function are bits.
+pub(super) const fn is_of_bits(function: u8) -> bool {
+    matches!(function, 1 | 2 | 5 | 15)
 }
 
 pub(super) const fn is_read(function: u8) -> bool {

@@ -53,17 +53,6 @@ pub enum Protocol {
 /// How the frames of an exchange are told apart: the framing of Modbus; none for USS.
 type Frames = Option<Framing>;
 
-/// How many bytes a reply has and how many of them tell that; the length is none if they do not.
-fn length(frames: Frames, head: &[u8]) -> (Option<usize>, usize) {
-    if let Some(framing) = frames {
-        let needed = if framing == Framing::Rtu { 3 } else { 6 };
-        (reply_length(framing, head), needed)
-    } else {
-        let length = head.get(1).map(|length| usize::from(*length) + 2);
-        (length, 2)
-    }
-}
-
 /// Whether a complete reply belongs to the request and came unharmed.
 fn belongs(frames: Frames, request: &[u8], reply: &[u8]) -> bool {
     match frames {
@@ -116,19 +105,22 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Where the bytes go that are still missing; none if the reply is complete, or if what came is no reply.
+    /// Where the bytes go that are still missing; none if the reply is complete, or if what came is no reply. The late
+    /// reply to an earlier transaction is dropped.
     pub fn space(&mut self) -> Option<&mut [u8]> {
-        let end = self.end().min(self.reply.len());
+        let mut end = self.end();
+        if self.length == end && self.is_late() {
+            self.length = 0;
+            end = self.end();
+        }
+        let end = end.min(self.reply.len());
         let space = self.reply.get_mut(self.length..end)?;
         (!space.is_empty()).then_some(space)
     }
 
-    /// Takes so many bytes that came into the space. The late reply to an earlier transaction is dropped.
+    /// Takes so many bytes that came into the space.
     pub fn took(&mut self, count: usize) {
         self.length = self.length.saturating_add(count).min(self.reply.len());
-        if self.length == self.end() && self.is_late() {
-            self.length = 0;
-        }
     }
 
     /// How many bytes have come.
@@ -145,24 +137,27 @@ impl<'a> Answer<'a> {
             || (self.length == self.end() && belongs(self.frames, self.request, self.came()))
     }
 
-    /// Where the reply ends, or where the bytes end that will tell.
+    /// Where the reply ends, or where the bytes end that will tell; what is no reply ends where it is.
     fn end(&self) -> usize {
-        let (length, needed) = length(self.frames, self.came());
-        match length {
-            Some(length) => length,
-            None if self.length < needed => needed,
-            None => self.length,
-        }
+        let came = self.came();
+        let (length, needed) = match self.frames {
+            Some(framing) => {
+                let needed = if framing == Framing::Rtu { 3 } else { 6 };
+                (reply_length(framing, came), needed)
+            }
+            None => (came.get(1).map(|length| usize::from(*length) + 2), 2),
+        };
+        length.unwrap_or(self.length.max(needed))
     }
 
     fn came(&self) -> &[u8] {
         self.reply.get(..self.length).unwrap_or_default()
     }
 
-    /// Whether this is a reply over TCP to another transaction.
+    /// Whether this is a reply over TCP to another transaction; what is no reply ends with its head.
     fn is_late(&self) -> bool {
         self.frames == Some(Framing::Tcp)
-            && matches!(self.came(), [_, _, 0, 0, _, _, ..])
-            && self.request.get(..2) != self.came().get(..2)
+            && self.length > 6
+            && self.request.first_chunk::<2>() != self.came().first_chunk()
     }
 }
