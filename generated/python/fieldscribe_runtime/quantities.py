@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, TypeVar
 from .arguments import shown, whole
 from .errors import NotANumberError, ResultOverflowError, WrongTypeError
 from .fast import (
+    checked,
     from_pattern,
     rounded,
     scaled,
     scaled_by,
-    scaled_by_several,
-    surely_scaled_by,
     to_pattern,
     unchecked,
 )
@@ -79,8 +78,7 @@ class Scaled(Form[float, float]):
         if self.most is not None:
             low, high = max(low, -self.most), min(high, self.most)
         if self.rule.factors:
-            by_others = scaled_by if len(self.rule.factors) == 1 else scaled_by_several
-            return by_others(self.rule, low, high, slow)
+            return checked(scaled_by(self.rule, low, high, slow), (low, high), self.needs, slow)
         return scaled(self.rule.line(NO_RAWS), low, high, slow) if self.rule.is_safe(NO_RAWS, low, high) else slow
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
@@ -89,7 +87,7 @@ class Scaled(Form[float, float]):
         if not isinstance(rule, Rule) or self.most is not None:
             return self.quick_decode(low, high, slow)
         if rule.factors:
-            return surely_scaled_by(rule, low, high, slow)
+            return scaled_by(rule, low, high, slow)
         return unchecked(rule.line(NO_RAWS)) if rule.is_safe(NO_RAWS, low, high) else slow
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
@@ -174,9 +172,10 @@ class Floating(Form[float, float]):
         """What takes the bits for a number, and for an integer."""
         return _BINARY32 if self.wire.bits == 32 else _BINARY64
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return the number that the bits are."""
-        return from_pattern(*self._structs, high, slow)
+        del low, high, slow
+        return from_pattern(*self._structs)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """Return the nearest number of the type within one pair of limits, or any finite one."""

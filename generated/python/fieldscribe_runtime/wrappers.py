@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from .arguments import shown
 from .errors import RangeError, SpecialCodeError, UnknownValueError, WrongTypeError
-from .fast import coded, surely_coded, uncoded
+from .fast import coded, uncoded
 from .forms import Form
 from .special import Special
 
@@ -22,7 +22,7 @@ W = TypeVar("W")
 
 
 _AS_IN_THE_FORM = (
-    *("wire", "needs", "decimals", "codes", "names", "refused", "quick_decode", "sure_decode", "decode_count"),
+    *("wire", "needs", "decimals", "codes", "names", "refused", "sure_decode", "decode_count"),
     *("converted_count", "checked", "limits", "bounds", "shown", "same", "choices", "name_of"),
 )
 
@@ -55,13 +55,9 @@ class _Coded(_Around[R | Special, W]):
         super().__init__(form)
         self.codes = codes
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the special code, else as in the form."""
-        return coded(self.codes.finder, self.form.quick_decode(low, high, slow), slow)
-
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same."""
-        return surely_coded(self.codes.finder, self.form.sure_decode(low, high, slow))
+        """Return the special code, else as in the form."""
+        return coded(self.codes.finder, self.form.sure_decode(low, high, slow))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """As in the form, where that gives no special code."""

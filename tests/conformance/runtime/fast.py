@@ -51,10 +51,11 @@ def check_lists(package: Package) -> None:
     """What is listed, by raw number and by value."""
     fast = package.runtime.fast
     names = package.runtime.NamedNumber("Names", {"ONE": 1})
-    assert fast.listed({1: "one"}, _slow)(1) == "one"
-    assert _is_slow(fast.listed({1: "one"}, _slow), 2, True, 1.0, "1", [1])
-    found = fast.found({1: "one"}, _slow)
-    assert (found(1, {}), found(2, {"a": 1})) == ("one", (SLOW, 2, {"a": 1}))
+    listed = fast.listed({1: "one"}, _slow)
+    assert (listed(1, {}), listed(2, {"a": 1})) == ("one", (SLOW, 2, {"a": 1}))
+    checked = fast.checked(listed, (0, 3), (), _slow)
+    assert checked(1) == "one"
+    assert _is_slow(checked, 2, 4, -1, True, 1.0, "1", [1])
     way = fast.chosen(names, {names.ONE: 1}, _slow)
     assert (way(names.ONE), type(way(names.ONE))) == (1, int)
     assert _is_slow(way, 1, names(2), True)
@@ -93,9 +94,14 @@ def check_scales_of_others(package: Package) -> None:
         return runtime.Rule(num=2, offset=(1, 1), factors=tuple([runtime.Factor(name) for name in names]))
 
     fast, both = runtime.fast, {"a": 5, "b": 3}
+
+    def checked(rule: Any, low: int, high: int, slow: Any) -> Any:
+        names = [factor.point for factor in rule.factors]
+        return fast.checked(fast.scaled_by(rule, low, high, slow), (low, high), names, slow)
+
     for made, names, value in (
-        *((fast.scaled_by, ("a",), 0.6), (fast.scaled_by_several, ("a", "b"), 0.2)),
-        *((fast.surely_scaled_by, ("a",), 0.6), (fast.surely_scaled_by, ("a", "b"), 0.2)),
+        *((checked, ("a",), 0.6), (checked, ("a", "b"), 0.2)),
+        *((fast.scaled_by, ("a",), 0.6), (fast.scaled_by, ("a", "b"), 0.2)),
     ):
         asked: list[float] = []
         rule = rule_of(*names)
@@ -106,7 +112,7 @@ def check_scales_of_others(package: Package) -> None:
         assert asked == [7] * (1 + len(names))
         asked.clear()
         assert (way(0, both) < value, way(9, both) > value, asked) == (True, True, [])
-        if made is fast.surely_scaled_by:
+        if made is fast.scaled_by:
             assert (way(10, both) > value, way(-1, both) < 0, asked) == (True, True, [])
         else:
             assert (way(10, both) > value, way(-1, both) < 0, way(7.0, both), asked) == (
@@ -115,13 +121,13 @@ def check_scales_of_others(package: Package) -> None:
         slow = made(rule, 0, 9, _slow)
         for raws in ({}, {"a": [1], "b": [1]}, None, 5):
             assert slow(7, raws) == (SLOW, 7, raws)
-        if made is not fast.surely_scaled_by:
+        if made is checked:
             way(1, {"a": 1, "b": 1})
             for wrong in ({"a": True, "b": 1}, {"a": 1.0, "b": 1}):
                 asked.clear()
                 assert (refusal(way, 7, wrong).status, asked) == ("wrong_type", [7])
     huge = runtime.Rule(factors=(runtime.Factor("a", ten_to=(-400, 0)),))
-    for made in (fast.scaled_by, fast.surely_scaled_by):
+    for made in (checked, fast.scaled_by):
         way = made(huge, 0, 9, _slow)
         assert [way(1, {"a": -400}) for _ in range(2)] == [(SLOW, 1, {"a": -400})] * 2
 
@@ -129,9 +135,8 @@ def check_scales_of_others(package: Package) -> None:
 def check_patterns(package: Package) -> None:
     """The patterns of IEEE 754 numbers."""
     fast, forms = package.runtime.fast, (struct.Struct("<f"), struct.Struct("<I"))
-    way = fast.from_pattern(*forms, 0xFFFFFFFF, _slow)
-    assert (way(0x3FC00000), way(0), math.isnan(way(0xFFFFFFFF))) == (1.5, 0.0, True)
-    assert _is_slow(way, -1, 1 << 32, 1.5)
+    way = fast.from_pattern(*forms)
+    assert (way(0x3FC00000, {}), way(0, {}), math.isnan(way(0xFFFFFFFF, {}))) == (1.5, 0.0, True)
     back = fast.to_pattern(*forms, -2.0, 1.5, _slow)
     assert [back(value) for value in (1.5, 1, -2, 0.0)] == [0x3FC00000, 0x3F800000, 0xC0000000, 0]
     assert _is_slow(back, 1.6, -2.1, 1e39, 10**400, math.inf, True, "1")
@@ -142,10 +147,9 @@ def check_codes_on_the_way(package: Package) -> None:
     """Special codes before all else, and behind it."""
     fast, codes = package.runtime.fast, package.runtime.Codes({"off": 0, "band": (8, 9)})
     for find in (codes.finder, codes):
-        for plain in (fast.coded(find, fast.same(0, 5, _slow), _slow), fast.surely_coded(find, fast.same(0, 5, _slow))):
-            assert (plain(0, {}), plain(5, {})) == (codes.off, 5)
-            assert plain(6, {}) == (SLOW, 6, {})
-        assert _is_slow(fast.coded(find, fast.same(0, 5, _slow), _slow), 6, 0.0, False, "x", [])
+        plain = fast.coded(find, fast.same(0, 5, _slow))
+        assert (plain(0, {}), plain(5, {}), plain(6, {})) == (codes.off, 5, (SLOW, 6, {}))
+        assert _is_slow(fast.checked(plain, (0, 9), (), _slow), 6, 10, 0.0, False, "x", [])
         back = fast.uncoded(find, fast.same(0, 9, lambda *told: 7), _slow)
         assert [back(number) for number in (1, 5, 12)] == [1, 5, 7]
         assert _is_slow(back, 0, 8)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: 0BSD
 """The quick way through a point: functions that are specialised for its facts.
 
-Each tests inline what is usual (the exact type, one range) and computes; whatever else comes goes the `slow` way, which
-knows every case and words the errors. Both ways give the same bits.
+What decodes is for integers that are known to be raw numbers of the point, as those in frames are; `checked` makes of
+it what takes any argument. The others test inline what is usual (the exact type, one range) and compute. Whatever else
+comes goes the `slow` way, which knows every case and words the errors. Both ways give the same bits.
 """
 
 from __future__ import annotations
@@ -39,23 +40,29 @@ def same(low: int, high: int, slow: Way) -> Way:
     return convert
 
 
-def listed(known: Mapping[int, Any], slow: Way) -> Way:
-    """From raw numbers to what each of them stands for."""
+def checked(sure: Way, ends: tuple[int, int], needs: Sequence[str], slow: Way) -> Way:
+    """From raw numbers of a range by a way for what is known to be one, if those of other points are integers."""
+    low, high = ends
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
         """Return the value (or special code) of a raw number; raises as the point's class says."""
-        if type(raw) is int:
-            try:
-                return known[raw]
-            except KeyError:
-                pass
+        if type(raw) is int and low <= raw <= high:
+            return sure(raw, raws)
         return slow(raw, raws)
 
-    return decode
+    def decode_by_others(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
+        try:
+            is_known = {type(raws[name]) for name in needs} == _INTEGERS
+        except (KeyError, TypeError):
+            is_known = False
+        return decode(raw, raws) if is_known else slow(raw, raws)
+
+    return decode_by_others if needs else decode
 
 
-def found(known: Mapping[int, Any], slow: Way) -> Way:
-    """As `listed` for what is known to be an integer."""
+def listed(known: Mapping[int, Any], slow: Way) -> Way:
+    """From raw numbers to what each of them stands for."""
 
     def decode(raw: int, raws: Raws) -> Any:
         try:
@@ -80,7 +87,7 @@ def chosen(kind: type, known: Mapping[Any, int], slow: Way) -> Way:
 
 
 def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
-    """From raw numbers of a range to values, by a fixed scale."""
+    """As `checked` makes of `unchecked`, in one call: most points have a fixed scale."""
     times, less, over = line
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
@@ -99,7 +106,7 @@ def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
 
 
 def unchecked(line: Line) -> Way:
-    """As `scaled` for what is known to be a raw number of the point."""
+    """From raw numbers to values, by a fixed scale."""
     times, less, over = line
 
     def decode(raw: int, raws: Raws) -> Any:
@@ -118,53 +125,7 @@ def itself(raw: int, raws: Raws) -> int:
 
 
 def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """From raw numbers of a range to values, by a scale that one other point decides: these seldom change."""
-    point = rule.factors[0].point
-    lines: dict[Any, Line] = {}
-    learned = _learner(lines, rule, (low, high), slow)
-
-    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """Return the value (or special code) of a raw number; raises as the point's class says."""
-        try:
-            number = raws[point]
-        except (KeyError, TypeError):
-            return slow(raw, raws)
-        if type(number) is int and type(raw) is int and low <= raw <= high:
-            line = lines.get(number)
-            if line is not None:
-                times, less, over = line
-                return (raw * times - less) / over
-            return learned(number, raw, raws)
-        return slow(raw, raws)
-
-    return decode
-
-
-def scaled_by_several(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """Return the same by a scale that several other points decide."""
-    points = tuple([factor.point for factor in rule.factors])
-    lines: dict[Any, Line] = {}
-    learned = _learner(lines, rule, (low, high), slow)
-
-    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """Return the value (or special code) of a raw number; raises as the point's class says."""
-        try:
-            numbers = tuple([raws[name] for name in points])
-        except (KeyError, TypeError):
-            return slow(raw, raws)
-        if type(raw) is int and low <= raw <= high and {*map(type, numbers)} == _INTEGERS:
-            line = lines.get(numbers)
-            if line is not None:
-                times, less, over = line
-                return (raw * times - less) / over
-            return learned(numbers, raw, raws)
-        return slow(raw, raws)
-
-    return decode
-
-
-def surely_scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """As the two before for what is known to be a raw number of the point."""
+    """From raw numbers to values, by a scale that other points decide: these seldom change."""
     points = tuple([factor.point for factor in rule.factors])
     point = points[0]
     lines: dict[Any, Line] = {}
@@ -230,15 +191,12 @@ def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -
     return encode
 
 
-def from_pattern(number: struct.Struct, word: struct.Struct, high: int, slow: Way) -> Way:
+def from_pattern(number: struct.Struct, word: struct.Struct) -> Way:
     """From the bit patterns of IEEE 754 numbers to those."""
     pack, unpack = word.pack, number.unpack
 
-    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """Return the number that the bits are; raises as the point's class says."""
-        if type(raw) is int and 0 <= raw <= high:
-            return unpack(pack(raw))[0]
-        return slow(raw, raws)
+    def decode(raw: int, raws: Raws) -> Any:
+        return unpack(pack(raw))[0]
 
     return decode
 
@@ -261,20 +219,8 @@ def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: flo
     return encode
 
 
-def coded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
+def coded(find: Callable[[int], Special | None], plain: Way) -> Way:
     """From raw numbers to special codes, else the `plain` way."""
-
-    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """Return the value (or special code) of a raw number; raises as the point's class says."""
-        if type(raw) is int:
-            return find(raw) or plain(raw, raws)
-        return slow(raw, raws)
-
-    return decode
-
-
-def surely_coded(find: Callable[[int], Special | None], plain: Way) -> Way:
-    """As `coded` for what is known to be a raw number of the point."""
 
     def decode(raw: int, raws: Raws) -> Any:
         return find(raw) or plain(raw, raws)

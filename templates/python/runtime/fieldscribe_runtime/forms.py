@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .arguments import integral, shown, whole
 from .errors import CodecError, RangeError, UnknownValueError, WrongTypeError
-from .fast import chosen, found, itself, listed, same
+from .fast import checked, chosen, itself, listed, same
 from .records import Record
 from .rules import Bound, Raws, decimal_text, high_end, low_end
 from .special import NO_CODES
@@ -79,12 +79,13 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return a function that decodes raw numbers from `low` to `high` quickly, and others the slow way."""
-        del low, high
-        return slow
+        sure = self.sure_decode(low, high, slow)
+        return slow if sure is slow else checked(sure, (low, high), self.needs, slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same for what is known to be a number from `low` to `high`."""
-        return self.quick_decode(low, high, slow)
+        """Return the same for what is known to be a number from `low` to `high`; it takes `raws` by position."""
+        del low, high
+        return slow
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """Return a function that encodes usual values quickly, and leaves the rest to the slow way."""
@@ -152,12 +153,8 @@ class Integer(Form[int, int]):
     def __init__(self, wire: Type) -> None:
         self.wire = wire
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the raw number itself."""
-        return same(low, high, slow)
-
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the raw number itself, whatever it is."""
+        """Return the raw number itself."""
         del low, high, slow
         return itself
 
@@ -184,13 +181,9 @@ class Bit(Form[bool, bool]):
 
     wire = BIT
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Both states as they are listed."""
         return listed({0: False, 1: True}, slow)
-
-    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same."""
-        return found({0: False, 1: True}, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """Both states as they are listed, if both may be written."""
@@ -237,13 +230,9 @@ class Named(Form[E, E]):
         if closed:
             self.refused = UnknownValueError
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return the members as they are listed, and others as they came before."""
         return listed(_Members(self, low, high), slow)
-
-    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same."""
-        return found(_Members(self, low, high), slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """Return the members that may be written, as they are listed."""
@@ -305,13 +294,9 @@ class Flags(Form[F, F]):
         self.wire = wire
         self.names = names
 
-    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return words that have come before, as they were then."""
         return listed(_Members(self, low, high), slow)
-
-    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same."""
-        return found(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:
         """Return all bits of the word."""
