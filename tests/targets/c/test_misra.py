@@ -9,7 +9,7 @@ from misra.misra import TABLE, differences, found, written
 from support.toolchains import tool
 
 
-@pytest.mark.full(seconds=35)
+@pytest.mark.full(seconds=15)
 def test_the_table_is_true(tmp_path: Path) -> None:
     """`make misra` says what differs; `--accept` counts again."""
     tool("cppcheck")
