@@ -23,8 +23,8 @@ def test_the_same_seed_makes_the_same_cases() -> None:
 
 @pytest.mark.full(seconds=5)
 def test_descriptions_and_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Mutated descriptions and random words end in findings, never in a traceback."""
-    found = run.table(run.everything(SEED, tmp_path, mutants=400, lines=100), SEED)
+    """Random words end in findings, never in a traceback; test_robust has more of the same mutants."""
+    found = run.table(run.everything(SEED, tmp_path, mutants=40, lines=100), SEED)
     assert found == 0, capsys.readouterr().out
 
 

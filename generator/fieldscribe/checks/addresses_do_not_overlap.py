@@ -44,13 +44,15 @@ class _Overlaps:
     def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
         """Add a point at the address that it has by this key."""
         others = self.taken.setdefault(word_key(self._analysis, resolved.point, address), [])
-        if others:
-            self._compare(resolved, others, address, key)
-        others.append(resolved)
-
-    def _compare(self, resolved: ResolvedPoint, others: list[ResolvedPoint], address: int, key: str) -> None:
-        rows, report = self._reported_rows, self._analysis.report
+        rows = self._reported_rows
         fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in rows]
+        if fresh:
+            self._compare(resolved, fresh, address, key)
+        if len(fresh) == len(others):  # a reported row needs no more of its points here
+            others.append(resolved)
+
+    def _compare(self, resolved: ResolvedPoint, fresh: list[ResolvedPoint], address: int, key: str) -> None:
+        rows, report = self._reported_rows, self._analysis.report
         rivals = [other for other in fresh if self._overlap(resolved, other)]
         place = _place_in_words(self._analysis, resolved.point, address)
         if rivals:
