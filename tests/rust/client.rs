@@ -11,7 +11,7 @@ use std::task::{Context, Poll, Wake, Waker};
 use fieldscribe_runtime::client::{AsyncTransport, ClientError, LocalTransport, Transport};
 use fieldscribe_runtime::modbus::{crc, reply_length, About, BuildError, Framing, Profile, ReplyError, Request};
 use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, AsyncClient, Client, Error, LocalClient};
-use sample_drive::{PointInfo, Readable, POINTS, PROFILE};
+use sample_drive::{Readable, POINTS, PROFILE};
 
 /// Requests that came, and replies to give, as hexadecimal PDUs behind the unit.
 struct Line {
@@ -172,11 +172,33 @@ fn a_gateway_speaks_another_framing() {
 }
 
 fn points_are_found_by_name_and_code() {
-    let found = PointInfo::find(POINTS, "base_frequency").unwrap();
+    let found = POINTS.find("base_frequency").unwrap();
     assert_eq!((found.address, found.unit, found.decimals), (0x1028, "Hz", 1));
     assert_eq!(found.access, Access::ReadWrite);
-    assert_eq!(found.code.and_then(|code| PointInfo::find(POINTS, code)), Some(found));
-    assert_eq!(PointInfo::find(POINTS, "base frequency"), None);
+    assert_eq!(found.code.and_then(|code| POINTS.find(code)), Some(found));
+    assert_eq!(POINTS.find("base frequency"), None);
+}
+
+/// What a point as data needs is read first, and an error says what is wrong with a value.
+fn points_are_read_and_written_as_data() {
+    let line = || Line::new(Framing::Rtu, &["0103020190", "01030201f4"]);
+    let point = |name| POINTS.find(name).unwrap();
+    let voltage = point("voltage_setpoint");
+    let mut client = Client::new(line(), Framing::Rtu, 1);
+    assert_eq!(client.read_point(voltage), Ok(500.0.into()));
+    assert_eq!(finish(AsyncClient::new(Slow(line()), Framing::Rtu, 1).read_point(voltage)), Ok(500.0.into()));
+    let shared = Shared(Rc::new(RefCell::new(line())));
+    assert_eq!(finish(LocalClient::new(shared, Framing::Rtu, 1).read_point(voltage)), Ok(500.0.into()));
+    for (name, value, text) in [
+        ("base_frequency", "fast", "the value is not a number"),
+        ("base_frequency", "500", "500 Hz is outside 0 to 400 Hz (raw 0 to 4000)"),
+        ("temperature", "no_sensor", "the number is the special code no_sensor and no quantity, which is only read"),
+        ("power", "1", "the point is only read"),
+        ("running", "1", "the point is only read"),
+    ] {
+        let error = client.write_point(point(name), value).unwrap_err();
+        assert_eq!(error.to_string(), format!("{name}: {text}"));
+    }
 }
 
 /// What an error says, and what its sources say: nothing twice.
@@ -238,6 +260,8 @@ fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
     send(client.write::<points::BaseFrequency>(50.0));
     send(client.update::<points::DelayClass>(3));
     send(with::VoltageSetpoint::read_async(client));
+    send(client.read_point(POINTS.find("A020").unwrap()));
+    send(client.write_point(POINTS.find("A020").unwrap(), 50.0));
 }
 
 fn main() {
@@ -251,5 +275,6 @@ fn main() {
     needs_are_read();
     a_gateway_speaks_another_framing();
     points_are_found_by_name_and_code();
+    points_are_read_and_written_as_data();
     errors_say_all_once_and_name_the_point();
 }

@@ -238,7 +238,7 @@ def test_the_table_has_every_point_once(name: str) -> None:
     device = MODELS[name]()
     text = sources(device)["lib.rs"]
     found = re.search(
-        r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL
+        r"pub const POINTS: runtime::Points<\w+> = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL
     )
     assert found
     assert found[1].split() == [subject.name for subject in scope_of(device).subjects]

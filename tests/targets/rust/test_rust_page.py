@@ -35,10 +35,10 @@ DEVICES = {
     "hitachi_l200": (),
     "siemens_mm4": ("P1082",),
     "woodward_mpu2s": ("generator_frequency*", "voltage_controller", "operating_hours", "telegram_identification"),
-    "jumo_controller": ("process_data",),
-    "nord_sk5xxe": ("P102",),
+    "jumo_controller": (),
+    "nord_sk5xxe": (),
 }
-"""What is vendored: a whole device, and points of the others."""
+"""What is vendored: whole devices on Modbus, and points of the others."""
 
 AROUND = """\
 #![allow(unused)]
@@ -61,8 +61,8 @@ CALLS = {
 }
 """How a block that only declares a function or a type is used."""
 
-PLACES = {"192.168.0.20:4001": "RTU", "192.168.0.20:502": "TCP", "/dev/ttyUSB0": "TTY"}
-"""The addresses on the page, and where a program finds those of the test."""
+PLACES = {"192.168.0.20:4001": "RTU", "192.168.0.20:502": "TCP", "/dev/ttyUSB0": "TTY", "points.txt": "POINTS"}
+"""The addresses and the file on the page, and where a program finds those of the test."""
 
 
 def program(block: str) -> str:
@@ -136,7 +136,10 @@ def serial_line(port: int) -> Iterator[str]:
     "name",
     [
         pytest.param("tcp", marks=pytest.mark.full(seconds=25)),  # builds them all
-        *(pytest.param(name, marks=pytest.mark.full(seconds=1)) for name in ("stream", "tokio", "embedded", "can")),
+        *(
+            pytest.param(name, marks=pytest.mark.full(seconds=1))
+            for name in ("stream", "tokio", "embedded", "can", "by_name")
+        ),
     ],
 )
 def test_transports(project: Path, name: str) -> None:
@@ -147,18 +150,20 @@ def test_transports(project: Path, name: str) -> None:
 
 
 @pytest.mark.full(seconds=1)
-def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_programs_of_the_page_run(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     programs = sorted((project.parent / "built").glob("page_??"))
     assert len(programs) == len(BLOCKS["rust"])
     printed = []
     with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp:
         monkeypatch.setenv("RTU", f"127.0.0.1:{rtu}")
         monkeypatch.setenv("TCP", f"127.0.0.1:{tcp}")
+        monkeypatch.setenv("POINTS", str(tmp_path / "points.txt"))
+        (tmp_path / "points.txt").write_text("A020\nrun_source\n", encoding="utf-8")
         for place in programs:
             with serial_line(rtu) as path:  # programs keep a port to themselves
                 monkeypatch.setenv("TTY", path)
                 printed.append(succeed([place]).splitlines())
-    first, serial, many, values, by_address, by_name, chosen, failing, gateway, *printed = printed
+    first, serial, many, values, by_address, from_file, by_name, chosen, failing, gateway, *printed = printed
     shared, own, tokio, anew, uart, genset = printed
     assert first == serial == anew == ["0.1 Hz"]
     assert shared == ["0.1", "0.1"]
@@ -167,13 +172,14 @@ def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyP
     assert many == ["0.1 Hz", "0.1 A"]
     assert values == ["Modbus 500", "50 Ok(500)", "500", "inactive", "None"]
     assert by_address == ["Some(500)"]
-    assert by_name == ["base_frequency at 1028h in Hz"]
-    assert chosen == ["base_frequency: [500]"]
+    assert from_file == ["Base frequency: 50 Hz", "Run source: modbus "]
+    assert by_name == ["base_frequency at 1028h: Some((0.0, 400.0)) Hz", "Number(50.0) 500"]
+    assert chosen == ["base_frequency: 50"]
     assert failing[0] == "0.1"
     assert f"// {failing[1]}\n" in PAGE
     assert failing[2].endswith(" A")
     assert uart == ["Ok(0.7)"]
-    assert genset == ["49.98 Hz", "Ok(())"]
+    assert genset == ["49.98 Hz", "49.98 Hz", "Ok(())"]
 
 
 def test_the_readme_has_the_first_program() -> None:

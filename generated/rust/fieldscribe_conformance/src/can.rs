@@ -7,10 +7,14 @@ use fieldscribe_runtime::can::{
     self, AsyncClient, Client, ClientError, Frame, Message, Parameter, ParseError, Profile,
     Received, Receiver, Telegram,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{
+    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+};
 
 pub use super::can_clients::check;
-use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
+use super::{
+    bytes, data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector,
+};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
@@ -106,7 +110,12 @@ where
     P: Readable<Raw: Number> + Parameter,
 {
     let found = both!(vector, profile, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))
+    same(vector.number("raw"), found.map(Number::to_number))?;
+    if let Some(value) = data_of::<P>(vector) {
+        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+        same(Some(value), found)?;
+    }
+    Ok(())
 }
 
 /// A text's words.
@@ -134,6 +143,10 @@ where
         .map_err(Error::name)?;
     both!(vector, profile, |client| client
         .write_with::<P>(value, with));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 
@@ -161,6 +174,10 @@ where
         .into_result()
         .map_err(Error::name)?;
     both!(vector, profile, |client| client.update::<P>(value));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 
@@ -248,6 +265,10 @@ where
     match receiver.raw::<P>() {
         Ok(raw) => {
             same(vector.text("status").as_str(), "ok")?;
+            if let Some(value) = data_of::<P>(vector) {
+                let point = PointInfo::new(P::FACTS);
+                same(Ok(value), receiver.value_of(point))?;
+            }
             same(vector.raw("raw"), raw)
         }
         Err(error) => {

@@ -11,9 +11,9 @@ use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
 use fieldscribe_runtime::flags::{show, Flag, Flags};
 use fieldscribe_runtime::form::floating::Pattern;
 use fieldscribe_runtime::{
-    digits, in_address_order, in_reading_order, point_table, quantity, text, written, Code, Coded,
-    CountWritable, Digits, Encodable, Error, Outside, PointInfo, Raw, Reading, Refused, Rule,
-    Space, Special, Text, Whole,
+    digits, in_address_order, in_reading_order, point_table, quantity, text, written, AnyDevice,
+    Code, Coded, CountWritable, Digits, Encodable, Error, Outside, Points, Raw, Reading, Refused,
+    Rule, Space, Special, Text, Whole,
 };
 
 /// A point that is a plain number; the greatest of its type may not be.
@@ -1034,7 +1034,7 @@ mod told {
 }
 
 fn tables() {
-    const POINTS: &[PointInfo] = point_table! { told: Bits Level Plain Neither };
+    const POINTS: Points = point_table! { told: Bits Level Plain Neither };
     let places: Vec<_> = POINTS.iter().map(|one| (one.space, one.address)).collect();
     assert_eq!(
         places,
@@ -1046,7 +1046,7 @@ fn tables() {
         ]
     );
     let beside = |name| {
-        let found = PointInfo::find(POINTS, name)?;
+        let found = POINTS.find(name)?;
         Some((
             found.name,
             found.words,
@@ -1062,7 +1062,10 @@ fn tables() {
     );
     assert_eq!(beside("b1"), beside("bits"));
     assert_eq!(beside("level"), Some(("level", 2, None, Some(3), None)));
-    assert_eq!((beside("b"), PointInfo::find(&[], "bits")), (None, None));
+    assert_eq!(
+        (beside("b"), Points::<AnyDevice>::new(&[]).find("bits")),
+        (None, None)
+    );
     let meant = POINTS.iter().map(|one| (one.code, one.unit, one.decimals));
     let plain = [(None, "Hz", 0), (None, "", 0)];
     let coded = [(Some("b1"), "", 0), (Some("bits"), "kPa", 1)];

@@ -18,6 +18,7 @@ pub mod arithmetic;
 pub mod can;
 pub mod check;
 pub mod client;
+pub mod data;
 mod device;
 pub mod digits;
 mod display;
@@ -41,12 +42,13 @@ pub mod transports;
 pub mod uss;
 
 pub use client::{AsyncTransport, LocalTransport, Transport};
+pub use data::{AnyValue, PointFacts};
 pub use device::{Accepts, AnyDevice, Device};
 pub use display::{Displayed, Shown};
 pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;
-pub use info::{Access, PointInfo};
+pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
     CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, NeedsNothing, Point,

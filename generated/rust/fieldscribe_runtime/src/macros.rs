@@ -91,6 +91,12 @@ macro_rules! point {
             $(const DISPLAY_DECIMALS: Option<u32> = Some($display);)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
             const ACCESS: $crate::Access = $crate::point!(@access $(r $read)? $(w $write)?);
+            const FACTS: &'static $crate::data::PointFacts = &$crate::data::PointFacts::of::<Self>()
+                .formed($crate::point!(@data $form $value))
+                $(.within($low as i128, $high as i128))?
+                $(.coded($crate::point!(@coded $codes)))?
+                $(.reading($crate::point!(@reading $read)))?
+                $(.writing($crate::point!(@writing $form $write)))?;
             $(
                 const GROUP: Option<u16> = Some($mask);
 
@@ -110,6 +116,55 @@ macro_rules! point {
         $(impl $trait for $name { $($member)* })*
         $crate::point!(@numberings $name $($numbering $number_type, $number;)*);
     };
+
+    (@data named $value:ty) => { $crate::data::Form::Named(<$value>::NAMES) };
+    (@data scaled $value:ty) => { $crate::data::Form::Scaled($crate::data::DataScale::of::<Self>()) };
+    (@data wide $value:ty) => { $crate::point!(@data scaled $value) };
+    (@data ruled $value:ty) => { $crate::data::Form::Ruled($crate::data::ruled::<Self>) };
+    (@data floating $value:ty) => { $crate::data::Form::Floating };
+    (@data text $value:ty) => { $crate::data::Form::Text };
+    (@data $form:ident $value:ty) => { $crate::data::Form::Plain };
+
+    (@coded $codes:tt) => { &<Self as $crate::Coded>::CODES };
+
+    (@reading { $(count $count:ty;)? $(with $factors:ty;)? }) => {
+        <$crate::point!(@first $($factors,)? (),) as $crate::data::Needs>::points
+    };
+
+    (@writing $form:ident {
+        $(count $count:ty;)?
+        $(with $with:ty;)?
+        $(closed $closed:literal;)?
+        $(in [$($first:literal $(..=$last:literal)?)|+];)?
+        $(ranges $ranges:tt;)?
+        $(limits |$others:ident| $limits:tt;)?
+        $(check $check:path;)?
+        $(function $function:literal;)?
+        $(values $values:tt;)?
+    }) => {
+        $crate::data::Writing {
+            ranges: &[$($(($first as i128, $crate::point!(@last $first $($last)?))),+)?],
+            is_closed: $crate::point!(@any $($closed)?),
+            needs: <$crate::point!(@first $($with,)? (),) as $crate::data::Needs>::points,
+            check: $crate::point!(@checking $form $($limits)?),
+            encode: $crate::point!(@encoding $form $($values)?),
+            function: $crate::point!(@some $($function)?),
+        }
+    };
+
+    (@last $first:literal) => { $first as i128 };
+    (@last $first:literal $last:literal) => { $last as i128 };
+    (@any) => { false };
+    (@any $closed:literal) => { $closed };
+    (@some) => { None };
+    (@some $function:literal) => { Some($function) };
+    (@checking floating) => { Some($crate::data::checked::<Self>) };
+    (@checking digits) => { Some($crate::data::checked::<Self>) };
+    (@checking $form:ident) => { None };
+    (@checking $form:ident $limits:tt) => { Some($crate::data::checked::<Self>) };
+    (@encoding ruled) => { Some($crate::data::encoded::<Self>) };
+    (@encoding floating) => { Some($crate::data::encoded::<Self>) };
+    (@encoding $form:ident $($values:tt)?) => { None };
 
     (@meaning value $value:ty, $raw:ty) => { $value };
     (@meaning value_or_error $value:ty, $raw:ty) => { $value };
@@ -388,6 +443,8 @@ macro_rules! read_by_clients {
                 LocalClient LocalTransport [$($parameter: $bound)?] $($field $point)+
             );
         }
+
+        $crate::needed_points!($name: $($field $point)+);
     };
     (@got [] $raw:expr) => { $raw? };
     (@got [.await] $raw:expr) => { $raw.await? };
@@ -405,6 +462,23 @@ macro_rules! read_by_clients {
             Ok(Self {
                 $($field: $crate::read_by_clients!(@got $wait client.read_raw::<super::points::$point>()),)+
             })
+        }
+    };
+}
+
+/// The points whose raw numbers a struct in the module `with` holds.
+#[macro_export]
+macro_rules! needed_points {
+    ($name:ident: $($field:ident $point:ident)+) => {
+        impl $crate::data::Needs for $name {
+            fn points() -> &'static [&'static $crate::data::PointFacts] {
+                const { &[$(<super::points::$point as $crate::Point>::FACTS),+] }
+            }
+
+            fn from_raws(raws: &[i128]) -> Option<Self> {
+                let mut raws = raws.iter();
+                Some(Self { $($field: $crate::Raw::from_i128(*raws.next()?)?,)+ })
+            }
         }
     };
 }

@@ -2,6 +2,7 @@
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
 use crate::arithmetic::{extract, extract_signed, insert};
+use crate::data::PointFacts;
 use crate::info::{Access, PointInfo};
 use crate::scale::Scale;
 use crate::{Error, Raw, Rule};
@@ -69,7 +70,7 @@ impl Space {
 }
 
 /// One addressable datum of a device.
-pub trait Point {
+pub trait Point: Sized {
     /// The device that has the point; [`AnyDevice`](crate::AnyDevice) if it is not known which.
     type Device;
     /// The number on the wire.
@@ -118,21 +119,10 @@ pub trait Point {
     const IS_GROUPED: bool = Self::GROUP.is_some();
     /// Whether the device answers with the point, and whether it takes it.
     const ACCESS: Access = Access::None;
-    /// What a table says of the point.
-    const INFO: PointInfo = PointInfo {
-        name: Self::NAME,
-        code: Self::CODE,
-        space: Self::SPACE,
-        address: Self::ADDRESS,
-        words: Self::WORDS,
-        mask: Self::GROUP,
-        index: Self::INDEX,
-        telegram: Self::TELEGRAM,
-        unit: Self::UNIT,
-        decimals: Self::DECIMALS,
-        display_decimals: Self::DISPLAY_DECIMALS,
-        access: Self::ACCESS,
-    };
+    /// The point as data.
+    const INFO: PointInfo<Self::Device> = PointInfo::new(Self::FACTS);
+    /// What a table knows of the point.
+    const FACTS: &'static PointFacts = &PointFacts::of::<Self>();
 
     /// The raw number from the point's words, in the order of their addresses.
     #[inline]
@@ -429,7 +419,7 @@ pub trait CountWritable: Writable {
     }
 }
 
-const fn low_word(bits: u32) -> u16 {
+pub(crate) const fn low_word(bits: u32) -> u16 {
     let [_, _, high, low] = bits.to_be_bytes();
     u16::from_be_bytes([high, low])
 }

@@ -90,7 +90,7 @@ pub use fieldscribe_runtime as runtime;
 pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Function, Profile};
@@ -116,8 +116,8 @@ pub const VERSION_NUMBER: u32 = 1_000_000;
 /// The digest of the description's facts.
 pub const DIGEST: &str = "ef54be83e9088e80df83909194c4312c14db0cdb77f384692d5911306e061cea";
 
-/// All points, to list them or to find one at run time: [`PointInfo::find`].
-pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+/// All points as data: to list them, or to find one at run time by its name or code: `POINTS.find("...")`.
+pub const POINTS: runtime::Points<HitachiL200> = runtime::point_table! { points:
     RunCommand
     DirectionCommand
     ExternalTrip
@@ -355,6 +355,9 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     StabilizationConstant
     StabilizationConstantSet2
 };
+
+/// A point of the device as data.
+pub type PointInfo = runtime::PointInfo<HitachiL200>;
 
 /// The device: its points, its blocks and its clients name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -77,7 +77,7 @@ pub use fieldscribe_runtime as runtime;
 pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Function, Profile};
@@ -103,8 +103,8 @@ pub const VERSION_NUMBER: u32 = 1_000_000;
 /// The digest of the description's facts.
 pub const DIGEST: &str = "8555fae2d35acf7b32b3f57063785245cf9963d3e5a792c2854bdcb1e100b138";
 
-/// All points, to list them or to find one at run time: [`PointInfo::find`].
-pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+/// All points as data: to list them, or to find one at run time by its name or code: `POINTS.find("...")`.
+pub const POINTS: runtime::Points<JumoController> = runtime::point_table! { points:
     ProgramStatus
     ControllerStatus
     BinaryOutputs
@@ -130,6 +130,9 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     OperationCommands
     TimerCommands
 };
+
+/// A point of the device as data.
+pub type PointInfo = runtime::PointInfo<JumoController>;
 
 /// The device: its points, its blocks and its clients name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -79,7 +79,7 @@ pub use fieldscribe_runtime as runtime;
 pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Function, Profile};
@@ -105,8 +105,8 @@ pub const VERSION_NUMBER: u32 = 1_000_000;
 /// The digest of the description's facts.
 pub const DIGEST: &str = "57363088b6e63cc9e0a86a566d6337ea4f886e1be4aab7705f3d9694d11d2b9c";
 
-/// All points, to list them or to find one at run time: [`PointInfo::find`].
-pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+/// All points as data: to list them, or to find one at run time by its name or code: `POINTS.find("...")`.
+pub const POINTS: runtime::Points<NordSk5xxe> = runtime::point_table! { points:
     ControlWord
     Setpoint1
     Setpoint2
@@ -120,6 +120,9 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     ActualValue4
     ActualValue5
 };
+
+/// A point of the device as data.
+pub type PointInfo = runtime::PointInfo<NordSk5xxe>;
 
 /// The device: its points, its blocks and its clients name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -80,7 +80,7 @@ pub use fieldscribe_runtime as runtime;
 pub use fieldscribe_runtime::uss::{ClientError, Link};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::uss::{FixedBits, Profile, Task};
@@ -106,8 +106,8 @@ pub const VERSION_NUMBER: u32 = 1_000_000;
 /// The digest of the description's facts.
 pub const DIGEST: &str = "f5ceb9d464d99f73f07bbc8a84446a24afeb7e6baac5a017a7e5859c9dcd0016";
 
-/// All points, to list them or to find one at run time: [`PointInfo::find`].
-pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+/// All points as data: to list them, or to find one at run time by its name or code: `POINTS.find("...")`.
+pub const POINTS: runtime::Points<SiemensMm4> = runtime::point_table! { points:
     UserAccessLevel
     InverterStatusWord
     CommandSource
@@ -151,6 +151,9 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     MainActualValue
     SecondStatusWord
 };
+
+/// A point of the device as data.
+pub type PointInfo = runtime::PointInfo<SiemensMm4>;
 
 /// The device: its points, its blocks and its clients name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -4,6 +4,8 @@
 
 //! Arguments of points whose scale or limits depend on other points: the raw numbers of those, read at run time.
 
+use fieldscribe_runtime as runtime;
+
 /// Raw numbers that `main_setpoint` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainSetpoint {
@@ -14,6 +16,8 @@ pub struct MainSetpoint {
     pub reference_frequency: u32,
 }
 
+impl runtime::data::Needs for MainSetpoint {}
+
 /// Raw numbers that `main_actual_value` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainActualValue {
@@ -23,3 +27,5 @@ pub struct MainActualValue {
     /// The raw number of [`ReferenceFrequency`](crate::points::ReferenceFrequency).
     pub reference_frequency: u32,
 }
+
+impl runtime::data::Needs for MainActualValue {}

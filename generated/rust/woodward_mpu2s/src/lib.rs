@@ -95,7 +95,7 @@ pub use fieldscribe_runtime as runtime;
 pub use fieldscribe_runtime::can::{AsyncTransport, ClientError, Frame, Listener};
 pub use fieldscribe_runtime::can::{LocalTransport, Receiver, Transport};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
-pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::can::{Dialogue, Message, Profile};
@@ -121,8 +121,8 @@ pub const VERSION_NUMBER: u32 = 1_000_000;
 /// The digest of the description's facts.
 pub const DIGEST: &str = "1519d8e6aff188a2a34f99a31e05d7aa1c7433fc305b7818bf4f79f80ef1ee10";
 
-/// All points, to list them or to find one at run time: [`PointInfo::find`].
-pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+/// All points as data: to list them, or to find one at run time by its name or code: `POINTS.find("...")`.
+pub const POINTS: runtime::Points<WoodwardMpu2s> = runtime::point_table! { points:
     TelegramIdentification
     GeneratorFrequency
     GeneratorActivePower
@@ -393,6 +393,9 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     MonitoringStartFrequency
 };
 
+/// A point of the device as data.
+pub type PointInfo = runtime::PointInfo<WoodwardMpu2s>;
+
 /// The device: its points, its blocks and its clients name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WoodwardMpu2s;
@@ -536,6 +539,7 @@ pub mod telegrams {
     pub struct Visualisation;
 
     impl can::Telegram for Visualisation {
+        type Device = super::WoodwardMpu2s;
         const NAME: &'static str = "visualisation";
         const MESSAGE: &'static can::Message = &messages::VISUALISATION;
         const PROFILE: &'static can::Profile = &super::PROFILE;

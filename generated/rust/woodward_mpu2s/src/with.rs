@@ -13,6 +13,11 @@ pub struct GeneratorActivePower {
     pub generator_power_exponent: i8,
 }
 
+runtime::needed_points! {
+    GeneratorActivePower:
+    generator_power_exponent GeneratorPowerExponent
+}
+
 /// Raw numbers that `present_active_power_setpoint` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PresentActivePowerSetpoint {
@@ -22,11 +27,22 @@ pub struct PresentActivePowerSetpoint {
     pub generator_power_exponent: i8,
 }
 
+runtime::needed_points! {
+    PresentActivePowerSetpoint:
+    active_power_setpoint_factor ActivePowerSetpointFactor
+    generator_power_exponent GeneratorPowerExponent
+}
+
 /// Raw numbers that `busbar_voltage_l1_l2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BusbarVoltageL1L2 {
     /// The raw number of [`BusbarVoltageExponent`](crate::points::BusbarVoltageExponent).
     pub busbar_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    BusbarVoltageL1L2:
+    busbar_voltage_exponent BusbarVoltageExponent
 }
 
 /// Raw numbers that `mains_voltage_l1_l2` needs.
@@ -36,11 +52,21 @@ pub struct MainsVoltageL1L2 {
     pub mains_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    MainsVoltageL1L2:
+    mains_voltage_exponent MainsVoltageExponent
+}
+
 /// Raw numbers that `generator_voltage_l2_l3` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL2L3 {
     /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    GeneratorVoltageL2L3:
+    generator_voltage_exponent GeneratorVoltageExponent
 }
 
 /// Raw numbers that `generator_voltage_l3_l1` needs.
@@ -50,11 +76,21 @@ pub struct GeneratorVoltageL3L1 {
     pub generator_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    GeneratorVoltageL3L1:
+    generator_voltage_exponent GeneratorVoltageExponent
+}
+
 /// Raw numbers that `generator_voltage_l1_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL1N {
     /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    GeneratorVoltageL1N:
+    generator_voltage_exponent GeneratorVoltageExponent
 }
 
 /// Raw numbers that `generator_voltage_l2_n` needs.
@@ -64,11 +100,21 @@ pub struct GeneratorVoltageL2N {
     pub generator_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    GeneratorVoltageL2N:
+    generator_voltage_exponent GeneratorVoltageExponent
+}
+
 /// Raw numbers that `generator_voltage_l3_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL3N {
     /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    GeneratorVoltageL3N:
+    generator_voltage_exponent GeneratorVoltageExponent
 }
 
 /// Raw numbers that `generator_voltage_l1_l2` needs.
@@ -78,11 +124,21 @@ pub struct GeneratorVoltageL1L2 {
     pub generator_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    GeneratorVoltageL1L2:
+    generator_voltage_exponent GeneratorVoltageExponent
+}
+
 /// Raw numbers that `generator_current_l1` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorCurrentL1 {
     /// The raw number of [`GeneratorCurrentExponent`](crate::points::GeneratorCurrentExponent).
     pub generator_current_exponent: i8,
+}
+
+runtime::needed_points! {
+    GeneratorCurrentL1:
+    generator_current_exponent GeneratorCurrentExponent
 }
 
 /// Raw numbers that `generator_current_l2` needs.
@@ -92,11 +148,21 @@ pub struct GeneratorCurrentL2 {
     pub generator_current_exponent: i8,
 }
 
+runtime::needed_points! {
+    GeneratorCurrentL2:
+    generator_current_exponent GeneratorCurrentExponent
+}
+
 /// Raw numbers that `generator_current_l3` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorCurrentL3 {
     /// The raw number of [`GeneratorCurrentExponent`](crate::points::GeneratorCurrentExponent).
     pub generator_current_exponent: i8,
+}
+
+runtime::needed_points! {
+    GeneratorCurrentL3:
+    generator_current_exponent GeneratorCurrentExponent
 }
 
 /// Raw numbers that `mains_voltage_l2_l3` needs.
@@ -106,11 +172,21 @@ pub struct MainsVoltageL2L3 {
     pub mains_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    MainsVoltageL2L3:
+    mains_voltage_exponent MainsVoltageExponent
+}
+
 /// Raw numbers that `mains_voltage_l3_l1` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL3L1 {
     /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    MainsVoltageL3L1:
+    mains_voltage_exponent MainsVoltageExponent
 }
 
 /// Raw numbers that `mains_voltage_l1_n` needs.
@@ -120,6 +196,11 @@ pub struct MainsVoltageL1N {
     pub mains_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    MainsVoltageL1N:
+    mains_voltage_exponent MainsVoltageExponent
+}
+
 /// Raw numbers that `mains_voltage_l2_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL2N {
@@ -127,11 +208,21 @@ pub struct MainsVoltageL2N {
     pub mains_voltage_exponent: i8,
 }
 
+runtime::needed_points! {
+    MainsVoltageL2N:
+    mains_voltage_exponent MainsVoltageExponent
+}
+
 /// Raw numbers that `mains_voltage_l3_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL3N {
     /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
+}
+
+runtime::needed_points! {
+    MainsVoltageL3N:
+    mains_voltage_exponent MainsVoltageExponent
 }
 
 /// Raw numbers that `generator_voltage_setpoint_100v` needs.

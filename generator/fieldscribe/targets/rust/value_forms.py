@@ -200,7 +200,7 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
                 "doc": f"Raw numbers that the scale of `{subject.item}` needs.",
                 "name": part,
                 "fields": _fields(subject.point.scale_arguments, scope, points),
-                "read": _read(subject.point.scale_arguments, points),
+                **_sources(subject.point.scale_arguments, points),
                 "part": "",
                 "old_names": old_names_text(part, [f"{old}_factors" for old in old_items], render),
             }
@@ -208,7 +208,7 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
             "doc": f"Raw numbers that `{subject.item}` needs.",
             "name": subject.name,
             "fields": _fields(subject.point.arguments, scope, points),
-            "read": _read(subject.point.arguments, points),
+            **_sources(subject.point.arguments, points),
             "part": part,
             "part_literal": fields_of(8, "Self", tuple(map(value_name, subject.point.scale_arguments))),
             "old_names": old_names_text(subject.name, old_items, render),
@@ -230,12 +230,13 @@ def _source(name: str, points: Mapping[str, list[CratePoint]]) -> str:
     return f"The raw number of {' or '.join(links) or f'`{name}`'}."
 
 
-def _read(names: tuple[str, ...], points: Mapping[str, list[CratePoint]]) -> tuple[tuple[str, str], ...]:
-    """Return the fields with their points; nothing unless a client reads all of them, each of one point alone."""
+def _sources(names: tuple[str, ...], points: Mapping[str, list[CratePoint]]) -> dict[str, object]:
+    """Return the fields with their points, if each is of one point alone, and whether a client reads all of them."""
     sources = {name: points.get(name, []) for name in names}
-    if any(len(found) != 1 or not found[0].point.readable or found[0].point.telegram for found in sources.values()):
-        return ()
-    return tuple((value_name(name), found[0].name) for name, found in sources.items())
+    if any(len(found) != 1 or not found[0].point.readable for found in sources.values()):
+        return {"sources": (), "read": False}
+    pairs = tuple((value_name(name), found[0].name) for name, found in sources.items())
+    return {"sources": pairs, "read": not any(found[0].point.telegram for found in sources.values())}
 
 
 def _points(scope: CrateScope) -> dict[str, list[CratePoint]]:

@@ -10,7 +10,7 @@ use crate::error::{Outside, Refused};
 use crate::form::{in_counts, nearest, per_unit, Count};
 use crate::path::Path;
 use crate::scale::{below, Line};
-use crate::{Error, FixedScale, Raw, Shown, Writable};
+use crate::{Error, FixedScale, Raw, Scale, Shown, Writable};
 
 const EXACT: u32 = 53;
 
@@ -78,7 +78,13 @@ pub fn encode<P: FixedScale + Writable, V: Into<f64>>(
     with: P::With,
 ) -> Result<P::Raw, Error> {
     let value = value.into();
-    let ((num, den), (offset, over)) = (P::SCALE.ratio(), P::SCALE.offset());
+    nearest::<P>(value, unrounded(P::SCALE, value), with, self::value::<P>)
+}
+
+/// The raw number of a value before it is rounded; each step is rounded to binary64.
+#[inline]
+pub(crate) fn unrounded(scale: Scale, value: f64) -> f64 {
+    let ((num, den), (offset, over)) = (scale.ratio(), scale.offset());
     let mut scaled = value;
     if num != 1 {
         scaled *= float(num);
@@ -89,7 +95,13 @@ pub fn encode<P: FixedScale + Writable, V: Into<f64>>(
     if offset != 0 {
         scaled += fraction(offset, over);
     }
-    nearest::<P>(value, scaled, with, self::value::<P>)
+    scaled
+}
+
+/// The binary64 number nearest to the value of a raw number, by a line that is known at run time only.
+pub(crate) fn exact(line: Line, raw: i128) -> f64 {
+    let dividend = raw.wrapping_mul(line.multiply).wrapping_add(line.add);
+    quotient(dividend, u64::try_from(line.divide).unwrap_or(0))
 }
 
 /// The raw number nearest to a count, halves away from zero, checked.

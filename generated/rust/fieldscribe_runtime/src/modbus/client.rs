@@ -4,16 +4,24 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::function::read_function;
 use super::reply::wrong_length;
 use super::{
     About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
 };
-use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
+use crate::client::{
+    data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
+    MOST_NEEDS,
+};
+use crate::point::in_reading_order;
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
+    Encodable,
 };
-use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
+use crate::{
+    Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole, Writable,
+};
 
 /// Why a point could not be read or written.
 ///
@@ -49,12 +57,17 @@ impl<E> ClientError<E> {
 
     /// The same about this point, where it does not say yet which it is about.
     #[must_use]
-    pub fn of<P: Point>(mut self) -> Self {
+    pub fn of<P: Point>(self) -> Self {
+        self.named(P::NAME)
+    }
+
+    /// The same about the point of that name.
+    fn named(mut self, name: &'static str) -> Self {
         match &mut self {
-            Self::Point(error) => *error = error.of::<P>(),
+            Self::Point(error) => *error = error.named(name),
             Self::Build(_, about) | Self::Reply(_, about) | Self::Transport(_, about) => {
                 if !matches!(about, Some(About::Point(_))) {
-                    *about = Some(About::Point(P::NAME));
+                    *about = Some(About::Point(name));
                 }
             }
         }
@@ -324,6 +337,36 @@ macro_rules! client {
                 let words = P::to_words(raw);
                 let mut request = Request::write_words::<P>(self.unit.number, words.as_ref());
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
+            }
+
+            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
+
+            /// The raw number of a point as data.
+            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
+                let words = self.words_of(point)$($wait)*?;
+                Ok(point.raw_of(in_reading_order(words, point.addresses)))
+            }
+
+            /// Writes a raw number that was checked to a point as data.
+            $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
+                let mut before = [0; 4];
+                if point.mask.is_some() {
+                    before = self.words_of(point)$($wait)*?;
+                }
+                let (words, count) = point.words_from_raw(raw, before[0])?;
+                let (function, address) = point.write_place();
+                let values = words.get(..count).unwrap_or(&words);
+                let mut request = Request::write_values(self.unit.number, function, address, values);
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
+            }
+
+            /// The words of a point as data, in the order of their addresses.
+            $($async)? fn words_of(&mut self, point: &PointFacts) -> Result<[u16; 4], ClientError<T::Error>> {
+                let (function, mut words) = (read_function(point.space), [0; 4]);
+                let mut request = Request::new(self.unit.number, function, point.address, point.words);
+                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                self.unit.copy(&request, &mut words);
+                Ok(words)
             }
 
             /// Gives a command, one of `commands`.

@@ -196,13 +196,14 @@ impl<D> Block<D> {
     ///     read {}
     /// }
     ///
-    /// let block: Block = Block::of(&JumpFrequency::INFO);
+    /// let block: Block = Block::of(JumpFrequency::INFO);
     /// assert_eq!(block, Block::new(Space::Holding, 3, 0x1028, 1));
     /// ```
     #[must_use]
-    pub const fn of(point: &PointInfo) -> Self {
-        let function = read_function(point.space);
-        Self::new(point.space, function, point.address, point.words)
+    pub const fn of(point: PointInfo<D>) -> Self {
+        let facts = point.facts;
+        let function = read_function(facts.space);
+        Self::new(facts.space, function, facts.address, facts.words)
     }
 
     /// Whether the block brings the point.

@@ -261,7 +261,8 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// What is behind the address, which a device repeats that is written to: the value of a single item, else the count.
+    /// What is behind the address, which a device repeats that is written to: the value of a single item, else the
+    /// count.
     pub(super) fn echo_value(&self) -> u16 {
         let first = self.values.as_slice().first().copied();
         match (self.function, first.unwrap_or_default()) {

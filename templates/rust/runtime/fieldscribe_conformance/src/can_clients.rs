@@ -10,7 +10,7 @@ use fieldscribe_runtime::can::{
     Listener, LocalClient, LocalTransport, Message, Parameter, ParseError, Profile, ReceiveError,
     Received, Receiver, Role, Slot, Telegram, Transport,
 };
-use fieldscribe_runtime::{BitGroup, Error, Whole};
+use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Whole};
 
 use super::now;
 use super::runtime::{at_once, chain, tells, Lost, FAILED, FAILURE, REFUSED};
@@ -148,6 +148,7 @@ static SILENT: Profile = Profile::new((1, 9), 29, None, Some(writes(None)));
 pub struct Measured;
 
 impl Telegram for Measured {
+    type Device = AnyDevice;
     const NAME: &'static str = "measured";
     const MESSAGE: &'static Message = &MEASURED;
     const PROFILE: &'static Profile = &PROFILE;

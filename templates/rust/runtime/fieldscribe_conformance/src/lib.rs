@@ -29,8 +29,9 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented, Encodable,
-    Error, Flags, Point, PointInfo, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
+    AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
+    Encodable, Error, Flags, Point, Points, Raw, Readable, Reading, Refused, Space, Text, Whole,
+    Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -253,6 +254,12 @@ impl<'a> Vector<'a> {
             .find_map(|(_, raw)| raw.parse().ok());
         let number = number.and_then(T::from_number);
         number.unwrap_or_else(|| panic!("{} lacks {name}", self.line))
+    }
+
+    /// The raw numbers of these points; none where the table cannot name those that are needed.
+    fn needs<T, D>(&self, points: Points<D>) -> Option<Vec<i128>> {
+        let is_known = std::mem::size_of::<T>() == 0 || !points.is_empty();
+        is_known.then(|| points.iter().map(|point| self.with(point.name)).collect())
     }
 
     /// The point, and what of it.
@@ -518,7 +525,16 @@ where
     P: Readable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::decode_with(vector.raw("raw"), with).into_result();
-    vector.reads_value(found.map(Meaning::read))
+    vector.reads_value(found.map(Meaning::read))?;
+    let Some(needs) = vector.needs::<P::Factors, _>(P::INFO.needs()) else {
+        return Ok(());
+    };
+    let found = P::INFO.decode(vector.raw("raw"), &needs);
+    vector.reads_value(found.map(|value| match value {
+        AnyValue::Number(number) => Ok(number),
+        AnyValue::Name(name) => Err(name),
+        AnyValue::Integer(_) => Ok(f64::NAN),
+    }))
 }
 
 /// A value to a raw number.
@@ -527,6 +543,11 @@ where
     P: Encodable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
+    vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
+    let Some(needs) = vector.needs::<P::With, _>(P::INFO.write_needs()) else {
+        return Ok(());
+    };
+    let found = P::INFO.encode(vector.float(), &needs);
     vector.expect(found, "raw", !P::IS_CONTIGUOUS)
 }
 
@@ -571,6 +592,10 @@ where
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
         vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
+        if let Some(needs) = vector.needs::<P::With, _>(P::INFO.write_needs()) {
+            let found = P::INFO.encode(raw.to_number(), &needs);
+            vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
+        }
     }
     encode_count::<P>(vector, with)
 }
@@ -602,12 +627,31 @@ where
 
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
-    let found = P::check_with(vector.raw("raw"), with);
-    vector.refuses(found.err(), !P::IS_CONTIGUOUS)?;
-    same(
-        vector.text("status").as_str(),
-        found.map_or_else(Error::name, |()| "ok"),
-    )
+    let typed = P::check_with(vector.raw("raw"), with);
+    let needs = vector.needs::<P::With, _>(P::INFO.write_needs());
+    let listed = needs.map(|needs| P::INFO.check(vector.raw("raw"), &needs));
+    for found in [Some(typed), listed].into_iter().flatten() {
+        vector.refuses(found.err(), !P::IS_CONTIGUOUS)?;
+        same(
+            vector.text("status").as_str(),
+            found.map_or_else(Error::name, |()| "ok"),
+        )?;
+    }
+    Ok(())
+}
+
+/// The value of the vector's raw number as data; none where it needs other points.
+#[must_use]
+pub fn data_of<P: Point>(vector: &Vector) -> Option<AnyValue<'static>> {
+    P::INFO.decode(vector.number("raw")?, &[]).ok()
+}
+
+/// The same, for a value that is written and needs no other points.
+#[must_use]
+pub fn written_data_of<P: Point>(vector: &Vector) -> Option<AnyValue<'static>> {
+    let value = data_of::<P>(vector)?;
+    let raw = P::INFO.encode(value, &[]).ok();
+    (raw == vector.number("raw")).then_some(value)
 }
 
 /// The name of a number.
@@ -748,15 +792,17 @@ fn ascending(lowest: u16, addresses: &[u16], words: u16, space: Space) -> Outcom
 }
 
 /// What came out, and that the table of all points has the point, once and there.
-pub fn listed(vector: &Vector, points: &[PointInfo], outcome: Option<Outcome>) -> Option<Outcome> {
+pub fn listed<D>(vector: &Vector, points: Points<D>, outcome: Option<Outcome>) -> Option<Outcome> {
     outcome.map(|found| found.and_then(|()| is_listed(vector, points)))
 }
 
-fn is_listed(vector: &Vector, points: &[PointInfo]) -> Outcome {
+fn is_listed<D>(vector: &Vector, points: Points<D>) -> Outcome {
     let name = vector.text("point");
-    let named = |point: &&PointInfo| point.name == name;
-    same(1, points.iter().filter(named).count())?;
-    let found = PointInfo::find(points, &name).map(|point| (point.space.name(), point.address));
+    let named = points.iter().filter(|point| point.name == name);
+    same(1, named.count())?;
+    let found = points
+        .find(&name)
+        .map(|point| (point.space.name(), point.address));
     let space = vector.text("space");
     same(Some((space.as_str(), vector.raw("address"))), found)
 }

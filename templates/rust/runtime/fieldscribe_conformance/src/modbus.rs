@@ -8,7 +8,7 @@ use fieldscribe_runtime::modbus::{
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
 pub use super::modbus_clients::check;
-use super::{exchanged, now, same, Number, Outcome, Script, Vector};
+use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
@@ -113,7 +113,12 @@ where
     P: Readable<Raw: Number>,
 {
     let found = both!(vector, profile, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))
+    same(vector.number("raw"), found.map(Number::to_number))?;
+    if let Some(value) = data_of::<P>(vector) {
+        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+        same(Some(value), found)?;
+    }
+    Ok(())
 }
 
 /// A text's words.
@@ -141,6 +146,10 @@ where
         .map_err(Error::name)?;
     both!(vector, profile, |client| client
         .write_with::<P>(value, with));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 
@@ -165,6 +174,10 @@ where
         .into_result()
         .map_err(Error::name)?;
     both!(vector, profile, |client| client.update::<P>(value));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 

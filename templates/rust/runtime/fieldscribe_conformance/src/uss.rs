@@ -8,7 +8,7 @@ use fieldscribe_runtime::uss::{
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
 pub use super::uss_clients::check;
-use super::{exchanged, now, same, Number, Outcome, Script, Vector};
+use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
@@ -138,7 +138,12 @@ where
     P: Readable<Raw: Number> + Parameter,
 {
     let found = both!(vector, profile, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))
+    same(vector.number("raw"), found.map(Number::to_number))?;
+    if let Some(value) = data_of::<P>(vector) {
+        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+        same(Some(value), found)?;
+    }
+    Ok(())
 }
 
 /// The value of a raw number is written.
@@ -156,6 +161,10 @@ where
         .map_err(Error::name)?;
     both!(vector, profile, |client| client
         .write_with::<P>(value, with));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 
@@ -171,6 +180,10 @@ where
         .into_result()
         .map_err(Error::name)?;
     both!(vector, profile, |client| client.update::<P>(value));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 
@@ -270,7 +283,12 @@ where
     let expected = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    same(Some(expected), found)
+    same(Some(expected), found)?;
+    if let Some(value) = data_of::<P>(vector) {
+        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+        same(Some(value), found)?;
+    }
+    Ok(())
 }
 
 /// A point of the process data that is sent.
@@ -287,6 +305,10 @@ where
         .into_result()
         .map_err(Error::name)?;
     both!(vector, profile, |client| client.send_with::<P>(value, with));
+    if let Some(value) = written_data_of::<P>(vector) {
+        both!(vector, profile, |client| client
+            .write_point(P::INFO.any(), value));
+    }
     Ok(())
 }
 

@@ -112,7 +112,7 @@ pub const fn extract_signed(word: u16, shift: u32, mask: u16) -> u16 {
     let Some(left) = (word & mask).checked_shl(above) else {
         return 0;
     };
-    match i16::from_be_bytes(left.to_be_bytes()).checked_shr(above + shift) {
+    match i16::from_be_bytes(left.to_be_bytes()).checked_shr(above.saturating_add(shift)) {
         Some(bits) => u16::from_be_bytes(bits.to_be_bytes()),
         None => 0,
     }

@@ -289,7 +289,67 @@ macro_rules! write_methods {
     };
 }
 
-pub(crate) use {read_methods, write_methods};
+/// Methods that read and write points as data by `$get` and `$put`, which take the facts of a point.
+macro_rules! data_methods {
+    ([$($async:ident)?], [$($wait:tt)*], $get:ident $put:ident) => {
+        /// The value of a point as data; what its scale needs of other points is read first.
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn read_point<P>(
+            &mut self,
+            point: PointInfo<P>,
+        ) -> Result<AnyValue<'static>, ClientError<T::Error>>
+        where
+            D: Accepts<P>,
+        {
+            let (raws, count) = self.raws_of(point.needs().any())$($wait)*?;
+            let raw = self.raw_of(point.facts)$($wait)*?;
+            Ok(point.decode(raw, raws.get(..count).unwrap_or(&raws))?)
+        }
+
+        /// Writes a value to a point as data; what its scale and its limits need of other points, and the word that it
+        /// shares with others, are read first.
+        ///
+        /// # Errors
+        /// What encoding says, and what the bus does.
+        pub $($async)? fn write_point<'v, P>(
+            &mut self,
+            point: PointInfo<P>,
+            value: impl Into<AnyValue<'v>>,
+        ) -> Result<(), ClientError<T::Error>>
+        where
+            D: Accepts<P>,
+        {
+            let value = value.into();
+            let (raws, count) = self.raws_of(point.write_needs().any())$($wait)*?;
+            let raw = point.encode(value, raws.get(..count).unwrap_or(&raws))?;
+            let written = self.$put(point.facts, raw)$($wait)*;
+            written.map_err(|error| error.named(point.name))
+        }
+
+        /// The raw numbers of points, and how many points there are.
+        $($async)? fn raws_of(&mut self, points: Points) -> Result<([i128; MOST_NEEDS], usize), ClientError<T::Error>> {
+            let mut raws = [0; MOST_NEEDS];
+            for (place, point) in raws.iter_mut().zip(points.iter()) {
+                *place = self.raw_of(point.facts)$($wait)*?;
+            }
+            Ok((raws, points.len()))
+        }
+
+        /// The raw number of a point.
+        $($async)? fn raw_of(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
+            point.readable()?;
+            let raw = self.$get(point)$($wait)*;
+            raw.map_err(|error| error.named(point.name))
+        }
+    };
+}
+
+pub(crate) use {data_methods, read_methods, write_methods};
+
+/// At most so many points are read before a point that needs them.
+pub(crate) const MOST_NEEDS: usize = 8;
 
 /// Several clients share one bus: each borrows it for as long as it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {

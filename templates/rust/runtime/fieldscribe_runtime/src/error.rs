@@ -3,7 +3,7 @@
 
 use core::fmt;
 
-use crate::Point;
+use crate::{Access, Point};
 
 /// Why a number could not be encoded, decoded or checked.
 ///
@@ -62,6 +62,8 @@ pub enum Error {
     WrongSpace(Option<&'static str>),
     /// The last telegram was not answered, so nothing was heard of the point.
     NotHeard(Option<&'static str>),
+    /// The point is not read, or not written; all that can be done with it.
+    Access(&'static str, Access),
 }
 
 /// A number that a point does not take, in the terms in which it was given.
@@ -114,6 +116,7 @@ impl Error {
             Self::WrongLength(_) | Self::NotBrought(_) | Self::BeyondLink(_) => "wrong_length",
             Self::WrongSpace(_) => "wrong_space",
             Self::NotHeard(_) => "not_heard",
+            Self::Access(..) => "access",
         }
     }
 
@@ -131,7 +134,9 @@ impl Error {
     pub const fn point(self) -> Option<&'static str> {
         match self {
             Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused.point()),
-            Self::NotANumber(point) | Self::Special { point, .. } => Some(point),
+            Self::NotANumber(point) | Self::Special { point, .. } | Self::Access(point, _) => {
+                Some(point)
+            }
             Self::BadText(point)
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
@@ -147,7 +152,12 @@ impl Error {
 
     /// The same about this point, where it does not say yet which it is about.
     #[must_use]
-    pub fn of<P: Point>(mut self) -> Self {
+    pub fn of<P: Point>(self) -> Self {
+        self.named(P::NAME)
+    }
+
+    /// The same about the point of that name.
+    pub(crate) fn named(mut self, name: &'static str) -> Self {
         match &mut self {
             Self::BadText(point)
             | Self::ZeroFactor(point)
@@ -158,7 +168,7 @@ impl Error {
             | Self::NotBrought(point)
             | Self::BeyondLink(point)
             | Self::WrongSpace(point)
-            | Self::NotHeard(point) => *point = point.or(Some(P::NAME)),
+            | Self::NotHeard(point) => *point = point.or(Some(name)),
             _ => {}
         }
         self
@@ -227,6 +237,9 @@ impl fmt::Display for Error {
             Self::BeyondLink(_) => "the link has not so many words of process data",
             Self::WrongSpace(_) => "the reply is of another space than the point's",
             Self::NotHeard(_) => "the last telegram was not answered",
+            Self::Access(_, Access::Read) => "the point is only read",
+            Self::Access(_, Access::Write) => "the point is only written",
+            Self::Access(..) => "the point is neither read nor written by itself",
         })
     }
 }

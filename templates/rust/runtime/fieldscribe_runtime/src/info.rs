@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: 0BSD
-//! What a table says of points: to list them, or to find one by its name or code at run time.
+//! Points that are known at run time only: a crate's table of them, to list them or to find one by name or code.
 
-use crate::Space;
+use core::fmt::{self, Write};
+use core::marker::PhantomData;
+use core::ops::Deref;
+
+use crate::data::PointFacts;
+use crate::AnyDevice;
 
 /// What can be done with a point over the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,12 +35,13 @@ impl Access {
     }
 }
 
-/// What a point is called, where it is, and what can be done with it: a row of a crate's `POINTS`.
+/// A point of the device `D` as data: its [facts](PointFacts), which its fields and methods are.
 ///
-/// What is known before the program runs is better asked of the point's own type.
+/// What is known before the program runs is better asked of the point's own type. `decode` and `encode` do at run time
+/// what those of the type do; `read_point` and `write_point` of a client do it over the bus.
 ///
 /// ```
-/// use fieldscribe_runtime::{point_table, PointInfo};
+/// use fieldscribe_runtime::{point_table, Points};
 ///
 /// mod points {
 ///     fieldscribe_runtime::point! {
@@ -49,59 +55,152 @@ impl Access {
 ///     }
 /// }
 ///
-/// const POINTS: &[PointInfo] = point_table! { points: BaseFrequency };
+/// const POINTS: Points = point_table! { points: BaseFrequency };
 ///
-/// let found = PointInfo::find(POINTS, "a003").unwrap();
+/// let found = POINTS.find("a003").unwrap();
 /// assert_eq!((found.name, found.address, found.unit), ("base_frequency", 0x1019, "Hz"));
+/// assert_eq!(found.title().to_string(), "Base frequency");
 /// assert!(found.access.reads() && !found.access.writes());
+/// assert_eq!(found.decode(500, &[]), Ok(50.0.into()));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub struct PointInfo {
-    /// The name in the description.
-    pub name: &'static str,
-    /// The manual's own code.
-    pub code: Option<&'static str>,
-    /// Where the address counts.
-    pub space: Space,
-    /// The zero-based address on the wire, the lowest if the point has several words.
-    pub address: u16,
-    /// How many words, or bits of a bit space, the point takes.
-    pub words: u16,
-    /// The point's bits in a word which it shares with others.
-    pub mask: Option<u16>,
-    /// The index beside the address.
-    pub index: Option<u8>,
-    /// The telegram whose words the address counts.
-    pub telegram: Option<&'static str>,
-    /// The symbol of the value's unit; empty for a plain number.
-    pub unit: &'static str,
-    /// How many decimals counts have.
-    pub decimals: u32,
-    /// With how many decimals people see the value, where the description says it.
-    pub display_decimals: Option<u32>,
-    /// What can be done with it.
-    pub access: Access,
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub struct PointInfo<D = AnyDevice> {
+    pub(crate) facts: &'static PointFacts,
+    device: PhantomData<D>,
 }
 
-impl PointInfo {
-    /// The point with that name; if there is none, the first with that code of the manual, in capitals or not.
+impl<D> PointInfo<D> {
+    /// The point of these facts.
     #[must_use]
-    pub fn find<'a>(points: &'a [Self], name_or_code: &str) -> Option<&'a Self> {
-        let named = points.iter().find(|point| point.name == name_or_code);
-        let coded = |point: &&Self| {
-            point
-                .code
-                .is_some_and(|code| code.eq_ignore_ascii_case(name_or_code))
-        };
-        named.or_else(|| points.iter().find(coded))
+    pub const fn new(facts: &'static PointFacts) -> Self {
+        let device = PhantomData;
+        Self { facts, device }
+    }
+
+    /// The same point for a client whose device is chosen at run time.
+    #[must_use]
+    pub const fn any(self) -> PointInfo {
+        PointInfo::new(self.facts)
+    }
+
+    /// The points whose raw numbers `decode` needs, in this order.
+    #[must_use]
+    pub fn needs(self) -> Points<D> {
+        Points::new((self.facts.needs)())
+    }
+
+    /// The points whose raw numbers `encode` and `check` need, in this order.
+    #[must_use]
+    pub fn write_needs(self) -> Points<D> {
+        let none: &[&PointFacts] = &[];
+        let writing = self.facts.writing.as_ref();
+        Points::new(writing.map_or(none, |writing| (writing.needs)()))
+    }
+
+    /// The name as words, with a capital: `Base frequency`.
+    #[must_use]
+    pub const fn title(self) -> Title {
+        Title(self.facts.name)
     }
 }
 
-/// A slice of what a table says of these points of a module.
+impl<D> Clone for PointInfo<D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D> Copy for PointInfo<D> {}
+
+impl<D> Deref for PointInfo<D> {
+    type Target = PointFacts;
+
+    fn deref(&self) -> &PointFacts {
+        self.facts
+    }
+}
+
+/// The name of a point as words. It is written out where it is shown, so nothing is allocated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Title(&'static str);
+
+impl fmt::Display for Title {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut is_first = true;
+        for letter in self.0.chars() {
+            formatter.write_char(match letter {
+                '_' => ' ',
+                _ if is_first => letter.to_ascii_uppercase(),
+                _ => letter,
+            })?;
+            is_first = false;
+        }
+        Ok(())
+    }
+}
+
+/// Points of the device `D`, such as all of a crate: `POINTS`.
+#[derive(Debug)]
+pub struct Points<D = AnyDevice> {
+    rows: &'static [&'static PointFacts],
+    device: PhantomData<D>,
+}
+
+impl<D> Points<D> {
+    /// The points of these facts; [`point_table!`](crate::point_table) makes them of a module's points.
+    #[must_use]
+    pub const fn new(rows: &'static [&'static PointFacts]) -> Self {
+        let device = PhantomData;
+        Self { rows, device }
+    }
+
+    /// The same points for a client whose device is chosen at run time.
+    #[must_use]
+    pub const fn any(self) -> Points {
+        Points::new(self.rows)
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub const fn len(self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Each of them, in the order of the description.
+    pub fn iter(self) -> impl Iterator<Item = PointInfo<D>> {
+        self.rows.iter().map(|row| PointInfo::new(row))
+    }
+
+    /// The point with that name; if there is none, the first with that code of the manual, in capitals or not.
+    #[must_use]
+    pub fn find(self, name_or_code: &str) -> Option<PointInfo<D>> {
+        let is_coded = |point: &PointInfo<D>| {
+            let code = point.facts.code;
+            code.is_some_and(|code| code.eq_ignore_ascii_case(name_or_code))
+        };
+        let named = self.iter().find(|point| point.facts.name == name_or_code);
+        named.or_else(|| self.iter().find(is_coded))
+    }
+}
+
+impl<D> Clone for Points<D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D> Copy for Points<D> {}
+
+/// The points of a module as a table: [`Points`].
 #[macro_export]
 macro_rules! point_table {
     ($module:ident: $($point:ident)*) => {
-        &[$(<$module::$point as $crate::Point>::INFO),*]
+        $crate::Points::new(&[$(<$module::$point as $crate::Point>::FACTS),*])
     };
 }

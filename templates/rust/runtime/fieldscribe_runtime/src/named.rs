@@ -39,6 +39,9 @@ macro_rules! named_numbers {
         }
 
         impl $name {
+            /// All numbers that have names.
+            pub const NAMES: &'static [(i128, &'static str)] = &[$(($number, $text)),*];
+
             /// The name in the description, if the number has one.
             #[must_use]
             pub const fn name(self) -> Option<&'static str> {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! Scales that need no other point, and the lines that they are for counts.
 
+use crate::FixedScale;
+
 /// A scale that needs no other point: `raw = value * num / den + offset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
@@ -133,6 +135,22 @@ impl Line {
     const fn rounded(self, number: i128) -> i128 {
         let dividend = self.dividend(number);
         dividend.signum() * ((dividend.abs() + self.divide / 2) / self.divide)
+    }
+}
+
+/// A scale for points as data: what decoding needs of it is computed when the program is compiled.
+#[derive(Clone, Copy, Debug)]
+pub struct DataScale {
+    pub(crate) scale: Scale,
+    pub(crate) line: Line,
+}
+
+impl DataScale {
+    /// The scale of that point.
+    #[must_use]
+    pub const fn of<P: FixedScale>() -> Self {
+        let (scale, line) = (P::SCALE, P::SCALE.decoding(1));
+        Self { scale, line }
     }
 }
 

@@ -9,14 +9,15 @@ use super::{
     BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
     Telegram,
 };
-use crate::client::{read_methods, write_methods};
+use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
 use crate::error::lead;
 use crate::point::joined;
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
+    Encodable, Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole,
+    Writable,
 };
-use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
 ///
@@ -177,6 +178,7 @@ impl<T: Telegram> Listener for Receiver<T> {
 /// # const MESSAGE: &Message = &Message::new("m", 1, true, [Role::Constant(0); 8]);
 /// # static PROFILE: Profile = Profile::new((1, 9), 11, None, None);
 /// # impl Telegram for Fast {
+/// #     type Device = fieldscribe_runtime::AnyDevice;
 /// #     const NAME: &'static str = "fast";
 /// #     const MESSAGE: &'static Message = MESSAGE;
 /// #     const PROFILE: &'static Profile = &PROFILE;
@@ -184,6 +186,7 @@ impl<T: Telegram> Listener for Receiver<T> {
 /// #     const EMPTY: Self::Slots = [Slot::EMPTY];
 /// # }
 /// # impl Telegram for Slow {
+/// #     type Device = fieldscribe_runtime::AnyDevice;
 /// #     const NAME: &'static str = "slow";
 /// #     const MESSAGE: &'static Message = MESSAGE;
 /// #     const PROFILE: &'static Profile = &PROFILE;
@@ -276,14 +279,19 @@ impl<E> ClientError<E> {
 
     /// The same about this point, where it does not say yet which it is about.
     #[must_use]
-    pub fn of<P: Point>(mut self) -> Self {
+    pub fn of<P: Point>(self) -> Self {
+        self.named(P::NAME)
+    }
+
+    /// The same about the point of that name.
+    fn named(mut self, name: &'static str) -> Self {
         match &mut self {
-            Self::Point(error) => *error = error.of::<P>(),
-            Self::Telegram(error) => *error = error.of::<P>(),
+            Self::Point(error) => *error = error.named(name),
+            Self::Telegram(error) => *error = error.named(name),
             Self::Build(_, point)
             | Self::NoAnswer(point)
             | Self::EchoMismatch(_, point)
-            | Self::Transport(_, point) => *point = point.or(Some(P::NAME)),
+            | Self::Transport(_, point) => *point = point.or(Some(name)),
         }
         self
     }
@@ -559,6 +567,32 @@ macro_rules! client {
                 let word = self.read_word(P::ADDRESS)$($wait)*.map_err(ClientError::of::<P>)?;
                 let written = self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*;
                 written.map_err(ClientError::of::<P>)
+            }
+
+            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
+
+            /// The raw number of a parameter as data.
+            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
+                point.outside_telegrams()?;
+                let mut words = [0; 4];
+                for (place, address) in words.iter_mut().zip(point.addresses) {
+                    *place = self.read_word(*address)$($wait)*?;
+                }
+                Ok(point.raw_of(words))
+            }
+
+            /// Writes a raw number that was checked to a parameter as data, word by word.
+            $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
+                point.outside_telegrams()?;
+                let mut word = 0;
+                if point.mask.is_some() {
+                    word = self.read_word(point.address)$($wait)*?;
+                }
+                let words = point.words_of(raw, word)?;
+                for (word, address) in words.iter().zip(point.addresses) {
+                    self.write_word(*address, *word)$($wait)*?;
+                }
+                Ok(())
             }
 
             /// Waits for a frame, and gives it to the listener.

@@ -117,10 +117,15 @@ impl ReceiveError {
     /// The same about this point, where it does not say yet which it is about.
     #[must_use]
     pub fn of<P: Point>(self) -> Self {
+        self.named(P::NAME)
+    }
+
+    /// The same about the point of that name.
+    pub(super) fn named(self, name: &'static str) -> Self {
         match self {
-            Self::Missing(point) => Self::Missing(point.or(Some(P::NAME))),
-            Self::Torn(point) => Self::Torn(point.or(Some(P::NAME))),
-            Self::Point(error) => Self::Point(error.of::<P>()),
+            Self::Missing(point) => Self::Missing(point.or(Some(name))),
+            Self::Torn(point) => Self::Torn(point.or(Some(name))),
+            Self::Point(error) => Self::Point(error.named(name)),
         }
     }
 }

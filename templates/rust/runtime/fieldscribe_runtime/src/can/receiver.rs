@@ -4,11 +4,14 @@
 use core::fmt;
 
 use super::{Frame, Message, Profile, ReceiveError, LENGTH};
+use crate::client::MOST_NEEDS;
 use crate::point::joined;
-use crate::{CountReadable, Decoded, NeedsNothing, Raw, Readable};
+use crate::{AnyValue, CountReadable, Decoded, NeedsNothing, PointFacts, PointInfo, Raw, Readable};
 
 /// A cyclic layout of words that the frames of a message carry.
 pub trait Telegram {
+    /// The device that has it; [`AnyDevice`](crate::AnyDevice) if it is not known which.
+    type Device;
     /// The name in the description.
     const NAME: &'static str;
     /// The message whose frames carry them.
@@ -135,18 +138,8 @@ impl<T: Telegram> Receiver<T> {
     /// the same from before to after the low one.
     pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, ReceiveError> {
         let mut words = P::Raw::MIN.into_words();
-        match (P::ADDRESSES, words.as_mut()) {
-            ([high, low], [first, second]) => {
-                let [a, b] = self.pair(*high, *low).map_err(ReceiveError::of::<P>)?;
-                *first = a;
-                *second = b;
-            }
-            (positions, places) => {
-                for (place, position) in places.iter_mut().zip(positions) {
-                    *place = self.word(*position).map_err(ReceiveError::of::<P>)?;
-                }
-            }
-        }
+        let found = self.words(P::ADDRESSES, words.as_mut());
+        found.map_err(ReceiveError::of::<P>)?;
         Ok(joined::<P>(words))
     }
 
@@ -194,6 +187,44 @@ impl<T: Telegram> Receiver<T> {
     {
         let count = P::decode_count_with(self.raw::<P>()?, with).into_result();
         count.map_err(ReceiveError::Point)
+    }
+
+    /// The value of a point as data; what its scale needs of other points comes in the same telegram.
+    ///
+    /// # Errors
+    /// As for `value`; [`ReceiveError::Missing`] for a point of another telegram.
+    pub fn value_of(&self, point: PointInfo<T::Device>) -> Result<AnyValue<'static>, ReceiveError> {
+        let (needs, mut raws) = (point.needs(), [0; MOST_NEEDS]);
+        for (place, other) in raws.iter_mut().zip(needs.iter()) {
+            *place = self.raw_of(other.facts)?;
+        }
+        let raw = self.raw_of(point.facts)?;
+        let value = point.decode(raw, raws.get(..needs.len()).unwrap_or(&raws));
+        value.map_err(ReceiveError::Point)
+    }
+
+    /// The raw number of a point as data.
+    fn raw_of(&self, point: &PointFacts) -> Result<i128, ReceiveError> {
+        if point.telegram != Some(T::NAME) {
+            return Err(ReceiveError::Missing(Some(point.name)));
+        }
+        let mut words = [0; 4];
+        let places = words.get_mut(..point.addresses.len()).unwrap_or_default();
+        let found = self.words(point.addresses, places);
+        found.map_err(|error| error.named(point.name))?;
+        Ok(point.raw_of(words))
+    }
+
+    /// Fills in the words at these positions; two of them belong together.
+    fn words(&self, positions: &[u16], places: &mut [u16]) -> Result<(), ReceiveError> {
+        if let ([high, low], [first, second]) = (positions, &mut *places) {
+            [*first, *second] = self.pair(*high, *low)?;
+            return Ok(());
+        }
+        for (place, position) in places.iter_mut().zip(positions) {
+            *place = self.word(*position)?;
+        }
+        Ok(())
     }
 
     /// Two words that belong together.

@@ -138,7 +138,7 @@ fn in_counts(error: Error, given: i64, decode: impl Fn(i64) -> Option<i64>) -> E
 }
 
 /// Two limits, the lower one first; the other way round where the limits leave nothing between them.
-fn in_order<T: PartialOrd>(one: T, other: T, is_some_allowed: bool) -> (T, T) {
+pub(crate) fn in_order<T: PartialOrd>(one: T, other: T, is_some_allowed: bool) -> (T, T) {
     if (one <= other) == is_some_allowed {
         (one, other)
     } else {

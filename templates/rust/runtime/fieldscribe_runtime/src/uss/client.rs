@@ -8,14 +8,18 @@ use super::{
     broadcast, BuildError, Link, Parameter, ParseError, Profile, Received, Reply, Request, Sent,
     Value, LONGEST,
 };
-use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
+use crate::client::{
+    data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
+    MOST_NEEDS,
+};
 use crate::error::lead;
 use crate::point::joined;
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
+    Encodable, Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole,
+    Writable,
 };
-use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
@@ -56,13 +60,18 @@ impl<E> ClientError<E> {
 
     /// The same about this point, where it does not say yet which it is about.
     #[must_use]
-    pub fn of<P: Point>(mut self) -> Self {
+    pub fn of<P: Point>(self) -> Self {
+        self.named(P::NAME)
+    }
+
+    /// The same about the point of that name.
+    fn named(mut self, name: &'static str) -> Self {
         match &mut self {
-            Self::Point(error) => *error = error.of::<P>(),
+            Self::Point(error) => *error = error.named(name),
             Self::Build(_, point)
             | Self::Reply(_, point)
             | Self::EchoMismatch(_, point)
-            | Self::Transport(_, point) => *point = point.or(Some(P::NAME)),
+            | Self::Transport(_, point) => *point = point.or(Some(name)),
         }
         self
     }
@@ -235,6 +244,20 @@ impl Drive {
             Ok(())
         })
         .map_err(Error::of::<P>)
+    }
+
+    /// The process data with another raw number of a point as data.
+    fn with_data(&self, point: &PointFacts, raw: i128) -> Result<Process, Error> {
+        let position = usize::from(point.address);
+        let word = self.process.words.get(position).copied();
+        let words = point.words_of(raw, word.unwrap_or_default())?;
+        self.changed(|all| {
+            for (position, word) in point.addresses.iter().zip(words) {
+                *all.get_mut(usize::from(*position))
+                    .ok_or(Error::BeyondLink(None))? = word;
+            }
+            Ok(())
+        })
     }
 
     /// The process data with another word.
@@ -510,8 +533,7 @@ macro_rules! client {
                 &mut self,
                 process: Process,
             ) -> Result<(), ClientError<T::Error>> {
-                let request = Request::cyclic(self.drive.unit);
-                let reply = self.exchange_with(request, process)$($wait)*;
+                let reply = self.exchange_with(Request::cyclic(self.drive.unit), process)$($wait)*;
                 reply.map(drop).map_err(ClientError::of::<P>)
             }
 
@@ -647,6 +669,55 @@ macro_rules! client {
                 let request = Request::read::<P>(self.drive.unit);
                 let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(reply.word().map_err(Error::of::<P>)?)
+            }
+
+            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
+
+            /// The raw number of a point as data: of the process data that the drive is asked for, or of a parameter.
+            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
+                let mut words = [0; 4];
+                if point.telegram.is_some() {
+                    self.cycle()$($wait)*?;
+                    for (place, position) in words.iter_mut().zip(point.addresses) {
+                        *place = self.drive.heard_word(*position)?;
+                    }
+                } else {
+                    let value = self.parameter_value(point)$($wait)*?;
+                    let places = words.get_mut(..usize::from(point.words));
+                    value.fill(places.unwrap_or_default())?;
+                }
+                Ok(point.raw_of(words))
+            }
+
+            /// Sends a raw number that was checked in the process data, or changes a parameter until the power is off.
+            $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
+                if point.telegram.is_some() {
+                    let process = self.drive.with_data(point, raw)?;
+                    self.exchange_with(Request::cyclic(self.drive.unit), process)$($wait)*?;
+                    return Ok(());
+                }
+                let mut word = [0];
+                if point.mask.is_some() {
+                    self.parameter_value(point)$($wait)*?.fill(&mut word)?;
+                }
+                let [word] = word;
+                let words = point.words_of(raw, word)?;
+                let words = words.get(..usize::from(point.words)).unwrap_or(&words);
+                let element = (point.address, point.index);
+                let request = Request::write_words(self.drive.unit, element, words, false);
+                let answer = self.exchange(request)$($wait)*?.value();
+                if request.is_answered(answer, point.is_floating()) {
+                    Ok(())
+                } else {
+                    Err(ClientError::EchoMismatch(answer, None))
+                }
+            }
+
+            /// The value that a parameter as data has.
+            $($async)? fn parameter_value(&mut self, point: &PointFacts) -> Result<Value, ClientError<T::Error>> {
+                let index = point.index.map_or(0, u16::from);
+                let request = Request::new(self.drive.unit, 1, point.address, index);
+                Ok(self.exchange(request)$($wait)*?.value())
             }
         }
     };

@@ -48,15 +48,8 @@ impl Reply<'_> {
     /// [`Error::WrongLength`] if the point has another number of words.
     pub fn raw<P: Point>(&self) -> Result<P::Raw, Error> {
         let mut found = P::Raw::MIN.into_words();
-        match (self.value, found.as_mut()) {
-            (Value::Word(word), [only]) => *only = word,
-            (Value::Double(value), [high, low]) => {
-                let [a, b, c, d] = value.to_be_bytes();
-                *high = u16::from_be_bytes([a, b]);
-                *low = u16::from_be_bytes([c, d]);
-            }
-            _ => return Err(Error::WrongLength(Some(P::NAME))),
-        }
+        let filled = self.value.fill(found.as_mut());
+        filled.map_err(Error::of::<P>)?;
         Ok(crate::point::joined::<P>(found))
     }
 }

@@ -6,7 +6,7 @@ use core::fmt;
 use super::{
     check_byte, element, BuildError, Link, Parameter, Profile, Reply, LAST_PARAMETER, START,
 };
-use crate::{BitGroup, Point, Raw, Readable, Whole, Writable};
+use crate::{BitGroup, Error, Point, Raw, Readable, Whole, Writable};
 
 /// What a parameter part carries as a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +30,23 @@ impl fmt::Display for Value {
 }
 
 impl Value {
+    /// Fills in a point's words, which are one or two.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if they are not as many as the value has.
+    pub(super) fn fill(self, words: &mut [u16]) -> Result<(), Error> {
+        match (self, words) {
+            (Self::Word(word), [only]) => *only = word,
+            (Self::Double(value), [high, low]) => {
+                let [a, b, c, d] = value.to_be_bytes();
+                *high = u16::from_be_bytes([a, b]);
+                *low = u16::from_be_bytes([c, d]);
+            }
+            _ => return Err(Error::WrongLength(None)),
+        }
+        Ok(())
+    }
+
     /// The value of a point's words, which are one or two.
     fn of(words: &[u16]) -> Option<Self> {
         match *words {
@@ -111,8 +128,18 @@ impl Request {
     }
 
     fn change<P: Point>(unit: u8, words: &[u16], keep: bool) -> Self {
+        Self::write_words(unit, (P::ADDRESS, P::INDEX), words, keep)
+    }
+
+    /// A request that changes the words of an element of a parameter.
+    pub(super) fn write_words(
+        unit: u8,
+        (parameter, index): (u16, Option<u8>),
+        words: &[u16],
+        keep: bool,
+    ) -> Self {
         let value = Value::of(words);
-        let task = match (value, P::INDEX.is_some(), keep) {
+        let task = match (value, index.is_some(), keep) {
             (Some(Value::Word(_)), false, false) => 2,
             (Some(Value::Word(_)), false, true) => 14,
             (Some(Value::Word(_)), true, false) => 7,
@@ -125,7 +152,7 @@ impl Request {
             _ => u8::MAX,
         };
         let value = value.unwrap_or(Value::Nothing);
-        Self::new(unit, task, P::ADDRESS, index::<P>()).with(value)
+        Self::new(unit, task, parameter, index.map_or(0, u16::from)).with(value)
     }
 
     /// Whether an answer holds the value that the request writes to a parameter.
@@ -133,8 +160,13 @@ impl Request {
     /// A drive may round a binary32 number: of one the nearest thousandth is enough.
     #[must_use]
     pub fn is_confirmed<P: Parameter>(&self, reply: &Reply<'_>) -> bool {
-        match (self.value, reply.value()) {
-            (Value::Double(written), Value::Double(answered)) if P::FLOATING => {
+        self.is_answered(reply.value(), P::FLOATING)
+    }
+
+    /// The same, by whether the parameter's raw number is the pattern of a floating-point number.
+    pub(super) fn is_answered(&self, answer: Value, is_floating: bool) -> bool {
+        match (self.value, answer) {
+            (Value::Double(written), Value::Double(answered)) if is_floating => {
                 is_near(f32::from_bits(written), f32::from_bits(answered))
             }
             (written, answered) => written == answered,

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: 0BSD
+//! What a table knows of a point: where it is, and how values are made of its raw numbers.
+
+use core::fmt;
+
+use crate::{Access, Code, Error, Point, Raw, Space};
+
+use super::{DataScale, Needs};
+
+/// What a point is called, where it is, what can be done with it, and what its raw numbers mean.
+#[derive(Clone, Copy)]
+#[non_exhaustive]
+pub struct PointFacts {
+    /// The name in the description.
+    pub name: &'static str,
+    /// The manual's own code.
+    pub code: Option<&'static str>,
+    /// Where the address counts.
+    pub space: Space,
+    /// The zero-based address on the wire, the lowest if the point has several words.
+    pub address: u16,
+    /// The addresses of all words in reading order: the high part or the first characters first.
+    pub addresses: &'static [u16],
+    /// How many words, or bits of a bit space, the point takes.
+    pub words: u16,
+    /// The point's bits in a word which it shares with others.
+    pub mask: Option<u16>,
+    /// The index beside the address.
+    pub index: Option<u8>,
+    /// The telegram whose words the address counts.
+    pub telegram: Option<&'static str>,
+    /// The symbol of the value's unit; empty for a plain number.
+    pub unit: &'static str,
+    /// How many decimals counts have.
+    pub decimals: u32,
+    /// With how many decimals people see the value, where the description says it.
+    pub display_decimals: Option<u32>,
+    /// What can be done with it.
+    pub access: Access,
+    pub(crate) write_address: u16,
+    pub(crate) needs: fn() -> &'static [&'static Self],
+    pub(crate) writing: Option<Writing>,
+    pub(super) form: Form,
+    pub(super) raw: RawType,
+    pub(super) ends: (i128, i128),
+    pub(super) codes: &'static dyn Codes,
+    pub(super) fixed: (u32, u32),
+}
+
+/// How values are made of raw numbers.
+#[derive(Clone, Copy, Debug)]
+pub enum Form {
+    /// The value is the raw number.
+    Plain,
+    /// Numbers have names.
+    Named(&'static [(i128, &'static str)]),
+    /// A scale that needs no other point.
+    Scaled(DataScale),
+    /// The raw number is the pattern of a binary floating-point number.
+    Floating,
+    /// A scale that needs the raw numbers of other points.
+    Ruled(ByOthers<i128, f64>),
+    /// A text, which has no value here.
+    Text,
+}
+
+/// A function of a number, and of the raw numbers of other points.
+pub type ByOthers<N, R> = fn(N, &[i128]) -> Result<R, Error>;
+
+/// What may be written to a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Writing {
+    /// The ranges, where there are several.
+    pub ranges: &'static [(i128, i128)],
+    /// Whether the numbers that have names are all that is taken.
+    pub is_closed: bool,
+    /// The points whose raw numbers are needed.
+    pub needs: fn() -> &'static [&'static PointFacts],
+    /// Whether a raw number may be written, where tables cannot tell.
+    pub check: Option<ByOthers<i128, ()>>,
+    /// The raw number of a value, where tables cannot tell.
+    pub encode: Option<ByOthers<f64, i128>>,
+    /// The function that writes, if it is not the usual one.
+    pub function: Option<u8>,
+}
+
+impl PointFacts {
+    /// The facts that are constants of the point; [`point!`](crate::point) adds the others.
+    #[must_use]
+    pub const fn of<P: Point>() -> Self {
+        Self {
+            name: P::NAME,
+            code: P::CODE,
+            space: P::SPACE,
+            address: P::ADDRESS,
+            addresses: P::ADDRESSES,
+            words: P::WORDS,
+            mask: P::GROUP,
+            index: P::INDEX,
+            telegram: P::TELEGRAM,
+            unit: P::UNIT,
+            decimals: P::DECIMALS,
+            display_decimals: P::DISPLAY_DECIMALS,
+            access: P::ACCESS,
+            write_address: P::WRITE_ADDRESS,
+            needs: <()>::points,
+            writing: None,
+            form: Form::Plain,
+            raw: RawType::of::<P::Raw>(),
+            ends: <P::Raw as Raw>::ENDS,
+            codes: &NO_CODES,
+            fixed: (P::FIXED_MASK, P::FIXED_BITS),
+        }
+    }
+
+    /// The same with a form.
+    #[must_use]
+    pub const fn formed(self, form: Form) -> Self {
+        Self { form, ..self }
+    }
+
+    /// The same with the least and the greatest raw number.
+    #[must_use]
+    pub const fn within(self, low: i128, high: i128) -> Self {
+        let ends = (low, high);
+        Self { ends, ..self }
+    }
+
+    /// The same with special codes.
+    #[must_use]
+    pub const fn coded(self, codes: &'static dyn Codes) -> Self {
+        Self { codes, ..self }
+    }
+
+    /// The same with the points that decoding needs.
+    #[must_use]
+    pub const fn reading(self, needs: fn() -> &'static [&'static Self]) -> Self {
+        Self { needs, ..self }
+    }
+
+    /// The same with what may be written.
+    #[must_use]
+    pub const fn writing(self, writing: Writing) -> Self {
+        let writing = Some(writing);
+        Self { writing, ..self }
+    }
+
+    /// What tells the point from all others of its device.
+    const fn identity(&self) -> (&str, Option<&str>, Space, u16, Option<u8>) {
+        let Self {
+            name,
+            telegram,
+            space,
+            address,
+            index,
+            ..
+        } = self;
+        (name, *telegram, *space, *address, *index)
+    }
+}
+
+impl fmt::Debug for PointFacts {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, telegram, space, address, index) = self.identity();
+        let mut shown = formatter.debug_struct("PointFacts");
+        shown.field("name", &name).field("space", &space);
+        shown.field("address", &address).field("index", &index);
+        shown.field("telegram", &telegram).finish_non_exhaustive()
+    }
+}
+
+impl PartialEq for PointFacts {
+    fn eq(&self, other: &Self) -> bool {
+        self.identity() == other.identity()
+    }
+}
+
+impl Eq for PointFacts {}
+
+impl core::hash::Hash for PointFacts {
+    fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+        self.identity().hash(state);
+    }
+}
+
+/// How a type of raw numbers lies in words, which are in reading order.
+#[derive(Clone, Copy)]
+pub(super) struct RawType {
+    pub(super) from_words: fn([u16; 4]) -> i128,
+    pub(super) into_words: fn(i128) -> Option<[u16; 4]>,
+    pub(super) is_signed: bool,
+}
+
+impl RawType {
+    const fn of<R: Raw>() -> Self {
+        Self {
+            from_words: |given| {
+                let mut words = R::MIN.into_words();
+                for (word, given) in words.as_mut().iter_mut().zip(given) {
+                    *word = given;
+                }
+                R::from_words(words).to_i128()
+            },
+            into_words: |number| {
+                let mut words = [0; 4];
+                let parts = R::from_i128(number)?.into_words();
+                for (word, part) in words.iter_mut().zip(parts.as_ref()) {
+                    *word = *part;
+                }
+                Some(words)
+            },
+            is_signed: R::ENDS.0 < 0,
+        }
+    }
+}
+
+/// The special codes of a point, whatever the type of its raw numbers.
+pub trait Codes: Sync {
+    /// The name of the code that a raw number is, and whether it may be written.
+    fn at(&self, raw: i128) -> Option<(&'static str, bool)>;
+    /// The first raw number of the code of that name.
+    fn raw(&self, name: &str) -> Option<i128>;
+}
+
+const NO_CODES: &[Code<u16>] = &[];
+
+impl<R: Raw + Sync> Codes for &'static [Code<R>] {
+    fn at(&self, raw: i128) -> Option<(&'static str, bool)> {
+        let raw = R::from_i128(raw)?;
+        let special = self.iter().find_map(|code| code.at(raw))?;
+        Some((special.name(), special.is_writable()))
+    }
+
+    fn raw(&self, name: &str) -> Option<i128> {
+        let code = self.iter().find(|code| code.name() == name)?;
+        Some(code.ends().0.to_i128())
+    }
+}
