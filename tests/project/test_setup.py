@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from support.places import ROOT
 
-pytestmark = pytest.mark.full(seconds=4)
+pytestmark = pytest.mark.full(seconds=0.3)
 
-ALWAYS_THERE = ("gcc", "g++", "arm-none-eabi-gcc", "cargo", "rustfmt", "cargo-clippy", "zsh", "fish")
+ALWAYS_THERE = ("gcc", "g++", "arm-none-eabi-gcc", "cargo", "rustfmt", "cargo-clippy", "zsh", "fish", "npm")
 
 
 def _program(folder: Path, name: str, text: str) -> None:
