@@ -56,8 +56,8 @@ def log(count: int, *, dumped: bool = False) -> str:
     return "".join(lines)
 
 
-def test_the_log_of_the_python_package(decode: Callable[..., Output]) -> None:
-    """As a program writes it, with any text before; failures are no frames, and what is cut off is an error."""
+def test_the_logs_of_our_packages(decode: Callable[..., Output]) -> None:
+    """As programs write them, with any text before; failures are no frames, and what is cut off is an error."""
     lines = (
         "DEBUG:fieldscribe:unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)",
         "2026-11-29 12:00:00,123 unit 1 <- 01 03 02 01 F4 B8 53 after 8.3 ms",
@@ -67,8 +67,9 @@ def test_the_log_of_the_python_package(decode: Callable[..., Output]) -> None:
     output = decode("-", given="\n".join(lines), device="hitachi_l200")
     assert (output.code, output.err, output.out.count("Says")) == (0, "", 2)
     assert "A020 base_frequency = 50 Hz" in output.out
-    can = "DEBUG:fieldscribe:unit 1 <- 321: DD 00 05 15 13 88 00 64 after 8.3 ms"
-    assert "telegram_identification = 1301" in decode("-", given=can).out
+    data = "DD 00 05 15 13 88 00 64"
+    for frame in (f"321: {data} after 8.3 ms", f"321h {data}", f"321h [{data.replace(' ', ', ')}]"):
+        assert "telegram_identification = 1301" in decode("-", given=f"DEBUG:fieldscribe:unit 1 <- {frame}").out
     assert decode("-", given="unit 1 -> 01 03 10 2", device="hitachi_l200").code == 2
 
 

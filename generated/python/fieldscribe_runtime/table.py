@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from math import isfinite
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .arguments import check_name, shown
 from .commands import Command
 from .descriptors import ByVariant, PointAttribute, Renamed
-from .errors import AbsentError, AccessError, FieldscribeError, RequestError
+from .errors import AbsentError, AccessError, FieldscribeError, NotANumberError, RequestError
 from .lookup import find, is_code, nearest
 from .points import Decoding, Point
 from .special import Special
@@ -112,6 +113,8 @@ class NamedPoints(PointTable):
         if isinstance(value, (FieldscribeError, Special)):
             status = "special" if isinstance(value, Special) else value.status
             row.update(value=None, status=status, detail=str(value))
+        elif isinstance(value, float) and not isfinite(value):  # which JSON does not know
+            row.update(value=None, status=NotANumberError.status, detail=str(value))
         if not isinstance(value, AbsentError):
             point = self._resolved(name)
             row.update(name=point.facts.name, code=point.facts.code, unit=point.facts.unit, raw=point.raw_of(value))

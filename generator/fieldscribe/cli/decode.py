@@ -28,7 +28,7 @@ EXAMPLE = """examples:
   fieldscribe decode woodward_mpu2s 321#DD00051513880064 321#DD010302000007D0
   fieldscribe decode woodward_mpu2s "DD 00 05 15 13 88 00 64" --can-id 321
   fieldscribe decode woodward_mpu2s --log candump.log
-  fieldscribe decode hitachi_l200 --log gateway.log    (of the logger `fieldscribe` of the Python package)
+  fieldscribe decode hitachi_l200 --log gateway.log    (what the Python or Rust package logs)
   candump -L can0 | fieldscribe decode woodward_mpu2s - --format jsonl
   fieldscribe decode siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 58"
   fieldscribe decode siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"

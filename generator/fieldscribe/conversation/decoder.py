@@ -33,8 +33,9 @@ _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
 """Each kind of content of a frame, and the function that makes items of it."""
 
 _LOGGED = re.compile(
-    r".*?\bunit \d+(?:"
-    r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8}): )?(?P<data>[0-9A-F]{2}(?: [0-9A-F]{2})*)(?: \(.*\)| after [0-9.]+ ms)"
+    r".{0,200}?\bunit \d+(?:"
+    r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8})[:h] )?\[?(?P<data>[0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?"
+    r"(?: \(.*\)| after [0-9.]+ ms)?"
     r"|: (?:not sent: )?[a-z_]+: .*)"
 )
 
@@ -99,11 +100,11 @@ class StreamDecoder:
 
 
 def _logged_frame(text: str) -> str | None:
-    """Return the frame in a line that the Python runtime logs; None for a failure, any other text as it is."""
+    """Return the frame in a line that our packages log; None for a failure, any other text as it is."""
     match = _LOGGED.fullmatch(text.strip())
     if match is None:
         return text
-    return match["id"] + "#" + match["data"].replace(" ", "") if match["id"] else match["data"]
+    return match["id"] + "#" + re.sub(", *| ", "", match["data"]) if match["id"] else match["data"]
 
 
 def _off_by_one(directory: Directory, span: decoded_frame.Span) -> Iterator[str]:

@@ -120,9 +120,10 @@ def check_rows(package: Package) -> None:
             _row("b", None, raw=device.b.special.off.raw, status="special", detail="off"),
         ]
         values = now(device.read_many(["a", "zzz"], errors="return"))
-        values["b"] = error = package.runtime.RangeError("too far")
+        values["b"], values["a"] = error, _ = package.runtime.RangeError("too far"), float("inf")
         lost = "zzz is no point of this device: its `POINTS` lists their names"
-        assert device.rows(values)[1:] == [
+        assert device.rows(values) == [
+            _row("a", None, code="A1", unit="Hz", status="not_a_number", detail="inf"),
             _row("zzz", None, status="no_access", detail=lost),
             _row("b", None, status=error.status, detail="too far"),
         ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,6 +23,7 @@ from .errors import (
     RequestError,
 )
 from .points import Decoding, Encoding, Point
+from .receiving import Broadcast
 from .rules import NO_RAWS
 from .special import Special
 from .table import NamedPoints, check_variants
@@ -94,6 +96,12 @@ class Session(NamedPoints, ABC):
             if self.retry_pause:
                 yield Pause(self.retry_pause)
             left -= 1
+
+    def _to_all_steps(self, frame: bytes) -> Steps[None]:
+        """Send a frame that no unit answers."""
+        with suppress(TimeoutError):
+            self.traffic.sent(frame)
+            yield Broadcast(frame)
 
     def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from contextlib import suppress
 from itertools import count
 from typing import ClassVar, TypeVar
 
@@ -15,7 +14,6 @@ from ..errors import AccessError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
-from ..receiving import Broadcast
 from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
@@ -72,9 +70,7 @@ class ModbusSession(Session):
             if not values and len(self._reads) < _REMEMBERED:
                 self._reads[key] = known
         if self.unit == self.PROFILE.broadcast:
-            with suppress(TimeoutError):
-                self.traffic.sent(known[1])
-                yield Broadcast(known[1])
+            yield from self._retried_steps(0, self._to_all_steps, known[1])
             return ()
         return (yield from self._retried_steps(self.retries, self._exchange_steps, *known))
 

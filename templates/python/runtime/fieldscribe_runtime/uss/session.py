@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
@@ -21,7 +20,6 @@ from ..arguments import (
 from ..errors import AccessError, EchoError, FrameError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
-from ..receiving import Broadcast
 from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
@@ -172,10 +170,8 @@ class UssSession(Session):
                 text = f"the mask leaves out {missing:04X}h of the first word, which has to count"
                 raise RequestError("bad_value", text)
         self._sent = {}
-        with suppress(TimeoutError):
-            self.traffic.about = ()
-            self.traffic.sent(request)
-            yield Broadcast(request)
+        self.traffic.about = ()
+        yield from self._retried_steps(0, self._to_all_steps, request)
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task as `_telegram_steps` carries it out, again while it is lost: it changes no process data."""
