@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from .arguments import check_name, shown
 from .commands import Command
 from .descriptors import ByVariant, PointAttribute, Renamed
-from .errors import AbsentError, AccessError, FieldscribeError, NotANumberError, RequestError
+from .errors import (
+    AbsentError,
+    AccessError,
+    FieldscribeError,
+    NotANumberError,
+    RequestError,
+)
 from .lookup import find, is_code, nearest
 from .points import Decoding, Point
 from .special import Special
