@@ -122,6 +122,7 @@ class Session(NamedPoints, ABC):
         self, points: Sequence[Point], refusals: Refusals, ask: Callable[..., Steps[dict[str, int]]], *arguments: Any
     ) -> Steps[dict[str, int]]:
         """Read some points by one request; where `refusals` are noted, by one each if the device refuses that."""
+        self.traffic.is_split = refusals is not None and len(points) > 1
         try:
             with About(self.traffic, *points):
                 return (yield from ask(*arguments))
@@ -131,6 +132,8 @@ class Session(NamedPoints, ABC):
             if len(points) == 1:
                 self._note(points[0], error, refusals)
                 return {}
+        finally:
+            self.traffic.is_split = False
         raws: dict[str, int] = {}
         for point in points:
             raws.update((yield from self._gather_steps([point], None, refusals)))

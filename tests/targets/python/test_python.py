@@ -202,7 +202,7 @@ def test_variants(package: Any, drive: Any, slave: Slave) -> None:
     assert slave.words[0x10F5] == 350
 
 
-def test_read_many(drive: Any, slave: Slave) -> None:
+def test_read_many(drive: Any, slave: Slave, caplog: pytest.LogCaptureFixture) -> None:
     slave.words.update({0x2007: 400, 0x2008: 230, 0x200A: 5, 0x2009: 2, 0x2010: 1})
     values = drive.read_many(["voltage_setpoint", drive.power, type(drive).status_word, "dc_level"])
     assert values == {"voltage_setpoint": 230.0, "power": 500.0, "status_word": 1, "dc_level": 0}
@@ -223,6 +223,10 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     refused = status(drive.read_many, [other.power])
     assert refused[0] == "no_access"
     assert "is a point of another device" in refused[1]
+    slave.refuses = {0x2007: 2}
+    assert drive.read_many(["voltage_ratio", "power"], errors="return")["voltage_ratio"].code == 2
+    (message,) = caplog.messages  # of the point, not of its block
+    assert message.endswith("exception 02h (voltage_ratio)")
 
 
 REFUSED = [  # the point that is refused, the exception, and what a later round requests

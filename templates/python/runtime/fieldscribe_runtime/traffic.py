@@ -46,6 +46,8 @@ class Traffic:
         self._logger: Any = None
         self._is_logged = False
         self.about: Iterable[Labelled] = ()
+        self.is_split = False
+        """A request that is refused now is followed by one for each of its points."""
         self.clear()
 
     def clear(self) -> None:
@@ -94,6 +96,6 @@ class Traffic:
         if unsent := isinstance(error, LineError) and error.unsent:
             self.requests -= 1
         if self._logger is not None:
-            level = _WARNING if is_final else _DEBUG
+            level = _WARNING if is_final and (error.lost or not self.is_split) else _DEBUG
             what = f"not sent: {error.status}" if unsent else error.status
             self._logger.log(level, "unit %d: %s: %s (%s)", self._unit, what, str(error), self._names())
