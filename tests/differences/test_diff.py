@@ -53,13 +53,13 @@ made_up 1.0.0
   breaks on the wire
     speed: address 16 (0010h) -> 17 (0011h)
       old/device.yaml:15 -> new/device.yaml:15
-      c: MADE_UP_SPEED_ADDRESS, MADE_UP_SPEED_RAW_MIN, MADE_UP_SPEED_RAW_MAX and 6 more
+      c: MADE_UP_SPEED_ADDRESS, MADE_UP_SPEED_RAW_MIN, MADE_UP_SPEED_RAW_MAX and 7 more
       python: speed
       rust: Speed
   changes behaviour
     state: range 0..1 -> 0..2
       old/device.yaml:18 -> new/device.yaml:18
-      c: MADE_UP_STATE_ADDRESS, MADE_UP_STATE_RAW_MIN, MADE_UP_STATE_RAW_MAX and 6 more
+      c: MADE_UP_STATE_ADDRESS, MADE_UP_STATE_RAW_MIN, MADE_UP_STATE_RAW_MAX and 7 more
       python: state
       rust: State
     state: entry wait is new
@@ -80,7 +80,7 @@ a major step of the version: 1.0.0 \N{RIGHTWARDS ARROW} 2.0.0
 
 - `speed`: address 16 \\(0010h\\) \N{RIGHTWARDS ARROW} 17 \\(0011h\\) \
 (c `MADE_UP_SPEED_ADDRESS`, `MADE_UP_SPEED_RAW_MIN`, \
-`MADE_UP_SPEED_RAW_MAX` and 6 more; python `speed`; rust `Speed`)
+`MADE_UP_SPEED_RAW_MAX` and 7 more; python `speed`; rust `Speed`)
 
 """
 
