@@ -1,4 +1,5 @@
 //! What the programs talk to.
 
 pub mod bus;
+pub mod log;
 pub mod uart;

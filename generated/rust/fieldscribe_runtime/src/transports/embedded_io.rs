@@ -8,6 +8,8 @@ use crate::Transport;
 
 /// A port that tells whether bytes have come, and what is done meanwhile.
 ///
+/// After a reply that did not come it waits once more before it asks again, so that no late one is taken for another.
+///
 /// `wait` is called while nothing comes, with how often that was so in a row; it gives whether to go on waiting:
 ///
 /// ```
@@ -35,6 +37,7 @@ pub struct Line<P, W> {
     port: P,
     wait: W,
     protocol: Protocol,
+    is_late: bool,
 }
 
 impl<P, W: FnMut(u32) -> bool> Line<P, W> {
@@ -49,6 +52,7 @@ impl<P, W: FnMut(u32) -> bool> Line<P, W> {
             port,
             wait,
             protocol,
+            is_late: false,
         }
     }
 
@@ -59,14 +63,14 @@ impl<P, W: FnMut(u32) -> bool> Line<P, W> {
 }
 
 impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Line<P, W> {
-    /// Waits until bytes have come; whether they did.
-    fn is_ready(&mut self) -> Result<bool, P::Error> {
+    /// Whether bytes have come, also while it waits.
+    fn is_ready(&mut self, waits: bool) -> Result<bool, P::Error> {
         let mut waited = 0_u32;
         while !self.port.read_ready()? {
-            if !(self.wait)(waited) {
+            if !waits || !(self.wait)(waited) {
                 return Ok(false);
             }
-            waited = waited.saturating_add(1);
+            waited = waited.wrapping_add(1);
         }
         Ok(true)
     }
@@ -76,17 +80,19 @@ impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Transport for Line<P, W
     type Error = LineError<P::Error>;
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
-        let mut thrown_away = [0; 16];
+        let mut thrown_away = [0; 64];
         for _ in 0..NOISE {
-            if !self.port.read_ready()? || self.port.read(&mut thrown_away)? == 0 {
+            if !self.is_ready(self.is_late)? || self.port.read(&mut thrown_away)? == 0 {
                 break;
             }
         }
         self.port.write_all(request)?;
         self.port.flush()?;
         let mut answer = Answer::new(self.protocol, request, reply);
+        self.is_late = false;
         while let Some(space) = answer.space() {
-            if !self.is_ready()? {
+            if !self.is_ready(true)? {
+                self.is_late = true;
                 if answer.length() == 0 {
                     return Err(LineError::TimedOut);
                 }

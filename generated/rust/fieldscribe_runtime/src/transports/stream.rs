@@ -4,6 +4,7 @@
 use std::io::{Error, ErrorKind, Read, Result, Write};
 
 use super::{Answer, Protocol, NOISE};
+use crate::modbus::LONGEST;
 use crate::Transport;
 
 /// A stream whose reads end with an error when nothing comes in time, as those of a serial port with a timeout.
@@ -17,12 +18,24 @@ use crate::Transport;
 /// # std::io::Result::Ok(())
 /// ```
 ///
-/// After a failure it waits until the line is silent before it asks again, so that no late answer is taken for another.
+/// After a failure it waits until the line is silent before it asks again, so that no late answer is taken for another;
+/// a unit that did not answer makes only itself wait. What comes unasked, [`StreamLine::clearing`] throws away.
 #[derive(Debug)]
 pub struct StreamLine<S> {
     stream: S,
     protocol: Protocol,
-    is_stale: bool,
+    late: Late,
+    clear: fn(&mut S) -> Result<()>,
+}
+
+/// What may still come of an exchange.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Late {
+    Nothing,
+    /// The whole reply of that unit.
+    Reply(u8),
+    /// The rest of what was no reply.
+    Rest,
 }
 
 impl<S> StreamLine<S> {
@@ -36,8 +49,16 @@ impl<S> StreamLine<S> {
         Self {
             stream,
             protocol,
-            is_stale: false,
+            late: Late::Nothing,
+            clear: |_| Ok(()),
         }
+    }
+
+    /// The same line, where `clear` throws away what has come before each request:
+    /// `|port| Ok(port.clear(ClearBuffer::Input)?)` for a serial port of the crate `serialport`.
+    #[must_use]
+    pub fn clearing(self, clear: fn(&mut S) -> Result<()>) -> Self {
+        Self { clear, ..self }
     }
 
     /// The stream, as for its settings.
@@ -66,29 +87,57 @@ impl<S: Read + Write> Transport for StreamLine<S> {
     type Error = Error;
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize> {
-        if core::mem::replace(&mut self.is_stale, true) {
+        let place = if self.protocol == Protocol::Uss { 2 } else { 0 };
+        let asked = request.get(place).copied().unwrap_or_default();
+        if self.late == Late::Rest || self.late == Late::Reply(asked) {
             self.fall_silent()?;
         }
+        self.late = Late::Rest;
+        (self.clear)(&mut self.stream)?;
         self.stream.write_all(request)?;
         self.stream.flush()?;
         let mut answer = Answer::new(self.protocol, request, reply);
-        while let Some(space) = answer.space() {
-            let read = match self.stream.read(space) {
-                Ok(0) => Err(ErrorKind::TimedOut.into()),
-                other => other,
-            };
-            match read {
-                Ok(count) => answer.took(count),
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) if !is_silence(error.kind()) || answer.length() == 0 => {
-                    return Err(error)
+        let received = receive(&mut answer, |space| match self.stream.read(space) {
+            Ok(0) => Err(ErrorKind::TimedOut.into()),
+            other => other,
+        });
+        match received {
+            Ok(is_all) if is_all && answer.is_clean() => self.late = Late::Nothing,
+            Err(ref error) if is_silence(error.kind()) => self.late = Late::Reply(asked),
+            _ => {}
+        }
+        received.map(|_| answer.length())
+    }
+}
+
+/// Receives an answer; whether nothing came behind it. What comes of others is dropped: it is the answer only if nothing
+/// else came, as it tells who answered.
+pub(super) fn receive(
+    answer: &mut Answer<'_>,
+    mut read: impl FnMut(&mut [u8]) -> Result<usize>,
+) -> Result<bool> {
+    let mut received = [0; LONGEST];
+    while answer.space().is_some() {
+        match read(&mut received) {
+            Ok(count) => {
+                if !answer.take(received.get(..count).unwrap_or_default()) {
+                    return Ok(false);
                 }
-                Err(_) => break, // the reply is cut
+            }
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => {
+                if answer.length == 0 {
+                    answer.length = answer.foreign;
+                }
+                return if answer.length == 0 {
+                    Err(error)
+                } else {
+                    Ok(false)
+                };
             }
         }
-        self.is_stale = !answer.is_clean();
-        Ok(answer.length())
     }
+    Ok(true)
 }
 
 /// Whether an error says that nothing came.

@@ -5,7 +5,7 @@ use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-use super::stream::is_silence;
+use super::stream::{is_silence, receive};
 use super::{Answer, Protocol, NOISE};
 use crate::Transport;
 
@@ -86,15 +86,10 @@ impl<A: ToSocketAddrs> Transport for TcpLine<A> {
         let started = Instant::now();
         stream.write_all(request)?;
         let mut answer = Answer::new(self.protocol, request, reply);
-        while let Some(space) = answer.space() {
+        receive(&mut answer, |space| {
             let left = self.timeout.saturating_sub(started.elapsed());
-            match read_within(&mut stream, left, space) {
-                Ok(count) => answer.took(count),
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) if answer.length() == 0 => return Err(error),
-                Err(_) => break, // the reply is cut
-            }
-        }
+            read_within(&mut stream, left, space)
+        })?;
         if answer.is_clean() {
             self.stream = Some(stream);
         }

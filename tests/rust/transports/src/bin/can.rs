@@ -33,6 +33,8 @@ fn does_not_wait() {
 }
 
 fn main() {
+    programs::log::keep();
     waits();
+    assert_eq!(programs::log::kept()[..2], ["unit 5 -> 33Fh EE 05 00 0B 3C 00 D2 0E", "unit 5 <- 325h DD 00 05 15 13 86 00 00"]);
     does_not_wait();
 }

@@ -61,7 +61,7 @@ impl<P: Read + Write> LocalTransport for Line<P> {
 
 /// Throws away some of what has come already; whether there was anything.
 async fn came<P: Read>(port: &mut P) -> Result<bool, P::Error> {
-    let mut thrown_away = [0; 16];
+    let mut thrown_away = [0; 64];
     let mut read = pin!(port.read(&mut thrown_away));
     let asked = poll_fn(|context| match read.as_mut().poll(context) {
         Poll::Ready(count) => Poll::Ready(Some(count)),

@@ -40,6 +40,9 @@ use crate::uss::check_byte;
 ))]
 const NOISE: u32 = 64;
 
+/// The shortest reply over TCP, an exception, in bytes.
+const SHORTEST_TCP: usize = 9;
+
 /// What is spoken on a line: it tells where a reply ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Protocol {
@@ -52,15 +55,6 @@ pub enum Protocol {
 
 /// How the frames of an exchange are told apart: the framing of Modbus; none for USS.
 type Frames = Option<Framing>;
-
-/// Whether a complete reply belongs to the request and came unharmed.
-fn belongs(frames: Frames, request: &[u8], reply: &[u8]) -> bool {
-    match frames {
-        Some(Framing::Tcp) => request.get(..4) == reply.get(..4),
-        Some(Framing::Rtu) => request.first() == reply.first() && crc(reply) == 0,
-        None => request.get(2) == reply.get(2) && check_byte(reply) == 0,
-    }
-}
 
 /// A reply as it comes: where its next bytes go, and when it is complete.
 ///
@@ -92,6 +86,9 @@ pub struct Answer<'a> {
     request: &'a [u8],
     reply: &'a mut [u8],
     length: usize,
+    /// How many bytes the frame of another has that was dropped last.
+    #[cfg(feature = "std")]
+    foreign: usize,
 }
 
 impl<'a> Answer<'a> {
@@ -102,6 +99,8 @@ impl<'a> Answer<'a> {
             request,
             reply,
             length: 0,
+            #[cfg(feature = "std")]
+            foreign: 0,
         }
     }
 
@@ -110,8 +109,7 @@ impl<'a> Answer<'a> {
     pub fn space(&mut self) -> Option<&mut [u8]> {
         let mut end = self.end();
         if self.length == end && self.is_late() {
-            self.length = 0;
-            end = self.end();
+            (self.length, end) = (0, SHORTEST_TCP);
         }
         let end = end.min(self.reply.len());
         let space = self.reply.get_mut(self.length..end)?;
@@ -120,7 +118,7 @@ impl<'a> Answer<'a> {
 
     /// Takes so many bytes that came into the space.
     pub fn took(&mut self, count: usize) {
-        self.length = self.length.saturating_add(count).min(self.reply.len());
+        self.length = self.length.wrapping_add(count).min(self.reply.len());
     }
 
     /// How many bytes have come.
@@ -133,8 +131,46 @@ impl<'a> Answer<'a> {
     /// line.
     #[must_use]
     pub fn is_clean(&self) -> bool {
-        self.reply.is_empty()
-            || (self.length == self.end() && belongs(self.frames, self.request, self.came()))
+        self.reply.is_empty() || (self.length == self.end() && self.is_ours() && self.is_sound())
+    }
+
+    /// Takes bytes that came, and drops whole frames of others among them; whether all bytes had room.
+    #[cfg(feature = "std")]
+    fn take(&mut self, mut bytes: &[u8]) -> bool {
+        while !bytes.is_empty() {
+            let Some(space) = self.space() else {
+                return false;
+            };
+            let count = space.len().min(bytes.len());
+            for (place, byte) in space.iter_mut().zip(bytes) {
+                *place = *byte;
+            }
+            self.took(count);
+            bytes = bytes.get(count..).unwrap_or_default();
+            if self.length == self.end() && !self.is_ours() && self.is_sound() {
+                (self.foreign, self.length) = (self.length, 0);
+            }
+        }
+        true
+    }
+
+    /// Whether a complete frame has the unit of the request, or over TCP its transaction.
+    fn is_ours(&self) -> bool {
+        let [sent, came] = [self.request, self.came()];
+        match self.frames {
+            Some(Framing::Tcp) => sent.first_chunk::<2>() == came.first_chunk(),
+            Some(Framing::Rtu) => sent.first() == came.first(),
+            None => sent.get(2) == came.get(2),
+        }
+    }
+
+    /// Whether a complete frame came unharmed, as far as it tells.
+    fn is_sound(&self) -> bool {
+        match self.frames {
+            Some(Framing::Tcp) => matches!(self.came(), [_, _, 0, 0, ..]),
+            Some(Framing::Rtu) => crc(self.came()) == 0,
+            None => check_byte(self.came()) == 0,
+        }
     }
 
     /// Where the reply ends, or where the bytes end that will tell; what is no reply ends where it is.
@@ -142,7 +178,11 @@ impl<'a> Answer<'a> {
         let came = self.came();
         let (length, needed) = match self.frames {
             Some(framing) => {
-                let needed = if framing == Framing::Rtu { 3 } else { 6 };
+                let needed = if framing == Framing::Rtu {
+                    3
+                } else {
+                    SHORTEST_TCP
+                };
                 (reply_length(framing, came), needed)
             }
             None => (came.get(1).map(|length| usize::from(*length) + 2), 2),
@@ -156,8 +196,6 @@ impl<'a> Answer<'a> {
 
     /// Whether this is a reply over TCP to another transaction; what is no reply ends with its head.
     fn is_late(&self) -> bool {
-        self.frames == Some(Framing::Tcp)
-            && self.length > 6
-            && self.request.first_chunk::<2>() != self.came().first_chunk()
+        self.frames == Some(Framing::Tcp) && self.is_sound() && !self.is_ours()
     }
 }
