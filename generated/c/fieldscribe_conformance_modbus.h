@@ -275,8 +275,9 @@ static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framin
     const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
 {
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
-    fieldscribe_modbus_request empty = *request;
-    const size_t inner = length - fieldscribe_modbus_around(framing); /* from the unit on */
+    const fieldscribe_modbus_writing less = {request->function, request->address, request->count};
+    fieldscribe_modbus_request empty;
+    const size_t inner = length - fieldscribe_modbus_around(framing) + 1U; /* from the unit on */
     uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
     size_t again = SIZE_MAX;
     fieldscribe_fill(built, sizeof built);
@@ -293,9 +294,10 @@ static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framin
             fieldscribe_modbus_build_pdu(profile, request, built, inner, &again) == FIELDSCRIBE_MODBUS_OK &&
             again == inner - 1U &&
             memcmp(built, &expected[fieldscribe_before_pdu(framing)], again) == 0);
-    empty.given = request->given == 0U ? 0U : (size_t)request->count - 1U;
-    fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
-        (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
+    empty = fieldscribe_modbus_write(request->unit, &less, request->values, (size_t)request->count - 1U);
+    fieldscribe_agree(v, fieldscribe_modbus_reads(request->function) ||
+        fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
+            FIELDSCRIBE_MODBUS_BAD_COUNT);
 }
 
 static void fieldscribe_run_build(fieldscribe_vector *v)
@@ -332,7 +334,7 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     const bool several = request->function == 0x0FU || request->function == 0x10U;
     const size_t room = reads ? request->count : 1U;
     const uint8_t *const pdu = &bytes[fieldscribe_before_pdu(framing)];
-    const size_t inner = length - fieldscribe_modbus_around(framing) - 1U;
+    const size_t inner = length - fieldscribe_modbus_around(framing);
     fieldscribe_modbus_request empty = *request;
     fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, room - 1U);
     fieldscribe_fill(read, sizeof read);
@@ -355,13 +357,10 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     fieldscribe_agree(
         v, fieldscribe_modbus_parse_pdu(&empty, pdu, inner, &reply) == FIELDSCRIBE_MODBUS_WRONG_FUNCTION);
     empty.function = request->function;
-    empty.take = NULL;
-    fieldscribe_agree(v,
-        fieldscribe_modbus_parse(framing, request, NULL, 0U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
-            fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) == FIELDSCRIBE_MODBUS_WRONG_FUNCTION);
-    empty.take = request->take;
+    fieldscribe_agree(
+        v, fieldscribe_modbus_parse(framing, request, NULL, 0U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME);
     if (!reads && !several) {
-        empty.given = 0U;
+        empty.count = 0U;
         fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==
             FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
     }
@@ -452,7 +451,7 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_frami
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
     stream.endless = true;
     fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_NOISE &&
-        stream.given == FIELDSCRIBE_MODBUS_ASK_MOST);
+        stream.given <= FIELDSCRIBE_MODBUS_ASK_MOST && stream.given + 9U > FIELDSCRIBE_MODBUS_ASK_MOST);
 }
 
 static void fieldscribe_run_reply(fieldscribe_vector *v)

@@ -73,78 +73,37 @@ typedef struct fieldscribe_modbus_reply {
 
 typedef struct fieldscribe_modbus_request fieldscribe_modbus_request;
 
-/* Puts a request into a frame, from the unit to the end of its data. */
-typedef fieldscribe_modbus_status (*fieldscribe_modbus_putting)(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
-
-/* Takes an answer, whose `pdu` starts at the function, that of the request, and has `size` bytes (at least 2). */
-typedef fieldscribe_modbus_status (*fieldscribe_modbus_taking)(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
-
 /*
- * A request, as fieldscribe_modbus_read, _write and _send make it. `values` has `given` items, at least `count` for
- * functions that write: words, or 0 and 1 for coils; 05h, 06h and 08h carry `first`, which was the first of them. For
- * 08h, which is written, too, `address` is the sub-function (0) and `first` the test data. `transaction` is used by TCP
- * alone. It brings what it needs to be put and answered, so that a program links what it asks for alone.
+ * A request, as fieldscribe_modbus_read, _write and _send make it. `number` stands behind the address: the count, or
+ * the only value of 05h, 06h and 08h. For 08h, `address` is the sub-function (0). `writer` is NULL for a read, so
+ * that a program which only reads links nothing that writes. `transaction` is for TCP alone.
  */
 struct fieldscribe_modbus_request {
     uint16_t transaction;
-    uint16_t first;
     uint8_t unit;
     uint8_t function;
     uint16_t address;
     uint16_t count;
+    uint16_t number;
     const uint16_t *values;
-    size_t given;
-    fieldscribe_modbus_putting put;
-    fieldscribe_modbus_taking take;
+    const struct fieldscribe_modbus_writer *writer;
 };
-
-/* What requests are put and answered with: reads of words and of bits, and writes. */
-
-fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
-
-fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
-
-fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request, const uint8_t *pdu,
-    size_t size, fieldscribe_modbus_reply *reply);
-
-fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request, const uint8_t *pdu,
-    size_t size, fieldscribe_modbus_reply *reply);
-
-fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request, const uint8_t *pdu,
-    size_t size, fieldscribe_modbus_reply *reply);
-
-/* Functions that read coils or discrete inputs. */
-static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
-{
-    return (function == 0x01U) || (function == 0x02U);
-}
 
 /* The request that reads a point or a block. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
     uint8_t unit, const fieldscribe_modbus_reading *what)
 {
-    const fieldscribe_modbus_request request = {0U, 0U, unit, what->function, what->address, what->count, NULL, 0U,
-        &fieldscribe_modbus_put_reading,
-        fieldscribe_modbus_reads_bits(what->function) ? &fieldscribe_modbus_take_bits : &fieldscribe_modbus_take_words};
+    const fieldscribe_modbus_request request = {
+        0U, unit, what->function, what->address, what->count, what->count, NULL, NULL};
     return request;
 }
 
 /*
- * The request that writes a point, with `given` words (or coils), which no frame is built of if they are too few. One
+ * The request that writes a point, with `given` words (or coils); if they are too few, building says BAD_COUNT. One
  * alone (05h, 06h, 08h) is copied; several stay the caller's and are read when the frame is built, and never after.
  */
-FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
-{
-    const uint16_t first = ((values != NULL) && (given > 0U)) ? values[0] : 0U;
-    const fieldscribe_modbus_request request = {0U, first, unit, what->function, what->address, what->count, values,
-        given, &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
-    return request;
-}
+FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given);
 
 /* The request of a command. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_send(
@@ -177,12 +136,12 @@ typedef struct fieldscribe_modbus_receiver {
     size_t size;
     size_t length;
     size_t dropped;
-    size_t next; /* so many bytes say more about the answer */
-    bool done;
+    size_t next; /* with so many bytes there is more to know about the answer */
+    const struct fieldscribe_modbus_wire *wire;
+    uint16_t transaction;
     uint8_t unit;
     uint8_t function;
-    uint16_t transaction;
-    size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
+    bool done;
 } fieldscribe_modbus_receiver;
 
 /*
@@ -455,14 +414,17 @@ uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {
     static const uint16_t nibbles[16] = {0x0000U, 0xCC01U, 0xD801U, 0x1400U, 0xF001U, 0x3C00U, 0x2800U, 0xE401U,
         0xA001U, 0x6C00U, 0x7800U, 0xB401U, 0x5000U, 0x9C01U, 0x8801U, 0x4400U};
-    uint16_t crc = 0xFFFFU;
-    size_t at;
-    for (at = 0U; at < length; ++at) {
-        crc = (uint16_t)(crc ^ bytes[at]);
-        crc = (uint16_t)((uint16_t)(crc >> 4) ^ nibbles[crc & 0xFU]);
-        crc = (uint16_t)((uint16_t)(crc >> 4) ^ nibbles[crc & 0xFU]);
+    uint32_t crc = 0xFFFFU;
+    size_t at = 0U;
+    if (length > 0U) {
+        do {
+            crc ^= bytes[at];
+            crc = (crc >> 4) ^ nibbles[crc & 0xFU];
+            crc = (crc >> 4) ^ nibbles[crc & 0xFU];
+            ++at;
+        } while (at < length);
     }
-    return crc;
+    return (uint16_t)(crc & 0xFFFFU);
 }
 
 static uint16_t fieldscribe_modbus_get(const uint8_t *bytes)
@@ -481,98 +443,76 @@ static bool fieldscribe_modbus_reads(uint8_t function)
     return (function >= 0x01U) && (function <= 0x04U);
 }
 
+/* The bytes that so many items take. */
+static uint32_t fieldscribe_modbus_item_bytes(uint32_t count, bool bits)
+{
+    return bits ? ((count + 7U) / 8U) : (count * 2U);
+}
+
 /* The bytes of an answer that begins with this code and this byte, from its code on; 0 if it answers something else. */
-static size_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint8_t count)
+static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t count)
 {
-    size_t bytes = 0U;
     if (code == (function | 0x80U)) {
-        bytes = 2U;
-    } else if (code == function) {
-        bytes = fieldscribe_modbus_reads(function) ? (2U + (size_t)count) : 5U;
-    } else {
-        /* none */
+        return 2U;
     }
-    return bytes;
-}
-
-/* 05h carries FF00h for on; every other single value travels as it is. */
-static uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
-{
-    if (request->function == 0x05U) {
-        return (request->first != 0U) ? 0xFF00U : 0x0000U;
+    if (code != function) {
+        return 0U;
     }
-    return request->first;
-}
-
-/* What the device knows of a function; NULL when it does not know it. */
-static const fieldscribe_modbus_function *fieldscribe_modbus_find(
-    const fieldscribe_modbus_profile *profile, uint8_t code)
-{
-    size_t at;
-    for (at = 0U; at < profile->function_count; ++at) {
-        if (profile->functions[at].code == code) {
-            return &profile->functions[at];
-        }
-    }
-    return NULL;
+    return fieldscribe_modbus_reads(function) ? (2U + count) : 5U;
 }
 
 /* Whether this device takes the request, whatever it writes. */
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
-    const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, request->function);
-    bool to_one;
-    if (known == NULL) {
+    const fieldscribe_modbus_function *known = profile->functions;
+    const fieldscribe_modbus_function *const end = &known[profile->function_count];
+    while ((known != end) && (known->code != request->function)) {
+        ++known;
+    }
+    if ((known == end) || ((request->writer == NULL) && (!fieldscribe_modbus_reads(request->function)))) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    to_one = (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
-    if ((request->unit == profile->broadcast) ? !known->broadcast : !to_one) {
+    if ((request->unit == profile->broadcast)
+            ? !known->broadcast
+            : ((request->unit < profile->first_unit) || (request->unit > profile->last_unit))) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
     if ((request->count == 0U) || (request->count > known->most)) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if (((uint32_t)request->address + request->count) > 0x10000U) {
-        return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
-    }
-    return FIELDSCRIBE_MODBUS_OK;
+    return (((uint32_t)request->address + request->count) > 0x10000U) ? FIELDSCRIBE_MODBUS_BAD_ADDRESS
+                                                                      : FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Whether it takes what is written, too. */
-static fieldscribe_modbus_status fieldscribe_modbus_allows_values(const fieldscribe_modbus_request *request)
-{
-    const uint8_t function = request->function;
-    uint16_t at;
-    if ((request->values == NULL) || (request->given == 0U) || (request->given < request->count)) {
-        return FIELDSCRIBE_MODBUS_BAD_COUNT;
-    }
-    if ((function == 0x08U) && (request->address != 0U)) {
-        return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
-    }
-    if ((function == 0x05U) && (request->first > 1U)) {
-        return FIELDSCRIBE_MODBUS_BAD_VALUE;
-    }
-    if (function == 0x0FU) {
-        for (at = 0U; at < request->count; ++at) {
-            if (request->values[at] > 1U) {
-                return FIELDSCRIBE_MODBUS_BAD_VALUE;
-            }
-        }
-    }
-    return FIELDSCRIBE_MODBUS_OK;
-}
+/* What requests that write are put and answered with: a program that only reads does not link it. */
+struct fieldscribe_modbus_writer {
+    fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *profile,
+        const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size);
+    fieldscribe_modbus_status (*take)(
+        const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
+};
 
-/* How many data bytes 0Fh and 10h carry. */
-static uint32_t fieldscribe_modbus_data_bytes(
-    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
+/* The request from the unit to the end of its data. `size` is the room, at least 6, and becomes the bytes used. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    uint32_t bytes = (uint32_t)request->count * 2U;
-    if (request->function == 0x0FU) {
-        bytes = ((uint32_t)request->count + 7U) / 8U;
-        bytes += profile->pads_coil_bytes ? (bytes % 2U) : 0U;
+    fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
+    if (status != FIELDSCRIBE_MODBUS_OK) {
+        return status;
     }
-    return bytes;
+    if (request->writer != NULL) {
+        status = request->writer->put(profile, request, buffer, size);
+    } else {
+        *size = 6U;
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        buffer[0] = request->unit;
+        buffer[1] = request->function;
+        fieldscribe_modbus_put(&buffer[2], request->address);
+        fieldscribe_modbus_put(&buffer[4], request->number);
+    }
+    return status;
 }
 
 /* Eight coils from one of them on, as a byte; 0 for those behind the last. */
@@ -605,88 +545,133 @@ static void fieldscribe_modbus_put_values(
     }
 }
 
-/* The six bytes with which all requests begin. */
-static void fieldscribe_modbus_put_head(const fieldscribe_modbus_request *request, uint16_t number, uint8_t *buffer)
+/* Whether all that is written are coils, 0 or 1. */
+static bool fieldscribe_modbus_are_coils(const fieldscribe_modbus_request *request)
 {
-    buffer[0] = request->unit;
-    buffer[1] = request->function;
-    fieldscribe_modbus_put(&buffer[2], request->address);
-    fieldscribe_modbus_put(&buffer[4], number);
+    uint16_t at = 0U;
+    while ((at < request->count) && (request->values[at] <= 1U)) {
+        ++at;
+    }
+    return at == request->count;
 }
 
-fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
+static fieldscribe_modbus_status fieldscribe_modbus_put_several(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
-    if (fieldscribe_modbus_reads(request->function)) {
-        status = fieldscribe_modbus_allows(profile, request);
+    uint32_t data_bytes = fieldscribe_modbus_item_bytes(request->count, request->function == 0x0FU);
+    if (request->values == NULL) {
+        return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if (status != FIELDSCRIBE_MODBUS_OK) {
-        return status;
+    if (request->function == 0x0FU) {
+        data_bytes += profile->pads_coil_bytes ? (data_bytes % 2U) : 0U;
+        if (!fieldscribe_modbus_are_coils(request)) {
+            return FIELDSCRIBE_MODBUS_BAD_VALUE;
+        }
     }
-    if (size < 6U) {
+    if ((data_bytes > 0xFFU) || (*size < 7U) || (data_bytes > (*size - 7U))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    fieldscribe_modbus_put_head(request, request->count, buffer);
-    *used = 6U;
+    buffer[6] = (uint8_t)data_bytes;
+    fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
+    *size = 7U + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
+static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    const uint8_t function = request->function;
-    const bool several = (function == 0x0FU) || (function == 0x10U);
-    const bool single = (function == 0x05U) || (function == 0x06U) || (function == 0x08U);
-    const size_t before = several ? 7U : 6U; /* the data */
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
-    uint32_t data_bytes = 0U;
-    if (several || single) {
-        status = fieldscribe_modbus_allows(profile, request);
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
+    switch (request->function) {
+    case 0x05U:
+        if ((request->number != 0U) && (request->number != 0xFF00U)) {
+            status = FIELDSCRIBE_MODBUS_BAD_VALUE;
+        }
+        break;
+    case 0x06U:
+        break;
+    case 0x08U:
+        if (request->address != 0U) {
+            status = FIELDSCRIBE_MODBUS_BAD_ADDRESS;
+        }
+        break;
+    case 0x0FU:
+    case 0x10U:
+        return fieldscribe_modbus_put_several(profile, request, buffer, size);
+    default:
+        status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
+        break;
     }
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        status = fieldscribe_modbus_allows_values(request);
+    *size = 6U;
+    return status;
+}
+
+/* Nothing has come yet. */
+static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
+{
+    reply->count = 0U;
+    reply->exception = 0U;
+}
+
+/* Whether there is room for so many items in a reply. */
+static bool fieldscribe_modbus_holds(const fieldscribe_modbus_reply *reply, size_t count)
+{
+    return (reply->values != NULL) && (reply->room >= count);
+}
+
+/* What was written comes back, or how many items were. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
+{
+    if (size != 5U) {
+        return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (status != FIELDSCRIBE_MODBUS_OK) {
-        return status;
+    if ((request->count == 0U) || (fieldscribe_modbus_get(&pdu[1]) != request->address) ||
+        (fieldscribe_modbus_get(&pdu[3]) != request->number)) {
+        return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (several) {
-        data_bytes = fieldscribe_modbus_data_bytes(profile, request);
+    if ((request->function <= 0x08U) && fieldscribe_modbus_holds(reply, 1U)) {
+        reply->values[0] = (request->function == 0x05U) ? (uint16_t)(request->number >> 15) : request->number;
+        reply->count = 1U;
     }
-    if ((data_bytes > 0xFFU) || (size < before) || (data_bytes > (size - before))) {
-        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
-    }
-    fieldscribe_modbus_put_head(request, several ? request->count : fieldscribe_modbus_single(request), buffer);
-    if (several) {
-        buffer[6] = (uint8_t)data_bytes;
-        fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
-    }
-    *used = before + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* The request from the unit to the end of its data; one that none of the functions above made has no way there. */
-static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
-    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
+static const struct fieldscribe_modbus_writer fieldscribe_modbus_writes = {
+    &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
+
+fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
-    return (request->put == NULL) ? FIELDSCRIBE_MODBUS_BAD_FUNCTION
-                                  : request->put(profile, request, buffer, size, used);
+    fieldscribe_modbus_request request = {
+        0U, unit, what->function, what->address, 0U, 0U, values, &fieldscribe_modbus_writes};
+    if ((values != NULL) && (given > 0U) && (given >= what->count)) {
+        request.count = what->count;
+        request.number = (what->function > 0x08U) ? what->count : values[0];
+        if (what->function == 0x05U) { /* FF00h is on; 1 stands for what is no coil */
+            request.number = (uint16_t)((values[0] > 1U) ? 1U : (values[0] * 0xFF00U));
+        }
+    }
+    return request;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
 {
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
-    size_t used = 0U;
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     *length = 0U;
-    if (profile->rtu) {
-        status = fieldscribe_modbus_put_request(profile, request, buffer, (size > 2U) ? (size - 2U) : 0U, &used);
-    }
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        const uint16_t crc = fieldscribe_modbus_crc(buffer, used);
-        buffer[used] = (uint8_t)(crc & 0xFFU);
-        buffer[used + 1U] = (uint8_t)(crc >> 8);
-        *length = used + 2U;
+    if (!profile->rtu) {
+        status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    } else if (size >= 8U) {
+        size_t used = size - 2U;
+        status = fieldscribe_modbus_put_request(profile, request, buffer, &used);
+        if (status == FIELDSCRIBE_MODBUS_OK) {
+            const uint16_t crc = fieldscribe_modbus_crc(buffer, used);
+            buffer[used] = (uint8_t)(crc & 0xFFU);
+            buffer[used + 1U] = (uint8_t)(crc >> 8);
+            *length = used + 2U;
+        }
+    } else {
+        /* it is too small */
     }
     return status;
 }
@@ -694,18 +679,21 @@ fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_
 fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
 {
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
-    size_t used = 0U;
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     *length = 0U;
-    if (profile->tcp) {
-        uint8_t *const behind = &buffer[(size > 6U) ? 6U : 0U]; /* the head */
-        status = fieldscribe_modbus_put_request(profile, request, behind, (size > 6U) ? (size - 6U) : 0U, &used);
-    }
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        fieldscribe_modbus_put(buffer, request->transaction);
-        fieldscribe_modbus_put(&buffer[2], 0U);
-        fieldscribe_modbus_put(&buffer[4], (uint16_t)used);
-        *length = used + 6U;
+    if (!profile->tcp) {
+        status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    } else if (size >= 12U) {
+        size_t used = size - 6U;
+        status = fieldscribe_modbus_put_request(profile, request, &buffer[6], &used);
+        if (status == FIELDSCRIBE_MODBUS_OK) {
+            fieldscribe_modbus_put(buffer, request->transaction);
+            fieldscribe_modbus_put(&buffer[2], 0U);
+            fieldscribe_modbus_put(&buffer[4], (uint16_t)used);
+            *length = used + 6U;
+        }
+    } else {
+        /* it is too small */
     }
     return status;
 }
@@ -713,11 +701,14 @@ fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_
 fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
 {
-    size_t used = 0U;
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    size_t used = size;
     size_t at;
-    const fieldscribe_modbus_status status = fieldscribe_modbus_put_request(profile, request, buffer, size, &used);
     *length = 0U;
-    if ((status == FIELDSCRIBE_MODBUS_OK) && (used > 0U)) {
+    if (size >= 6U) {
+        status = fieldscribe_modbus_put_request(profile, request, buffer, &used);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
         *length = used - 1U;
         for (at = 0U; at < *length; ++at) { /* over the unit */
             buffer[at] = buffer[at + 1U];
@@ -726,84 +717,38 @@ fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_
     return status;
 }
 
-/* How many values there is room for in a reply. */
-static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
+static fieldscribe_modbus_status fieldscribe_modbus_take_items(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    return (reply->values == NULL) ? 0U : reply->room;
-}
-
-fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
-{
-    const uint16_t count = request->count;
-    const uint8_t bytes = pdu[1];
-    uint16_t at;
-    if ((size != (2U + (size_t)bytes)) || ((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
+    const bool bits = request->function <= 0x02U;
+    const uint8_t *const items = &pdu[2];
+    uint32_t at;
+    if ((pdu[1] != fieldscribe_modbus_item_bytes(request->count, bits)) || (size != (2U + (size_t)pdu[1]))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (fieldscribe_modbus_room(reply) < count) {
+    if (!fieldscribe_modbus_holds(reply, request->count)) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    for (at = 0U; at < count; ++at) {
-        reply->values[at] = fieldscribe_modbus_get(&pdu[2U + (2U * (size_t)at)]);
-    }
-    reply->count = count;
-    return FIELDSCRIBE_MODBUS_OK;
-}
-
-fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
-{
-    const uint16_t count = request->count;
-    const uint8_t bytes = pdu[1];
-    uint32_t most;
-    uint16_t at;
-    if (size != (2U + (size_t)bytes)) {
-        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
-    }
-    most = (uint32_t)bytes * 8U;
-    if ((count > most) || (((uint32_t)count + 7U) < most)) {
-        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
-    }
-    if (fieldscribe_modbus_room(reply) < count) {
-        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
-    }
-    for (at = 0U; at < count; ++at) {
-        reply->values[at] = (uint16_t)(((uint32_t)pdu[2U + (at / 8U)] >> (at % 8U)) & 1U);
-    }
-    reply->count = count;
-    return FIELDSCRIBE_MODBUS_OK;
-}
-
-/* What was written comes back, or how many items were. */
-fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
-{
-    const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
-    uint16_t number = request->count;
-    if (size != 5U) {
-        return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
-    }
-    if (!several) {
-        if (request->given == 0U) {
-            return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    reply->count = request->count;
+    if (bits) {
+        for (at = 0U; at < reply->count; ++at) {
+            reply->values[at] = (uint16_t)(((uint32_t)items[at / 8U] >> (at % 8U)) & 1U);
         }
-        number = fieldscribe_modbus_single(request);
-    }
-    if ((fieldscribe_modbus_get(pdu + 1) != request->address) || (fieldscribe_modbus_get(pdu + 3) != number)) {
-        return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
-    }
-    if ((!several) && (fieldscribe_modbus_room(reply) > 0U)) {
-        reply->values[0] = request->first;
-        reply->count = 1U;
+    } else {
+        for (at = 0U; at < reply->count; ++at) {
+            reply->values[at] = fieldscribe_modbus_get(&items[2U * at]);
+        }
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer of the right unit from its function on, which is that of the request or refuses it. */
-static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
+/* Reads an answer of the right unit, `size` bytes from its code on; 0 if it has not the function of the request. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
+    if (size == 0U) {
+        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
+    }
     if (pdu[0] != request->function) {
         if (size > 2U) {
             return FIELDSCRIBE_MODBUS_LONG_FRAME;
@@ -811,14 +756,8 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscrib
         reply->exception = pdu[1];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
-    return (request->take == NULL) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION : request->take(request, pdu, size, reply);
-}
-
-/* Nothing has come yet. */
-static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
-{
-    reply->count = 0U;
-    reply->exception = 0U;
+    return (request->writer != NULL) ? request->writer->take(request, pdu, size, reply)
+                                     : fieldscribe_modbus_take_items(request, pdu, size, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -839,9 +778,6 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     if (bytes[0] != request->unit) {
         return FIELDSCRIBE_MODBUS_WRONG_UNIT;
     }
-    if (pdu == 0U) {
-        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
-    }
     return fieldscribe_modbus_take_answer(request, &bytes[1], pdu, reply);
 }
 
@@ -853,10 +789,10 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
-    if (fieldscribe_modbus_get(bytes + 2) != 0U) {
+    if (fieldscribe_modbus_get(&bytes[2]) != 0U) {
         return FIELDSCRIBE_MODBUS_BAD_PROTOCOL;
     }
-    expected = 6U + (size_t)fieldscribe_modbus_get(bytes + 4);
+    expected = 6U + (size_t)fieldscribe_modbus_get(&bytes[4]);
     if (length != expected) {
         return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
@@ -881,63 +817,49 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
     expected = fieldscribe_modbus_pdu(request->function, pdu[0], pdu[1]);
-    if (expected == 0U) {
-        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
-    }
-    if (length != expected) {
+    if ((expected != 0U) && (length != expected)) {
         return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    return fieldscribe_modbus_take_answer(request, pdu, length, reply);
+    return fieldscribe_modbus_take_answer(request, pdu, expected, reply);
 }
 
-/* The bytes of an answer, from the unit to the end of what it is about. */
-static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
-{
-    if (fieldscribe_modbus_reads_bits(request->function)) {
-        return 3U + (((uint32_t)request->count + 7U) / 8U);
-    }
-    return fieldscribe_modbus_reads(request->function) ? (3U + ((uint32_t)request->count * 2U)) : 6U;
-}
-
-/* The bytes of a frame beside that: its checksum, or its head. */
+/* The bytes of a frame beside its PDU: unit and checksum, or a head with the unit. */
 static uint32_t fieldscribe_modbus_around(fieldscribe_modbus_framing framing)
 {
-    return (framing == FIELDSCRIBE_MODBUS_TCP) ? 6U : 2U;
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 3U;
+}
+
+/* The bytes of the answer to a request from its code on. */
+static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
+{
+    return fieldscribe_modbus_reads(request->function)
+        ? (2U + fieldscribe_modbus_item_bytes(request->count, request->function <= 0x02U))
+        : 5U;
 }
 
 uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request)
 {
-    if (request->unit == profile->broadcast) {
-        return 0U;
-    }
-    return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
-}
-
-/* The bytes of the answer that has come as far as a refusal is long, by what it says; else those that are expected. */
-static uint32_t fieldscribe_modbus_told(
-    fieldscribe_modbus_framing framing, uint8_t function, const uint8_t *buffer, uint32_t expected)
-{
-    const uint8_t code = buffer[1];
-    const bool refused = (code & 0x80U) != 0U; /* whatever it answers */
-    uint32_t whole = expected;
-    if (framing == FIELDSCRIBE_MODBUS_TCP) {
-        whole = 6U + (uint32_t)fieldscribe_modbus_get(buffer + 4);
-    } else if (refused || (code == function)) {
-        whole = 3U + (uint32_t)fieldscribe_modbus_pdu(refused ? (code & 0x7FU) : function, code, buffer[2]);
-    } else {
-        /* as long as what was written asks for */
-    }
-    return whole;
+    return (request->unit == profile->broadcast)
+        ? 0U
+        : (fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request));
 }
 
 uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size, size_t length)
 {
-    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U; /* the shortest answer */
+    const uint32_t shortest = fieldscribe_modbus_around(framing) + 2U;
     uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
-    if (whole != 0U) {
-        whole = (length < refusal) ? refusal : fieldscribe_modbus_told(framing, request->function, buffer, whole);
+    if ((whole != 0U) && (length < shortest)) {
+        whole = shortest;
+    } else if ((whole != 0U) && (framing == FIELDSCRIBE_MODBUS_TCP)) {
+        whole = 6U + (uint32_t)fieldscribe_modbus_get(&buffer[4]);
+    } else if ((whole != 0U) && ((buffer[1] & 0x80U) != 0U)) { /* a refusal, whatever it answers */
+        whole = shortest;
+    } else if ((whole != 0U) && (buffer[1] == request->function)) {
+        whole = 3U + fieldscribe_modbus_pdu(request->function, request->function, buffer[2]);
+    } else {
+        /* nobody answers, or something that does not say how long it is */
     }
     if (whole > size) {
         whole = (uint32_t)size;
@@ -946,17 +868,23 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 }
 
 /* How many bytes an answer has at least that so many begin; 0 where they begin none, or its checksum is wrong. */
+
 static size_t fieldscribe_modbus_begun_rtu(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    size_t whole = length + 1U; /* the next byte says more */
-    if (length > 1U) {
-        const size_t pdu = fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
-        whole = (pdu != 0U) ? (3U + pdu) : 0U;
+    size_t whole = 5U; /* the shortest answer */
+    if (bytes[0] != receiver->unit) {
+        return 0U;
     }
-    if ((bytes[0] != receiver->unit) || (whole > receiver->size) ||
-        ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
-        whole = 0U;
+    if (length > 1U) {
+        whole = fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
+        if (whole == 0U) {
+            return 0U;
+        }
+        whole += 3U;
+    }
+    if ((whole > receiver->size) || ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
+        return 0U;
     }
     return whole;
 }
@@ -977,97 +905,103 @@ static size_t fieldscribe_modbus_begun_tcp(
         ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U))) {
         whole = 0U;
     } else if (length < 8U) {
-        whole = length + 1U; /* the next byte says more */
+        whole = shortest; /* which tells whose answer it is */
     } else {
         /* as it says */
     }
     return whole;
 }
 
-/* A receiver, without what tells how an answer begins. */
-static fieldscribe_modbus_receiver fieldscribe_modbus_await_any(
-    const fieldscribe_modbus_request *request, uint32_t whole, uint8_t *buffer, size_t size)
+/* How frames of a kind are built, how answers begin, and the bytes before their PDU and around it. */
+struct fieldscribe_modbus_wire {
+    fieldscribe_modbus_status (*build)(const fieldscribe_modbus_profile *profile,
+        const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+    size_t (*begun)(const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
+    uint8_t before;
+    uint8_t around;
+};
+
+static const struct fieldscribe_modbus_wire fieldscribe_modbus_rtu = {
+    &fieldscribe_modbus_build_rtu, &fieldscribe_modbus_begun_rtu, 1U, 3U};
+
+static const struct fieldscribe_modbus_wire fieldscribe_modbus_tcp = {
+    &fieldscribe_modbus_build_tcp, &fieldscribe_modbus_begun_tcp, 7U, 7U};
+
+static fieldscribe_modbus_receiver fieldscribe_modbus_await_on(const struct fieldscribe_modbus_wire *wire,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
     fieldscribe_modbus_receiver receiver;
     receiver.buffer = buffer;
     receiver.size = size;
     receiver.length = 0U;
     receiver.dropped = 0U;
-    receiver.next = 1U;
-    receiver.done = (whole == 0U) || (whole > size);
+    receiver.next = wire->around + 2U; /* the shortest answer */
+    receiver.wire = wire;
+    receiver.transaction = request->transaction;
     receiver.unit = request->unit;
     receiver.function = request->function;
-    receiver.transaction = request->transaction;
-    receiver.begun = NULL;
+    receiver.done = false;
     return receiver;
 }
 
 fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_any(
-        request, fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, request), buffer, size);
-    receiver.begun = &fieldscribe_modbus_begun_rtu;
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, request, buffer, size);
+    const uint32_t whole = fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, request);
+    receiver.done = (whole == 0U) || (whole > size);
     return receiver;
 }
 
 fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_any(
-        request, fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, request), buffer, size);
-    receiver.begun = &fieldscribe_modbus_begun_tcp;
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_tcp, request, buffer, size);
+    const uint32_t whole = fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, request);
+    receiver.done = (whole == 0U) || (whole > size);
     return receiver;
 }
 
 /*
- * Drops bytes until the rest may be the answer, and what came behind it when it is whole. On a silent line a whole
- * answer comes before one that was only begun.
+ * Drops bytes until the rest may be the answer, and what came behind it when it is whole. `whole_only`: until the rest
+ * is a whole answer, and none if there is none.
  */
-static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silent)
+static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool whole_only)
 {
-    const size_t length = receiver->length;
-    size_t whole = 1U;
-    size_t begin = length;
+    size_t length = receiver->length;
+    size_t whole = 0U;
     size_t from;
-    size_t to = 0U;
-    bool settled = false;
-    for (from = 0U; (from < length) && (!settled); ++from) {
-        const size_t least = receiver->begun(receiver, &receiver->buffer[from], length - from);
-        settled = (least != 0U) && ((!silent) || (least <= (length - from)));
-        if (settled || ((least != 0U) && (begin == length))) {
-            begin = from;
-            whole = least;
+    size_t at;
+    for (from = 0U; from < length; ++from) {
+        whole = receiver->wire->begun(receiver, &receiver->buffer[from], length - from);
+        if ((whole != 0U) && ((!whole_only) || (whole <= (length - from)))) {
+            break;
         }
     }
-    receiver->next = whole;
-    receiver->done = whole <= (length - begin);
-    receiver->length = receiver->done ? whole : (length - begin);
-    receiver->dropped += length - receiver->length;
-    for (; (to < begin) && (begin < length); ++begin) {
-        receiver->buffer[to] = receiver->buffer[begin];
-        ++to;
+    if (whole_only && (from == length)) {
+        return;
     }
-}
-
-/* Adds a byte to an answer that is not done. */
-static void fieldscribe_modbus_add(fieldscribe_modbus_receiver *receiver, uint8_t byte)
-{
-    if (receiver->length < receiver->size) {
-        receiver->buffer[receiver->length] = byte;
-        ++receiver->length;
-        if (receiver->length >= receiver->next) {
-            fieldscribe_modbus_settle(receiver, false);
-        }
+    length -= from;
+    receiver->next = (length > 0U) ? whole : (receiver->wire->around + 2U);
+    receiver->done = receiver->next <= length;
+    receiver->dropped += receiver->length;
+    receiver->length = receiver->done ? whole : length;
+    receiver->dropped -= receiver->length;
+    for (at = 0U; (from > 0U) && (at < receiver->length); ++at) {
+        receiver->buffer[at] = receiver->buffer[from + at];
     }
 }
 
 size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count)
 {
     size_t taken = 0U;
-    while ((taken < count) && (!receiver->done)) {
-        fieldscribe_modbus_add(receiver, bytes[taken]);
+    while ((taken < count) && (!receiver->done) && (receiver->length < receiver->size)) {
+        receiver->buffer[receiver->length] = bytes[taken];
+        ++receiver->length;
         ++taken;
+        if (receiver->length >= receiver->next) {
+            fieldscribe_modbus_settle(receiver, false);
+        }
     }
     return taken;
 }
@@ -1077,79 +1011,75 @@ void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver)
     if (!receiver->done) {
         fieldscribe_modbus_settle(receiver, true);
     }
+    if (!receiver->done) {
+        fieldscribe_modbus_settle(receiver, false);
+    }
 }
 
-/*
- * Sends the `length` bytes of a request, and receives its answer; a line that is never silent comes to an end, too. OK
- * says that the receiver has an answer to parse, or none because nobody answers.
- */
-static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
-    const fieldscribe_modbus_request *request, size_t length, fieldscribe_modbus_receiver *receiver,
-    const fieldscribe_modbus_reply *reply)
+/* Receives an answer. False: the line was silent, or has sent enough. */
+static bool fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
 {
-    const bool answered = request->unit != line->profile->broadcast;
-    const size_t needed = fieldscribe_modbus_reads(request->function) ? request->count : 0U;
-    uint16_t left = FIELDSCRIBE_MODBUS_ASK_MOST;
     uint32_t wait = line->answer_ms;
-    bool again = true; /* after noise that is followed by silence, an answer has its time once more */
-    uint8_t byte = 0U;
-    if (answered && (receiver->done || (fieldscribe_modbus_room(reply) < needed))) {
-        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
-    }
-    line->send(line->context, line->buffer, length);
-    while ((!receiver->done) && (left > 0U)) {
-        if (line->receive(line->context, wait, &byte)) {
-            fieldscribe_modbus_add(receiver, byte);
+    bool comes = true;
+    while (comes && (receiver->length < receiver->next) &&
+           ((receiver->dropped + receiver->next) <= FIELDSCRIBE_MODBUS_ASK_MOST)) {
+        const size_t next = receiver->next;
+        size_t length = receiver->length;
+        while (comes && (length < next)) {
+            comes = line->receive(line->context, wait, &receiver->buffer[length]);
+            length += comes ? 1U : 0U;
             wait = line->pause_ms;
-            --left;
-        } else if (again && (receiver->length == 0U) && (receiver->dropped > 0U)) {
-            again = false;
-            wait = line->answer_ms;
-        } else {
-            break;
+        }
+        receiver->length = length;
+        if (comes) {
+            fieldscribe_modbus_settle(receiver, false);
         }
     }
     fieldscribe_modbus_silent(receiver);
-    if (!receiver->done) {
-        return (receiver->dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    return receiver->done;
+}
+
+/* Sends a request, if there is room for it and its answer, and receives that. */
+static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fieldscribe_modbus_wire *wire,
+    const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    fieldscribe_modbus_receiver receiver;
+    const bool answered = request->unit != line->profile->broadcast;
+    size_t length;
+    fieldscribe_modbus_status status = wire->build(line->profile, request, line->buffer, line->size, &length);
+    fieldscribe_modbus_clear(reply);
+    if (status != FIELDSCRIBE_MODBUS_OK) {
+        return status;
     }
-    return FIELDSCRIBE_MODBUS_OK;
+    if (answered && (((wire->around + fieldscribe_modbus_answer(request)) > line->size) ||
+            ((request->writer == NULL) && (!fieldscribe_modbus_holds(reply, request->count))))) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    line->send(line->context, line->buffer, length);
+    if (!answered) {
+        return status;
+    }
+    receiver = fieldscribe_modbus_await_on(wire, request, line->buffer, line->size);
+    if ((!fieldscribe_modbus_listen(line, &receiver)) && (receiver.length == 0U) && (receiver.dropped > 0U)) {
+        (void)fieldscribe_modbus_listen(line, &receiver);
+    }
+    if (receiver.length < receiver.next) {
+        return (receiver.dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    return fieldscribe_modbus_take_answer(
+        request, &receiver.buffer[wire->before], receiver.length - wire->around, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
-    size_t length;
-    fieldscribe_modbus_status status =
-        fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
-    fieldscribe_modbus_clear(reply);
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        fieldscribe_modbus_receiver receiver =
-            fieldscribe_modbus_await_rtu(line->profile, request, line->buffer, line->size);
-        status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
-        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) { /* it is whole, and of the unit */
-            status = fieldscribe_modbus_take_answer(request, &line->buffer[1], receiver.length - 3U, reply);
-        }
-    }
-    return status;
+    return fieldscribe_modbus_exchange(&fieldscribe_modbus_rtu, line, request, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
-    size_t length;
-    fieldscribe_modbus_status status =
-        fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
-    fieldscribe_modbus_clear(reply);
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        fieldscribe_modbus_receiver receiver =
-            fieldscribe_modbus_await_tcp(line->profile, request, line->buffer, line->size);
-        status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
-        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) {
-            status = fieldscribe_modbus_take_answer(request, &line->buffer[7], receiver.length - 7U, reply);
-        }
-    }
-    return status;
+    return fieldscribe_modbus_exchange(&fieldscribe_modbus_tcp, line, request, reply);
 }
 
 /* Exchanges one request of a unit. */

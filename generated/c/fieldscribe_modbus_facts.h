@@ -9,16 +9,16 @@
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 2
+#define FIELDSCRIBE_MODBUS_INTERFACE 3
 
 /* In a profile: no unit number is a broadcast. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
-/* A function code, how many items one request may carry, and whether it may go to all units at once. */
+/* A function code, whether it may go to all units at once, and how many items one request may carry. */
 typedef struct fieldscribe_modbus_function {
     uint8_t code;
-    uint16_t most;
     bool broadcast;
+    uint16_t most;
 } fieldscribe_modbus_function;
 
 /* What a device understands. */

@@ -57,7 +57,11 @@ typedef fieldscribe_real hitachi_l200_real;
 #define HITACHI_L200_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define HITACHI_L200_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Times and settings of the line, as the manual gives them. */
+/*
+ * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;
+ * ..._CHARACTERS count the times of characters on the line, and ..._TENTHS tenths of one. SERIAL_... with a value in
+ * its name is the code that the device has for that value, without one the number itself.
+ */
 #define HITACHI_L200_TIMING_SILENT_CHARACTERS_TENTHS 35U
 #define HITACHI_L200_TIMING_RESPONSE_DELAY_MS_MIN 0U
 #define HITACHI_L200_TIMING_RESPONSE_DELAY_MS_MAX 1000U

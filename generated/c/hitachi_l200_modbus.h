@@ -14,7 +14,7 @@
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 2
+#if FIELDSCRIBE_MODBUS_INTERFACE != 3
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0xef54be83U
@@ -25,15 +25,15 @@
 extern "C" {
 #endif
 
-/* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
+/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function hitachi_l200_modbus_functions[] = {
-    {1U, 32U, false}, /* read_coils */
-    {3U, 4U, false}, /* read_holding_registers */
-    {5U, 1U, true}, /* write_coil */
-    {6U, 1U, true}, /* write_register */
-    {8U, 1U, false}, /* diagnostics */
-    {15U, 32U, false}, /* write_coils */
-    {16U, 4U, false}, /* write_registers */
+    {1U, false, 32U}, /* read_coils */
+    {3U, false, 4U}, /* read_holding_registers */
+    {5U, true, 1U}, /* write_coil */
+    {6U, true, 1U}, /* write_register */
+    {8U, false, 1U}, /* diagnostics */
+    {15U, false, 32U}, /* write_coils */
+    {16U, false, 4U}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {

@@ -52,7 +52,11 @@ typedef fieldscribe_real jumo_controller_real;
 #define JUMO_CONTROLLER_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define JUMO_CONTROLLER_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Times and settings of the line, as the manual gives them. */
+/*
+ * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;
+ * ..._CHARACTERS count the times of characters on the line, and ..._TENTHS tenths of one. SERIAL_... with a value in
+ * its name is the code that the device has for that value, without one the number itself.
+ */
 #define JUMO_CONTROLLER_TIMING_SILENT_CHARACTERS 3U
 #define JUMO_CONTROLLER_TIMING_RESPONSE_TIME_MS_MAX 250U
 #define JUMO_CONTROLLER_TIMING_MINIMUM_RESPONSE_DELAY_MS_MIN 0U

@@ -14,7 +14,7 @@
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 2
+#if FIELDSCRIBE_MODBUS_INTERFACE != 3
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x8555fae2U
@@ -25,12 +25,12 @@
 extern "C" {
 #endif
 
-/* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
+/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function jumo_controller_modbus_functions[] = {
-    {3U, 32U, false}, /* read_holding_registers */
-    {4U, 32U, false}, /* read_input_registers */
-    {6U, 1U, true}, /* write_register */
-    {16U, 32U, true}, /* write_registers */
+    {3U, false, 32U}, /* read_holding_registers */
+    {4U, false, 32U}, /* read_input_registers */
+    {6U, true, 1U}, /* write_register */
+    {16U, true, 32U}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {

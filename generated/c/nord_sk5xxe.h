@@ -53,7 +53,11 @@ typedef fieldscribe_real nord_sk5xxe_real;
 #define NORD_SK5XXE_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define NORD_SK5XXE_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Times and settings of the line, as the manual gives them. */
+/*
+ * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;
+ * ..._CHARACTERS count the times of characters on the line, and ..._TENTHS tenths of one. SERIAL_... with a value in
+ * its name is the code that the device has for that value, without one the number itself.
+ */
 #define NORD_SK5XXE_SERIAL_DATA_BITS 8U
 #define NORD_SK5XXE_SERIAL_STOP_BITS 1U
 

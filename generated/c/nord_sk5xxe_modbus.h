@@ -14,7 +14,7 @@
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 2
+#if FIELDSCRIBE_MODBUS_INTERFACE != 3
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x57363088U
@@ -25,14 +25,14 @@
 extern "C" {
 #endif
 
-/* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
+/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function nord_sk5xxe_modbus_functions[] = {
-    {1U, 2000U, false}, /* read_coils */
-    {5U, 1U, true}, /* write_coil */
-    {15U, 1968U, true}, /* write_coils */
-    {3U, 125U, false}, /* read_holding_registers */
-    {6U, 1U, true}, /* write_register */
-    {16U, 123U, true}, /* write_registers */
+    {1U, false, 2000U}, /* read_coils */
+    {5U, true, 1U}, /* write_coil */
+    {15U, true, 1968U}, /* write_coils */
+    {3U, false, 125U}, /* read_holding_registers */
+    {6U, true, 1U}, /* write_register */
+    {16U, true, 123U}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {

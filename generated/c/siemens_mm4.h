@@ -60,7 +60,11 @@ typedef fieldscribe_real siemens_mm4_real;
 #define SIEMENS_MM4_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define SIEMENS_MM4_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Times and settings of the line, as the manual gives them. */
+/*
+ * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;
+ * ..._CHARACTERS count the times of characters on the line, and ..._TENTHS tenths of one. SERIAL_... with a value in
+ * its name is the code that the device has for that value, without one the number itself.
+ */
 #define SIEMENS_MM4_SERIAL_BAUD_MOST 57600U
 #define SIEMENS_MM4_SERIAL_SLAVES_MOST 31U
 

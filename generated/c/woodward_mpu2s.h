@@ -59,7 +59,11 @@ typedef fieldscribe_real woodward_mpu2s_real;
 #define WOODWARD_MPU2S_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define WOODWARD_MPU2S_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Times and settings of the line, as the manual gives them. */
+/*
+ * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;
+ * ..._CHARACTERS count the times of characters on the line, and ..._TENTHS tenths of one. SERIAL_... with a value in
+ * its name is the code that the device has for that value, without one the number itself.
+ */
 #define WOODWARD_MPU2S_TIMING_PAUSE_BETWEEN_MESSAGES_MS 100U
 
 /* The cyclic telegrams, and the number of words of each. */

@@ -44,15 +44,10 @@ static void know(size_t count)
     profile.function_count = count;
 }
 
-/* A request of any kind, and of none. */
+/* A request that reads, and one that writes. */
 static void of_any_kind(void)
 {
-    static const fieldscribe_modbus_putting puts[] = {
-        &fieldscribe_modbus_put_reading, &fieldscribe_modbus_put_writing, NULL};
-    static const fieldscribe_modbus_taking takes[] = {
-        &fieldscribe_modbus_take_words, &fieldscribe_modbus_take_bits, &fieldscribe_modbus_take_echo, NULL};
-    request.put = puts[number % 3U];
-    request.take = takes[number % 4U];
+    request.writer = number % 2U != 0U ? &fieldscribe_modbus_writes : NULL;
 }
 
 /* A request of so many items, in an array that has no more. */
@@ -60,7 +55,6 @@ static void ask(uint16_t count)
 {
     request.count = count;
     request.values = EXACTLY(count, items);
-    request.given = count;
     of_any_kind();
 }
 
@@ -71,7 +65,6 @@ static void ask_any(void)
         request.count = 0U;
     }
     request.values = many_items;
-    request.given = sizeof many_items / sizeof many_items[0];
     of_any_kind();
 }
 
@@ -130,24 +123,9 @@ void prove_reads(uint8_t function)
     (void)fieldscribe_modbus_reads(function);
 }
 
-void prove_reads_bits(uint8_t function)
+void prove_item_bytes(uint16_t count)
 {
-    (void)fieldscribe_modbus_reads_bits(function);
-}
-
-void prove_single(void)
-{
-    ask(1U);
-    (void)fieldscribe_modbus_single(&request);
-}
-
-void prove_find(size_t count, uint8_t code)
-{
-    if (count <= KNOWN) {
-        //@ split count;
-        know(count);
-        (void)fieldscribe_modbus_find(&profile, code);
-    }
+    (void)fieldscribe_modbus_item_bytes(count, number % 2U != 0U);
 }
 
 void prove_allows(size_t count)
@@ -182,19 +160,13 @@ void prove_allows__values(uint16_t count)
     }
 }
 
-void prove_allows_values(uint16_t count)
+void prove_are_coils(uint16_t count)
 {
     if (count <= ITEMS) {
         //@ split count;
         ask(count);
-        (void)fieldscribe_modbus_allows_values(&request);
+        (void)fieldscribe_modbus_are_coils(&request);
     }
-}
-
-void prove_data_bytes(void)
-{
-    know(0U);
-    (void)fieldscribe_modbus_data_bytes(&profile, &request);
 }
 
 void prove_coils(uint16_t count, uint16_t byte)
@@ -244,39 +216,41 @@ static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size
     }
 }
 
-void prove_put_head(uint16_t count)
-{
-    fieldscribe_modbus_put_head(&request, count, EXACTLY(6U, frame));
-}
-
-void prove_put_reading(size_t size)
-{
-    if (size <= SHORT) {
-        size_t used;
-        //@ split size;
-        know(1U);
-        ask_any();
-        (void)fieldscribe_modbus_put_reading(&profile, &request, EXACTLY(size, frame), size, &used);
-    }
-}
-
 /* By kind of function, so that Frama-C knows in each call what the frame consists of. */
 static void put_by_function(fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *,
-    const fieldscribe_modbus_request *, uint8_t *, size_t, size_t *), size_t size)
+    const fieldscribe_modbus_request *, uint8_t *, size_t *), size_t size)
 {
-    size_t used;
+    size_t used = size;
     if (request.function < 0x0FU) {
-        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+        (void)put(&profile, &request, EXACTLY(size, frame), &used);
     } else if (request.function == 0x0FU) {
-        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+        (void)put(&profile, &request, EXACTLY(size, frame), &used);
     } else if (request.function == 0x10U) {
-        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+        (void)put(&profile, &request, EXACTLY(size, frame), &used);
     } else {
-        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+        (void)put(&profile, &request, EXACTLY(size, frame), &used);
     }
 }
 
 /* Without what frames a request; data is proven by put_values, for all lengths. */
+void prove_put_several(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        put_by_function(&fieldscribe_modbus_put_several, size);
+    }
+}
+
+void prove_put_several__no_values(size_t size)
+{
+    if (size <= SHORT) {
+        request.values = NULL;
+        put_by_function(&fieldscribe_modbus_put_several, size);
+    }
+}
+
 void prove_put_writing(size_t size)
 {
     if (size <= SHORT) {
@@ -289,7 +263,7 @@ void prove_put_writing(size_t size)
 
 void prove_put_request(size_t size)
 {
-    if (size <= SHORT) {
+    if (size >= 6U && size <= SHORT) {
         //@ split size;
         know(1U);
         ask_any();
@@ -307,13 +281,27 @@ void prove_build_rtu(size_t size)
     }
 }
 
+static void build_pdu_into(uint8_t *buffer, size_t size)
+{
+    size_t length;
+    if (request.function < 0x0FU) {
+        (void)fieldscribe_modbus_build_pdu(&profile, &request, buffer, size, &length);
+    } else if (request.function == 0x0FU) {
+        (void)fieldscribe_modbus_build_pdu(&profile, &request, buffer, size, &length);
+    } else if (request.function == 0x10U) {
+        (void)fieldscribe_modbus_build_pdu(&profile, &request, buffer, size, &length);
+    } else {
+        (void)fieldscribe_modbus_build_pdu(&profile, &request, buffer, size, &length);
+    }
+}
+
 void prove_build_pdu(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
         know(1U);
         ask_any();
-        put_by_function(&fieldscribe_modbus_build_pdu, size);
+        build_pdu_into(EXACTLY(size, frame), size);
     }
 }
 
@@ -355,45 +343,24 @@ void prove_build__values(uint16_t count)
     }
 }
 
-void prove_take_words__data(size_t size, size_t room)
+void prove_take_items__data(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_take_words(&request, EXACTLY(size, frame), size, &reply);
+        (void)fieldscribe_modbus_take_items(&request, EXACTLY(size, frame), size, &reply);
     }
 }
 
-void prove_take_words__values(size_t size, size_t room)
-{
-    const size_t stored = room < WORDS ? room : WORDS;
-    if (size >= 2U && size <= FRAMES) {
-        //@ split stored;
-        ask_any();
-        into(EXACTLY(stored, items), stored);
-        (void)fieldscribe_modbus_take_words(&request, frame, size, &reply);
-    }
-}
-
-void prove_take_bits__data(size_t size, size_t room)
-{
-    if (size >= 2U && size <= FRAMES) {
-        //@ split size;
-        ask_any();
-        into(many_items, room);
-        (void)fieldscribe_modbus_take_bits(&request, EXACTLY(size, frame), size, &reply);
-    }
-}
-
-void prove_take_bits__values(size_t size, size_t room)
+void prove_take_items__values(size_t size, size_t room)
 {
     const size_t stored = room < ITEMS ? room : ITEMS;
     if (size >= 2U && size <= FRAMES) {
         //@ split stored;
         ask_any();
         into(EXACTLY(stored, items), stored);
-        (void)fieldscribe_modbus_take_bits(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
     }
 }
 
@@ -489,14 +456,13 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
 }
 
 /* Nothing is stored where there is nothing, whatever room is told. */
-void prove_room(size_t size, size_t room)
+void prove_holds(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         ask_any();
         into(NULL, room);
-        (void)fieldscribe_modbus_room(&reply);
-        (void)fieldscribe_modbus_take_words(&request, frame, size, &reply);
-        (void)fieldscribe_modbus_take_bits(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_holds(&reply, room);
+        (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
         (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
         (void)fieldscribe_modbus_words_in(&request, &reply, &reading);
     }
@@ -515,13 +481,6 @@ void prove_around(fieldscribe_modbus_framing framing)
 void prove_reply_length(fieldscribe_modbus_framing framing)
 {
     (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
-}
-
-/* An answer has come as far as a refusal is long. */
-void prove_told(uint8_t function, uint32_t expected)
-{
-    (void)fieldscribe_modbus_told(FIELDSCRIBE_MODBUS_RTU, function, EXACTLY(5U, frame), expected);
-    (void)fieldscribe_modbus_told(FIELDSCRIBE_MODBUS_TCP, function, EXACTLY(9U, frame), expected);
 }
 
 void prove_left(size_t size, size_t length)
@@ -575,9 +534,10 @@ void prove_await_tcp(size_t size)
     receiver = fieldscribe_modbus_await_tcp(&profile, &request, frame, size);
 }
 
-void prove_await_any(uint32_t whole, size_t size)
+void prove_await_on(size_t size)
 {
-    receiver = fieldscribe_modbus_await_any(&request, whole, frame, size);
+    receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, &request, frame, size);
+    receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_tcp, &request, frame, size);
 }
 
 void prove_pdu(uint8_t function, uint8_t code, uint8_t count)
@@ -592,7 +552,7 @@ static void has(uint8_t *buffer, size_t size, size_t length)
     receiver.size = size;
     receiver.length = length;
     receiver.done = number % 2U != 0U;
-    receiver.begun = number % 2U != 0U ? &fieldscribe_modbus_begun_tcp : &fieldscribe_modbus_begun_rtu;
+    receiver.wire = number % 2U != 0U ? &fieldscribe_modbus_tcp : &fieldscribe_modbus_rtu;
 }
 
 void prove_begun_rtu(size_t size, size_t length)
@@ -628,16 +588,6 @@ void prove_silent(size_t size, size_t length)
         //@ split length;
         has(EXACTLY(length, frame), size, length);
         fieldscribe_modbus_silent(&receiver);
-    }
-}
-
-void prove_add(size_t size, size_t length, uint8_t byte)
-{
-    if (size <= STEPS && length <= size) {
-        //@ split size;
-        //@ split length;
-        has(EXACTLY(size, frame), size, length);
-        fieldscribe_modbus_add(&receiver, byte);
     }
 }
 
@@ -678,8 +628,7 @@ static void link(uint8_t *buffer, size_t size)
     line.context = NULL;
     know(KNOWN);
     ask_any();
-    request.put = &fieldscribe_modbus_put_reading;
-    request.take = &fieldscribe_modbus_take_words;
+    request.writer = NULL;
 }
 
 void prove_clear(void)
@@ -687,14 +636,23 @@ void prove_clear(void)
     fieldscribe_modbus_clear(&reply);
 }
 
-void prove_exchange(size_t size, size_t length, size_t room)
+void prove_listen(size_t size)
+{
+    if (size >= 5U && size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, &request, line.buffer, size);
+        (void)fieldscribe_modbus_listen(&line, &receiver);
+    }
+}
+
+void prove_exchange(size_t size, size_t room)
 {
     if (size <= SHORT) {
         //@ split size;
         link(EXACTLY(size, frame), size);
         into(items, room);
-        receiver = fieldscribe_modbus_await_rtu(&profile, &request, line.buffer, size);
-        (void)fieldscribe_modbus_exchange(&line, &request, length, &receiver, &reply);
+        (void)fieldscribe_modbus_exchange(&fieldscribe_modbus_rtu, &line, &request, &reply);
     }
 }
 

@@ -32,12 +32,7 @@ void prove_jumo_controller(size_t length, size_t room)
     size_t used;
     if (length <= FRAMES) {
         request.values = items;
-        request.given = LARGE / 2U;
-        request.put =
-            request.function > 0x04U ? &fieldscribe_modbus_put_writing : &fieldscribe_modbus_put_reading;
-        request.take = request.function > 0x04U ? &fieldscribe_modbus_take_echo
-            : request.function > 0x02U          ? &fieldscribe_modbus_take_words
-                                                : &fieldscribe_modbus_take_bits;
+        request.writer = request.function > 0x04U ? &fieldscribe_modbus_writes : NULL;
         reply.values = items;
         reply.room = room;
         if (request.count <= LARGE / 2U) {

@@ -20,8 +20,11 @@ _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _DEFINED = re.compile(
     r"(?m)^#define (\w+)|^\} (\w+);|^typedef [^{;]*?(\w+);|^typedef [^;]*?\(\*(\w+)\)"
     r"|^(?:typedef )?(?:struct|enum) (\w+) \{|^    (FIELDSCRIBE_\w+)(?: = \w+)?,?\s*$"
-    r"|^(?!#|typedef)\w[^\n(=]*?\b(fieldscribe_\w+)[(\[]"
+    r"|^(?!#|typedef)\w[^\n(=]*?\b(fieldscribe_\w+)(?:[(\[]| =)"
 )
+_OPENS_C = '#ifdef __cplusplus\nextern "C" {\n#endif'
+_CLOSES_C = "#ifdef __cplusplus\n}\n#endif"
+_CLOSES = "#endif"
 _NOTICE = """\
 /*
  * Only what the chosen points use: the rest of this file is left out. To have more of it, add its names to --points
@@ -62,10 +65,19 @@ def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
     texts = [part for part in parts if part in kept]
     if len(texts) == len(parts):
         return whole
-    for at in reversed(range(len(texts) - 1)):
-        if _is_comment(texts[at]) and (_is_comment(texts[at + 1]) or texts[at + 1].startswith("#endif")):
-            del texts[at]
-    return _NOTICE + whole[: len(whole) - len(_HEAD.sub("", whole))] + "\n\n".join(texts)
+    texts[-1] = texts[-1].rstrip()
+    for at in reversed(range(len(texts))):
+        if _is_empty(texts[at], texts[at + 1] if at + 1 < len(texts) else _CLOSES):
+            del texts[at : at + 2 - _is_comment(texts[at])]
+    return _NOTICE + whole[: len(whole) - len(_HEAD.sub("", whole))] + "\n\n".join(texts) + "\n"
+
+
+def _is_empty(part: str, following: str) -> bool:
+    """Return True for a comment with nothing below it, and for a condition with nothing in it."""
+    if _is_comment(part):
+        ends = _is_comment(following) or following.startswith((_CLOSES, _CLOSES_C))
+        return ends or ("/* ----" not in part and following.startswith("/*"))
+    return (part, following) == (_OPENS_C, _CLOSES_C) or (following == _CLOSES and part.startswith("#if "))
 
 
 def _is_comment(part: str) -> bool:

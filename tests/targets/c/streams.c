@@ -8,7 +8,7 @@
 #include "fieldscribe_modbus.h"
 #include "fieldscribe_uss.h"
 
-static const fieldscribe_modbus_function functions[] = {{1U, 2000U, false}, {3U, 125U, false}, {6U, 1U, true}};
+static const fieldscribe_modbus_function functions[] = {{1U, false, 2000U}, {3U, false, 125U}, {6U, true, 1U}};
 static const fieldscribe_modbus_profile profile = {functions, 3U, 1U, 247U, 0U, false, true, true};
 
 typedef union either {

@@ -23,7 +23,7 @@ static bool receive(void *context, uint32_t milliseconds, uint8_t *byte)
 }
 int main(void)
 {
-    static const fieldscribe_modbus_function functions[] = {{3U, 9U, false}, {6U, 1U, true}};
+    static const fieldscribe_modbus_function functions[] = {{3U, false, 9U}, {6U, true, 1U}};
     static const fieldscribe_modbus_profile profile = {functions, 2U, 1U, 9U, 0U, false, true, true};
     static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
     static const fieldscribe_modbus_writing to_all = {6U, 100U, 1U};

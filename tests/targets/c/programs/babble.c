@@ -38,7 +38,7 @@ static void say(const uint8_t *bytes, size_t count, size_t times)
 }
 int main(void)
 {
-    static const fieldscribe_modbus_function functions[] = {{3U, 9U, false}};
+    static const fieldscribe_modbus_function functions[] = {{3U, false, 9U}};
     static const fieldscribe_modbus_profile profile = {functions, 1U, 1U, 9U, 0U, false, true, true};
     static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
     static const uint8_t good[] = {1, 3, 2, 0, 1, 0x79, 0x84};
@@ -90,7 +90,7 @@ int main(void)
             return (int)at + 1;
         }
     }
-    if (heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
+    if (heard > FIELDSCRIBE_MODBUS_ASK_MOST || heard + sizeof good < FIELDSCRIBE_MODBUS_ASK_MOST) {
         return 20;
     }
     gap = sizeof other_unit;
@@ -105,7 +105,7 @@ int main(void)
     gap = 0U;
     say(tcp, sizeof tcp, 1000U);
     if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE ||
-        heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
+        heard > FIELDSCRIBE_MODBUS_ASK_MOST || heard + sizeof tcp < FIELDSCRIBE_MODBUS_ASK_MOST) {
         return 21;
     }
     say(wrong_check, sizeof wrong_check, 1U);

@@ -15,7 +15,10 @@ int main(void)
     for (round_number = 0; round_number < 200000U; ++round_number) {
         const uint16_t count = (uint16_t)(draw() % 130U + 1U);
         const fieldscribe_modbus_reading what = {codes[draw() % 10U], 2U, count};
-        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
+        const fieldscribe_modbus_writing to = {what.function, 2U, 1U};
+        const fieldscribe_modbus_request request = fieldscribe_modbus_reads(what.function)
+            ? fieldscribe_modbus_read(1U, &what)
+            : fieldscribe_modbus_write(1U, &to, written, 1U);
         const size_t length = draw() % 24U;
         uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
         uint8_t *const exact = bytes + 1;
@@ -24,9 +27,6 @@ int main(void)
         size_t at;
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
-        request.values = written;
-        request.first = written[0];
-        request.given = 1U;
         for (at = 0; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);
         }

@@ -1,4 +1,5 @@
     static const fieldscribe_modbus_writing two = {0x10U, 8U, 2U};
+    static const fieldscribe_modbus_writing single = {0x06U, 8U, 1U};
     const fieldscribe_modbus_profile *const profile = &kitchen_sink_modbus_profile;
     const fieldscribe_layout *const layout = kitchen_sink_plain_u32_frame.layout;
     uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
@@ -13,9 +14,7 @@
         FIELDSCRIBE_MODBUS_BAD_COUNT) {
         return 2;
     }
-    request.given = 0U; /* nor is an echo held against what is not there */
-    request.function = 0x06U;
-    request.count = 1U;
+    request = fieldscribe_modbus_write(1U, &single, one, 0U); /* nor is an echo held against what is not there */
     return fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length) ==
             FIELDSCRIBE_MODBUS_BAD_COUNT
         ? 0
