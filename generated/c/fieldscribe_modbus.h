@@ -128,8 +128,9 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_pr
 /*
  * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
  * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, an answer
- * to something else, a wrong checksum. If nothing came and nothing was dropped, nobody answers. An answer of another
- * length than was asked for is received, too, where it fits into the buffer; parsing says what is wrong with it.
+ * to something else, a wrong checksum; the last few are looked at when more come, or when it is told that the line is
+ * silent. If nothing came and nothing was dropped, nobody answers. An answer of another length than was asked for is
+ * received, too, where it fits into the buffer; parsing says what is wrong with it.
  */
 typedef struct fieldscribe_modbus_receiver {
     uint8_t *buffer;
@@ -349,19 +350,21 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     const fieldscribe_modbus_status status = fieldscribe_modbus_read_word(&device->unit, function, address, &word); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
 
-#define FIELDSCRIBE_MODBUS_READ_WORDS(frame, count, to, number) \
+#define FIELDSCRIBE_MODBUS_READ_WORDS(function, address, count, to, number) \
+    static const fieldscribe_modbus_reading what = {function, address, count}; \
     uint16_t words[count] = {0}; \
     const fieldscribe_modbus_status status = \
-        fieldscribe_modbus_read_words(&device->unit, &(frame).read, words, count); \
+        fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
     if (status == FIELDSCRIBE_MODBUS_OK) { \
         *(to) = (number); \
     } \
     return status;
 
-#define FIELDSCRIBE_MODBUS_DECODE_WORDS(frame, count, decoded) \
+#define FIELDSCRIBE_MODBUS_DECODE_WORDS(function, address, count, decoded) \
+    static const fieldscribe_modbus_reading what = {function, address, count}; \
     uint16_t words[count] = {0}; \
     const fieldscribe_modbus_status status = \
-        fieldscribe_modbus_read_words(&device->unit, &(frame).read, words, count); \
+        fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
 
 #define FIELDSCRIBE_MODBUS_WRITE_WORD(function, address, type, encoded, bits) \
@@ -370,13 +373,14 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
                                              : status;
 
-#define FIELDSCRIBE_MODBUS_WRITE_WORDS(frame, count, type, encoded, split) \
+#define FIELDSCRIBE_MODBUS_WRITE_WORDS(function, address, count, type, encoded, split) \
+    static const fieldscribe_modbus_writing what = {function, address, count}; \
     type raw = (type)0; \
     uint16_t words[count]; \
     const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
     split; \
     return (status == FIELDSCRIBE_MODBUS_OK) \
-        ? fieldscribe_modbus_write_words(&device->unit, &(frame).write, words, count) : status;
+        ? fieldscribe_modbus_write_words(&device->unit, &what, words, count) : status;
 
 #define FIELDSCRIBE_MODBUS_UPDATE_WORD(from, from_address, function, address, type, encoded, bits) \
     type raw = (type)0; \
@@ -415,14 +419,11 @@ uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
     static const uint16_t nibbles[16] = {0x0000U, 0xCC01U, 0xD801U, 0x1400U, 0xF001U, 0x3C00U, 0x2800U, 0xE401U,
         0xA001U, 0x6C00U, 0x7800U, 0xB401U, 0x5000U, 0x9C01U, 0x8801U, 0x4400U};
     uint32_t crc = 0xFFFFU;
-    size_t at = 0U;
-    if (length > 0U) {
-        do {
-            crc ^= bytes[at];
-            crc = (crc >> 4) ^ nibbles[crc & 0xFU];
-            crc = (crc >> 4) ^ nibbles[crc & 0xFU];
-            ++at;
-        } while (at < length);
+    size_t at;
+    for (at = 0U; at < length; ++at) {
+        crc ^= bytes[at];
+        crc = (crc >> 4) ^ nibbles[crc & 0xFU];
+        crc = (crc >> 4) ^ nibbles[crc & 0xFU];
     }
     return (uint16_t)(crc & 0xFFFFU);
 }
@@ -465,12 +466,13 @@ static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t 
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
-    const fieldscribe_modbus_function *known = profile->functions;
-    const fieldscribe_modbus_function *const end = &known[profile->function_count];
-    while ((known != end) && (known->code != request->function)) {
-        ++known;
+    const fieldscribe_modbus_function *const functions = profile->functions;
+    const fieldscribe_modbus_function *known = NULL;
+    size_t at;
+    for (at = 0U; (at < profile->function_count) && (known == NULL); ++at) {
+        known = (functions[at].code == request->function) ? &functions[at] : NULL;
     }
-    if ((known == end) || ((request->writer == NULL) && (!fieldscribe_modbus_reads(request->function)))) {
+    if ((known == NULL) || ((request->writer == NULL) && (!fieldscribe_modbus_reads(request->function)))) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
     if ((request->unit == profile->broadcast)
@@ -612,10 +614,10 @@ static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
     reply->exception = 0U;
 }
 
-/* Whether there is room for so many items in a reply. */
-static bool fieldscribe_modbus_holds(const fieldscribe_modbus_reply *reply, size_t count)
+/* How many values there is room for in a reply. */
+static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
 {
-    return (reply->values != NULL) && (reply->room >= count);
+    return (reply->values == NULL) ? 0U : reply->room;
 }
 
 /* What was written comes back, or how many items were. */
@@ -629,7 +631,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
         (fieldscribe_modbus_get(&pdu[3]) != request->number)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if ((request->function <= 0x08U) && fieldscribe_modbus_holds(reply, 1U)) {
+    if ((request->function <= 0x08U) && (fieldscribe_modbus_room(reply) > 0U)) {
         reply->values[0] = (request->function == 0x05U) ? (uint16_t)(request->number >> 15) : request->number;
         reply->count = 1U;
     }
@@ -721,23 +723,26 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_items(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const bool bits = request->function <= 0x02U;
-    const uint8_t *const items = &pdu[2];
+    const uint8_t bytes = pdu[1];
+    const uint16_t count = request->count;
     uint32_t at;
-    if ((pdu[1] != fieldscribe_modbus_item_bytes(request->count, bits)) || (size != (2U + (size_t)pdu[1]))) {
+    if ((size != (2U + (size_t)bytes)) || (bytes != fieldscribe_modbus_item_bytes(count, bits))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (!fieldscribe_modbus_holds(reply, request->count)) {
+    if (fieldscribe_modbus_room(reply) < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    reply->count = request->count;
-    if (bits) {
-        for (at = 0U; at < reply->count; ++at) {
-            reply->values[at] = (uint16_t)(((uint32_t)items[at / 8U] >> (at % 8U)) & 1U);
+    reply->count = count;
+    if (bits && (count <= (8U * (uint32_t)bytes))) {
+        for (at = 0U; at < count; ++at) {
+            reply->values[at] = (uint16_t)(((uint32_t)pdu[2U + (at / 8U)] >> (at % 8U)) & 1U);
+        }
+    } else if (count <= (bytes / 2U)) {
+        for (at = 0U; at < count; ++at) {
+            reply->values[at] = fieldscribe_modbus_get(&pdu[2U + (2U * at)]);
         }
     } else {
-        for (at = 0U; at < reply->count; ++at) {
-            reply->values[at] = fieldscribe_modbus_get(&items[2U * at]);
-        }
+        /* the bytes are enough: the conditions are for proofs */
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
@@ -968,27 +973,30 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
  */
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool whole_only)
 {
-    size_t length = receiver->length;
-    size_t whole = 0U;
-    size_t from;
+    const size_t end = receiver->length;
+    size_t whole = receiver->wire->around + 2U; /* the shortest answer */
+    size_t begin;
     size_t at;
-    for (from = 0U; from < length; ++from) {
-        whole = receiver->wire->begun(receiver, &receiver->buffer[from], length - from);
-        if ((whole != 0U) && ((!whole_only) || (whole <= (length - from)))) {
+    for (begin = 0U; begin < end; ++begin) {
+        const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
+        if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
+            whole = least;
             break;
         }
     }
-    if (whole_only && (from == length)) {
+    if (whole_only && (begin == end)) {
         return;
     }
-    length -= from;
-    receiver->next = (length > 0U) ? whole : (receiver->wire->around + 2U);
-    receiver->done = receiver->next <= length;
-    receiver->dropped += receiver->length;
-    receiver->length = receiver->done ? whole : length;
-    receiver->dropped -= receiver->length;
-    for (at = 0U; (from > 0U) && (at < receiver->length); ++at) {
-        receiver->buffer[at] = receiver->buffer[from + at];
+    receiver->next = whole;
+    receiver->length = end - begin;
+    if (whole <= receiver->length) {
+        receiver->length = whole;
+        receiver->done = true;
+    }
+    receiver->dropped += end - receiver->length;
+    for (at = 0U; (at < begin) && (begin < end); ++begin) {
+        receiver->buffer[at] = receiver->buffer[begin];
+        ++at;
     }
 }
 
@@ -1052,7 +1060,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
         return status;
     }
     if (answered && (((wire->around + fieldscribe_modbus_answer(request)) > line->size) ||
-            ((request->writer == NULL) && (!fieldscribe_modbus_holds(reply, request->count))))) {
+            ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count)))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);

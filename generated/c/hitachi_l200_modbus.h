@@ -1185,7 +1185,7 @@ static const fieldscribe_modbus_r hitachi_l200_scaled_process_value_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1004U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_scaled_process_value(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_scaled_process_value_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1004U, 2U, count,
         hitachi_l200_scaled_process_value_decode_count(hitachi_l200_scaled_process_value_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1006U, 1U}};
@@ -1200,14 +1200,14 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_voltage(hitachi_l200_device *de
 static const fieldscribe_modbus_r hitachi_l200_run_time_frame = {&hitachi_l200_layout_u32_order_01, {3U, 0x100DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x100DU, 2U, value,
         hitachi_l200_run_time_decode(hitachi_l200_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x100FU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_power_on_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_power_on_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x100FU, 2U, value,
         hitachi_l200_power_on_time_decode(hitachi_l200_power_on_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {3U, 0x0010U, 1U}};
@@ -1232,14 +1232,14 @@ static const fieldscribe_modbus_r hitachi_l200_trip_1_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0017U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_run_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_1_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0017U, 2U, value,
         hitachi_l200_trip_1_run_time_decode(hitachi_l200_trip_1_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0019U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_power_on_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_1_power_on_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0019U, 2U, value,
         hitachi_l200_trip_1_power_on_time_decode(hitachi_l200_trip_1_power_on_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {3U, 0x001BU, 1U}};
@@ -1261,14 +1261,14 @@ static const fieldscribe_modbus_r hitachi_l200_trip_2_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0021U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_run_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_2_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0021U, 2U, value,
         hitachi_l200_trip_2_run_time_decode(hitachi_l200_trip_2_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0023U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_power_on_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_2_power_on_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0023U, 2U, value,
         hitachi_l200_trip_2_power_on_time_decode(hitachi_l200_trip_2_power_on_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0025U, 1U}};
@@ -1290,38 +1290,38 @@ static const fieldscribe_modbus_r hitachi_l200_trip_3_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_run_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_3_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x002BU, 2U, value,
         hitachi_l200_trip_3_run_time_decode(hitachi_l200_trip_3_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_power_on_time(hitachi_l200_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_trip_3_power_on_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x002DU, 2U, value,
         hitachi_l200_trip_3_power_on_time_decode(hitachi_l200_trip_3_power_on_time_from_words(words)))
 }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1013U, 2U}, {16U, 0x1013U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1013U, 2U, count,
         hitachi_l200_acceleration_time_decode_count(hitachi_l200_acceleration_time_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_frame, 2U, uint32_t,
-        hitachi_l200_acceleration_time_encode_count(count, &raw), hitachi_l200_acceleration_time_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1013U, 2U, uint32_t, hitachi_l200_acceleration_time_encode_count(count, &raw),
+        hitachi_l200_acceleration_time_to_words(raw, words))
 }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1500U, 2U}, {16U, 0x1500U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_set_2_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1500U, 2U, count,
         hitachi_l200_acceleration_time_set_2_decode_count(hitachi_l200_acceleration_time_set_2_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_set_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1500U, 2U, uint32_t,
         hitachi_l200_acceleration_time_set_2_encode_count(count, &raw),
         hitachi_l200_acceleration_time_set_2_to_words(raw, words))
 }
@@ -1329,24 +1329,24 @@ static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1015U, 2U}, {16U, 0x1015U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1015U, 2U, count,
         hitachi_l200_deceleration_time_decode_count(hitachi_l200_deceleration_time_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_frame, 2U, uint32_t,
-        hitachi_l200_deceleration_time_encode_count(count, &raw), hitachi_l200_deceleration_time_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1015U, 2U, uint32_t, hitachi_l200_deceleration_time_encode_count(count, &raw),
+        hitachi_l200_deceleration_time_to_words(raw, words))
 }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1502U, 2U}, {16U, 0x1502U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_set_2_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1502U, 2U, count,
         hitachi_l200_deceleration_time_set_2_decode_count(hitachi_l200_deceleration_time_set_2_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_set_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1502U, 2U, uint32_t,
         hitachi_l200_deceleration_time_set_2_encode_count(count, &raw),
         hitachi_l200_deceleration_time_set_2_to_words(raw, words))
 }
@@ -1852,12 +1852,12 @@ static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1073U, 2U}, {16U, 0x1073U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_2(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_acceleration_time_2_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1073U, 2U, count,
         hitachi_l200_acceleration_time_2_decode_count(hitachi_l200_acceleration_time_2_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_acceleration_time_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1073U, 2U, uint32_t,
         hitachi_l200_acceleration_time_2_encode_count(count, &raw),
         hitachi_l200_acceleration_time_2_to_words(raw, words))
 }
@@ -1865,12 +1865,12 @@ static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1075U, 2U}, {16U, 0x1075U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_2_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1075U, 2U, count,
         hitachi_l200_deceleration_time_2_decode_count(hitachi_l200_deceleration_time_2_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1075U, 2U, uint32_t,
         hitachi_l200_deceleration_time_2_encode_count(count, &raw),
         hitachi_l200_deceleration_time_2_to_words(raw, words))
 }
@@ -1878,12 +1878,12 @@ static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_set_2_frame 
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1519U, 2U}, {16U, 0x1519U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(hitachi_l200_deceleration_time_2_set_2_frame, 2U, count,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1519U, 2U, count,
         hitachi_l200_deceleration_time_2_set_2_decode_count(hitachi_l200_deceleration_time_2_set_2_from_words(words)))
 }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(hitachi_l200_deceleration_time_2_set_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1519U, 2U, uint32_t,
         hitachi_l200_deceleration_time_2_set_2_encode_count(count, &raw),
         hitachi_l200_deceleration_time_2_set_2_to_words(raw, words))
 }

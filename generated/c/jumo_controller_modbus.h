@@ -235,93 +235,93 @@ static const fieldscribe_modbus_r jumo_controller_program_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_program_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x005BU, 2U, value,
         jumo_controller_program_run_time_decode(jumo_controller_program_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_program_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_remaining_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_program_remaining_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x005DU, 2U, value,
         jumo_controller_program_remaining_time_decode(jumo_controller_program_remaining_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_section_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0061U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_section_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0061U, 2U, value,
         jumo_controller_section_run_time_decode(jumo_controller_section_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_section_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0063U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_remaining_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_section_remaining_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0063U, 2U, value,
         jumo_controller_section_remaining_time_decode(jumo_controller_section_remaining_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_timer_1_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0067U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_1_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_1_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0067U, 2U, value,
         jumo_controller_timer_1_run_time_decode(jumo_controller_timer_1_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_timer_2_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0069U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_2_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_2_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0069U, 2U, value,
         jumo_controller_timer_2_run_time_decode(jumo_controller_timer_2_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_timer_3_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_3_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_3_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x006BU, 2U, value,
         jumo_controller_timer_3_run_time_decode(jumo_controller_timer_3_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_r jumo_controller_timer_4_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_4_run_time(jumo_controller_device *device, int64_t *value)
 {
-    FIELDSCRIBE_MODBUS_READ_WORDS(jumo_controller_timer_4_run_time_frame, 2U, value,
+    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x006DU, 2U, value,
         jumo_controller_timer_4_run_time_decode(jumo_controller_timer_4_run_time_from_words(words)))
 }
 static const fieldscribe_modbus_rw jumo_controller_setpoint_1_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3100U, 2U}, {16U, 0x3100U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_1(jumo_controller_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_setpoint_1_frame, 2U,
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3100U, 2U,
         jumo_controller_setpoint_1_decode_count(jumo_controller_setpoint_1_from_words(words), count))
 }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_1(jumo_controller_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_setpoint_1_frame, 2U, uint32_t,
-        jumo_controller_setpoint_1_encode_count(count, &raw), jumo_controller_setpoint_1_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3100U, 2U, uint32_t, jumo_controller_setpoint_1_encode_count(count, &raw),
+        jumo_controller_setpoint_1_to_words(raw, words))
 }
 static const fieldscribe_modbus_rw jumo_controller_setpoint_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3102U, 2U}, {16U, 0x3102U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_2(jumo_controller_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_setpoint_2_frame, 2U,
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3102U, 2U,
         jumo_controller_setpoint_2_decode_count(jumo_controller_setpoint_2_from_words(words), count))
 }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_2(jumo_controller_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_setpoint_2_frame, 2U, uint32_t,
-        jumo_controller_setpoint_2_encode_count(count, &raw), jumo_controller_setpoint_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3102U, 2U, uint32_t, jumo_controller_setpoint_2_encode_count(count, &raw),
+        jumo_controller_setpoint_2_to_words(raw, words))
 }
 static const fieldscribe_modbus_rw jumo_controller_proportional_band_1_set_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3014U, 2U}, {16U, 0x3014U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_proportional_band_1_set_2(jumo_controller_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_proportional_band_1_set_2_frame, 2U,
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3014U, 2U,
         jumo_controller_proportional_band_1_set_2_decode_count(
         jumo_controller_proportional_band_1_set_2_from_words(words), count))
 }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_proportional_band_1_set_2(jumo_controller_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_proportional_band_1_set_2_frame, 2U, uint32_t,
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3014U, 2U, uint32_t,
         jumo_controller_proportional_band_1_set_2_encode_count(count, &raw),
         jumo_controller_proportional_band_1_set_2_to_words(raw, words))
 }
@@ -329,14 +329,14 @@ static const fieldscribe_modbus_w jumo_controller_value_0077_frame =
     {&jumo_controller_layout_u32_order_10, {16U, 0x0077U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_value_0077(jumo_controller_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(jumo_controller_value_0077_frame, 2U, uint32_t,
-        jumo_controller_value_0077_encode_count(count, &raw), jumo_controller_value_0077_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0077U, 2U, uint32_t, jumo_controller_value_0077_encode_count(count, &raw),
+        jumo_controller_value_0077_to_words(raw, words))
 }
 static const fieldscribe_modbus_r jumo_controller_value_00ce_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x00CEU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_value_00ce(jumo_controller_device *device, int64_t *count)
 {
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(jumo_controller_value_00ce_frame, 2U,
+    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x00CEU, 2U,
         jumo_controller_value_00ce_decode_count(jumo_controller_value_00ce_from_words(words), count))
 }
 static const fieldscribe_modbus_rw jumo_controller_program_controller_commands_frame =

@@ -1,4 +1,4 @@
-"""Measures the compiler beside cantools' C, whole processes in turn, and generated Python beside cantools: medians.
+"""Measures the compiler, generated Python and C on Cortex-M0 beside cantools, pymodbus and C by hand: medians.
 
 .venv/bin/python tests/bench/bench.py [--runs 5]
 
@@ -19,6 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from line_bench import print_lines
+from m0_bench import print_m0
 from python_bench import print_python
 from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
 from synthetic import write_dbc, write_device
@@ -168,6 +169,7 @@ def main() -> None:
     print_python(3 * arguments.runs)
     print_lines(3 * arguments.runs)
     print_streams(STREAMED)
+    print_m0()
 
 
 if __name__ == "__main__":

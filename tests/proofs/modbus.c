@@ -456,12 +456,12 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
 }
 
 /* Nothing is stored where there is nothing, whatever room is told. */
-void prove_holds(size_t size, size_t room)
+void prove_room(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         ask_any();
         into(NULL, room);
-        (void)fieldscribe_modbus_holds(&reply, room);
+        (void)fieldscribe_modbus_room(&reply);
         (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
         (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
         (void)fieldscribe_modbus_words_in(&request, &reply, &reading);

@@ -355,7 +355,7 @@ def test_what_is_in_the_way_gets_advice_that_helps(tmp_path: Path, capsys: pytes
 
 @pytest.mark.parametrize(
     ("words", "most"),
-    [((TWELVE,), 2150), (("A020",), 1450), (("A020", "--no-frames"), 620)],
+    [((TWELVE,), 2000), (("A020",), 1300), (("A020", "--no-frames"), 530)],
 )
 def test_runtime_that_nobody_calls_is_left_out(words: tuple[str, ...], most: int, tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", *words) == 0

@@ -30,7 +30,7 @@ static fieldscribe_modbus_status ask(const fieldscribe_modbus_line *line, const 
     } else {
         ++writes;
         for (at = 0U; at < request->count; ++at) {
-            held[at] = (request->values != NULL) ? request->values[at] : request->first;
+            held[at] = request->values[at];
         }
     }
     return FIELDSCRIBE_MODBUS_OK;

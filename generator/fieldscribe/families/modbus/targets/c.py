@@ -130,7 +130,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    transfers = _transfer(name, read, address, point.words), _transfer(name, write, to, point.words)
+    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words)
     row = _row(view, parts[0], access, layouts.scope) if has_row(view) else ""
     return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
 
@@ -144,11 +144,11 @@ def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
     return called("FIELDSCRIBE_MODBUS_ROW", *facts)
 
 
-def _transfer(name: str, function: int | None, address: str, words: int) -> str:
+def _transfer(function: int | None, address: str, words: int) -> str:
     """Return the arguments of the runtime's macros that say what reads or writes a point; empty if nothing does."""
     if not function:
         return ""
-    return f"{name}, {words}U" if words > 1 else f"{unsigned(function)}, {address}"
+    return f"{unsigned(function)}, {address}{f', {words}U' if words > 1 else ''}"
 
 
 def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:

@@ -1,0 +1,83 @@
+"""Measures what exchanges of generated C cost on Cortex-M0, beside what an engineer writes by hand.
+
+.venv/bin/python tests/bench/m0_bench.py
+
+Bytes are of the linked program without what it is without the calls. Instructions are counted by an emulator of which
+each takes as long (-icount).
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from stream_bench import FIELDSCRIBE
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = ROOT / "tests/bench/exchange"
+FLAGS = "-std=gnu99 -mcpu=cortex-m0 -mthumb -Os -ffunction-sections -fdata-sections -DFIELDSCRIBE_NO_FLOAT"
+LINK = ("-nostartfiles", "-Wl,--gc-sections", "-T", str(ROOT / "tests/firmware/microbit.ld"))
+QEMU = "qemu-system-arm -M microbit -display none -monitor none -serial stdio -icount shift=6 -kernel"
+NOTHING, BUILD, PARSE, ASK, BOTH, POINTS = range(6)
+TICK, INSTRUCTION = 62.5, 64.0
+"""Nanoseconds of the timer and of an instruction."""
+
+
+def _image(folder: Path, source: str, part: int, points: int = 1) -> Path:
+    """Return the program that calls a part."""
+    image = folder / f"{source}_{part}_{points}"
+    defines = f"-DPART={part} -DPOINTS={points} -DANSWER_CRC=0x23,0xAE"
+    words = ["arm-none-eabi-gcc", *FLAGS.split(), *defines.split(), f"-I{HERE}", f"-I{folder}", *LINK]
+    subprocess.run([*words, HERE / "main.c", HERE / f"{source}.c", "-o", image], check=True)
+    return image
+
+
+def _bytes(image: Path) -> int:
+    done = subprocess.run(["arm-none-eabi-size", image], check=True, capture_output=True, text=True)
+    return sum(map(int, done.stdout.splitlines()[1].split()[:2]))
+
+
+def _instructions(image: Path) -> float:
+    with subprocess.Popen([*QEMU.split(), image], stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        ticks = int.from_bytes(process.stdout.read(4), "little")
+        process.kill()
+    if not ticks:
+        raise SystemExit(f"{image.name} gives another result")
+    return ticks * TICK / INSTRUCTION
+
+
+def rows(folder: Path) -> Iterator[tuple[str, float, float | None, float]]:
+    """Yield what is measured, the figure of generated code, that by hand, and the mark."""
+    words = "D001,D002,D003,D013,A020,B012,fieldscribe_*"
+    subprocess.run(
+        [FIELDSCRIBE, "vendor", "c", "hitachi_l200", "--out", folder, "--points", words],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    figures: dict[str, list[float]] = {}
+    for source in ("generated", "by_hand"):
+        images = {part: _image(folder, source, part) for part in (NOTHING, BUILD, PARSE, ASK, BOTH)}
+        sizes = {part: _bytes(image) - _bytes(images[NOTHING]) for part, image in images.items()}
+        counts = {part: _instructions(images[part]) - _instructions(images[NOTHING]) for part in (BUILD, PARSE, ASK)}
+        figures[source] = [sizes[BOTH], counts[BUILD], counts[PARSE], sizes[ASK], counts[ASK]]
+    names = "build and parse, bytes", "build, instructions", "parse, instructions", "ask, bytes", "ask, instructions"
+    yield from zip(names, figures["generated"], figures["by_hand"], (700, 216, 389, 1000, 1114), strict=True)
+    one, two = (_bytes(_image(folder, "generated", POINTS, points)) for points in (1, 2))
+    yield "one more point read and written, bytes", two - one, None, 60
+
+
+def print_m0() -> None:
+    """Print the table."""
+    print(f"\n{'exchanges on Cortex-M0, -Os':<48} {'':8} {'hand':>5} {'ours':>7} {'mark':>6}")
+    with tempfile.TemporaryDirectory() as folder:
+        for what, ours, hand, mark in rows(Path(folder)):
+            by_hand = "" if hand is None else f"{hand:.0f}"
+            print(f"{what:<48} {'':8} {by_hand:>5} {ours:7.0f} {mark:6}{'' if ours <= mark else '  over'}", flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(print_m0())
