@@ -976,7 +976,7 @@ static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, boo
     const size_t end = receiver->length;
     size_t whole = receiver->wire->around + 2U; /* the shortest answer */
     size_t begin;
-    size_t at;
+    size_t at = 0U;
     for (begin = 0U; begin < end; ++begin) {
         const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
         if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
@@ -994,7 +994,7 @@ static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, boo
         receiver->done = true;
     }
     receiver->dropped += end - receiver->length;
-    for (at = 0U; (at < begin) && (begin < end); ++begin) {
+    for (; (at < begin) && (begin < end); ++begin) {
         receiver->buffer[at] = receiver->buffer[begin];
         ++at;
     }
