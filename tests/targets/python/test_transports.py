@@ -161,9 +161,10 @@ def test_ends_that_fail(kind: str, l200: Any) -> None:
         assert (drive.traffic.requests, getattr(failure, "unsent", False)) == (is_sent, not is_sent)
 
         async def asynchronous() -> Any:
-            line = tcp.AsyncTcpLine("127.0.0.1", port, timeout=0.2)
+            drive = behind_a_gateway(l200.HitachiL200Async)(tcp.AsyncTcpLine("127.0.0.1", port, timeout=0.2), unit=1)
+            drive.retries, drive.retry_pause = int(kind == "nobody"), 0.01
             try:
-                await behind_a_gateway(l200.HitachiL200Async)(line, unit=1).base_frequency.read()
+                await drive.base_frequency.read()
             except Exception as raised:
                 return raised
             return None
