@@ -280,7 +280,7 @@ void prove_assemble__buffer(uint8_t address, size_t pzd_count, size_t size)
 
 void prove_assemble__words(uint8_t address, size_t head_bytes, size_t pzd_count, size_t size)
 {
-    if (head_bytes <= 8U && pzd_count <= WORDS && size <= FRAMES) {
+    if ((head_bytes == 0U || head_bytes == 6U || head_bytes == 8U) && pzd_count <= WORDS && size <= FRAMES) {
         size_t length;
         //@ split pzd_count;
         //@ split head_bytes;
