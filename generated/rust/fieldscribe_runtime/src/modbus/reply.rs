@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::function::{is_of_bits, is_ours, is_read, read_function, write_function};
 use super::{crc, Framing, ReplyError, Request};
-use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, Readable};
+use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, PointInfo, Readable};
 
 /// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +70,25 @@ impl<D> Reply<'_, D> {
         let items = places.map(|places| places.map_while(|place| self.item_of(is_bit, place)));
         let raw = items.and_then(|items| P::from_received(items).ok());
         raw.ok_or(Error::NotBrought(Some(P::NAME)))
+    }
+
+    /// The raw number of a point as data that the reply to a read brings, for `decode`.
+    ///
+    /// # Errors
+    /// As for `raw`.
+    pub fn raw_of<P>(&self, point: PointInfo<P>) -> Result<i128, Error>
+    where
+        D: Accepts<P>,
+    {
+        let facts = point.facts;
+        if self.function != read_function(facts.space) {
+            return Err(Error::WrongSpace(Some(facts.name)));
+        }
+        let offset = facts.address.checked_sub(self.address);
+        let places = offset.and_then(|offset| Some(offset..offset.checked_add(facts.words)?));
+        let items = places.map(|places| places.map_while(|place| self.item(place)));
+        let raw = items.and_then(|items| facts.raw_from_words(items).ok());
+        raw.ok_or(Error::NotBrought(Some(facts.name)))
     }
 
     /// The value of a point that the reply brings.

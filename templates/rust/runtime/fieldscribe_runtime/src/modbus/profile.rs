@@ -212,9 +212,23 @@ impl<D> Block<D> {
     where
         D: Accepts<P::Device>,
     {
-        let offset = P::ADDRESS.checked_sub(self.address);
-        let end = offset.and_then(|offset| offset.checked_add(P::WORDS));
-        self.space == P::SPACE && end.is_some_and(|end| end <= self.count)
+        self.covers(P::SPACE, P::ADDRESS, P::WORDS)
+    }
+
+    /// Whether the block brings the point as data.
+    #[must_use]
+    pub fn brings_point<P>(&self, point: PointInfo<P>) -> bool
+    where
+        D: Accepts<P>,
+    {
+        let facts = point.facts;
+        facts.access.reads() && self.covers(facts.space, facts.address, facts.words)
+    }
+
+    fn covers(&self, space: Space, address: u16, words: u16) -> bool {
+        let offset = address.checked_sub(self.address);
+        let end = offset.and_then(|offset| offset.checked_add(words));
+        self.space == space && end.is_some_and(|end| end <= self.count)
     }
 }
 
