@@ -205,7 +205,8 @@ fn other_numbers_are_told() {
     let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
     let bus = Bus::new(&[(507, 1)], vec![nearest]);
     let mut client = Client::new(bus, 5);
-    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399, Some("ratio"))));
+    let told = ClientError::EchoMismatch { expected: 400, received: 399, point: Some("ratio") };
+    assert_eq!(client.write::<points::Ratio>(400), Err(told));
 }
 
 fn listeners_are_lent_and_paired() {

@@ -201,7 +201,11 @@ fn wrong_links_are_noticed() {
     drive.lock().unwrap().single_first = true;
     let mut client = Client::new(Port(drive.clone()), Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
-    let wrong = ClientError::EchoMismatch(Value::Word(0), Some("command_source"));
+    let wrong = ClientError::EchoMismatch {
+        expected: Value::Word(5),
+        received: Value::Word(0),
+        point: Some("command_source"),
+    };
     assert_eq!(client.write::<points::CommandSource>(usual), Err(wrong));
     let mut client = Client::new(Port(drive), Link::new(4, 2).single_first(), 3);
     assert_eq!(client.write::<points::CommandSource>(usual), Ok(()));

@@ -282,11 +282,15 @@ fn answers_are_held_against_what_was_written() {
     let mut line = drive();
     line.changes = Some(0);
     let mut client = Client::new(&mut line, LINK, 3);
-    assert_eq!(client.write::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
-    assert_eq!(client.store::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
-    assert_eq!(client.update::<points::LowBits>(3), Err(ClientError::EchoMismatch(Value::Word(0), Some("low_bits"))));
+    let mismatch = |word, name| {
+        let [expected, received] = [word, 0].map(Value::Word);
+        Err(ClientError::EchoMismatch { expected, received, point: Some(name) })
+    };
+    assert_eq!(client.write::<points::Source>(4), mismatch(4, "source"));
+    assert_eq!(client.store::<points::Source>(4), mismatch(4, "source"));
+    assert_eq!(client.update::<points::LowBits>(3), mismatch(0x80F3, "low_bits"));
     let far = client.write::<points::Reference>(60.0).unwrap_err();
-    assert_eq!(far.to_string(), "reference: the drive answered 0 to a write");
+    assert_eq!(far.to_string(), "reference: 1114636288 was written, the drive answered 0");
     // 33.33 is 0x420551EC; a drive may round: 0x4205_47AE is 33.32, 0x4204_0000 is 33.
     client.transport().changes = Some(0x4205);
     assert_eq!(client.write::<points::Reference>(33.33), Ok(()));

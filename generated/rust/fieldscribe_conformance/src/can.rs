@@ -98,7 +98,7 @@ fn name(error: ClientError<()>) -> &'static str {
     match error {
         ClientError::Point(error) => error.name(),
         ClientError::Build(error, _) => error.name(),
-        ClientError::EchoMismatch(_, _) => "echo_mismatch",
+        ClientError::EchoMismatch { .. } => "echo_mismatch",
         ClientError::Telegram(error) => error.name(),
         _ => "timeout",
     }

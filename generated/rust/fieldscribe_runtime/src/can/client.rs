@@ -255,8 +255,15 @@ pub enum ClientError<E> {
     Build(BuildError, Option<&'static str>),
     /// Many frames came, and not the one that was waited for.
     NoAnswer(Option<&'static str>),
-    /// The device answered a write with this other raw number.
-    EchoMismatch(u16, Option<&'static str>),
+    /// The device answered a write with another raw number.
+    EchoMismatch {
+        /// What was written.
+        expected: u16,
+        /// What the device answered.
+        received: u16,
+        /// The point's name.
+        point: Option<&'static str>,
+    },
     /// Many frames came, and the telegram's words did not come together.
     Telegram(ReceiveError),
     /// The transport failed.
@@ -272,7 +279,7 @@ impl<E> ClientError<E> {
             Self::Telegram(error) => error.point(),
             Self::Build(_, point)
             | Self::NoAnswer(point)
-            | Self::EchoMismatch(_, point)
+            | Self::EchoMismatch { point, .. }
             | Self::Transport(_, point) => *point,
         }
     }
@@ -290,7 +297,7 @@ impl<E> ClientError<E> {
             Self::Telegram(error) => *error = error.named(name),
             Self::Build(_, point)
             | Self::NoAnswer(point)
-            | Self::EchoMismatch(_, point)
+            | Self::EchoMismatch { point, .. }
             | Self::Transport(_, point) => *point = point.or(Some(name)),
         }
         self
@@ -326,7 +333,12 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
             Self::Point(_) | Self::Telegram(_) => Ok(()),
             Self::Build(error, _) => error.fmt(formatter),
             Self::NoAnswer(_) => formatter.write_str("the device does not answer"),
-            Self::EchoMismatch(raw, _) => write!(formatter, "the device answered {raw} to a write"),
+            Self::EchoMismatch {
+                expected, received, ..
+            } => write!(
+                formatter,
+                "{expected} was written, the device answered {received}"
+            ),
             Self::Transport(error, _) => error.fmt(formatter),
         }
     }
@@ -512,7 +524,9 @@ macro_rules! client {
             ) -> Result<(), ClientError<T::Error>> {
                 let answered = self.exchange(self.unit.profile.write, address, word)$($wait)*?;
                 match self.unit.other(word, answered) {
-                    Some(other) => Err(ClientError::EchoMismatch(other, None)),
+                    Some(received) => {
+                        Err(ClientError::EchoMismatch { expected: word, received, point: None })
+                    }
                     None => Ok(()),
                 }
             }

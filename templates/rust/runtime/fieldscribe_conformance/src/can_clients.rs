@@ -252,8 +252,12 @@ fn errors() {
         (ClientError::Transport(Lost, None), "nothing came"),
         (ClientError::NoAnswer(None), "the device does not answer"),
         (
-            ClientError::EchoMismatch(7, None),
-            "the device answered 7 to a write",
+            ClientError::EchoMismatch {
+                expected: 8,
+                received: 7,
+                point: None,
+            },
+            "8 was written, the device answered 7",
         ),
     ];
     for (error, shown) in errors {
@@ -563,7 +567,11 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
             assert_eq!(
                 $wait(client.write::<Word>(9)),
-                Err(ClientError::EchoMismatch(8, Some("Word")))
+                Err(ClientError::EchoMismatch {
+                    expected: 9,
+                    received: 8,
+                    point: Some("Word")
+                })
             );
             assert_eq!($wait(client.write_with::<Long>(0x0003_0004, ())), Ok(()));
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));

@@ -127,7 +127,7 @@ fn name(error: ClientError<()>) -> &'static str {
         ClientError::Point(error) => error.name(),
         ClientError::Build(error, _) => error.name(),
         ClientError::Reply(error, _) => error.name(),
-        ClientError::EchoMismatch(_, _) => "echo_mismatch",
+        ClientError::EchoMismatch { .. } => "echo_mismatch",
         _ => "timeout",
     }
 }

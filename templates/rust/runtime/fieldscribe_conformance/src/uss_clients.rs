@@ -258,15 +258,23 @@ fn errors() {
     }
     assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
     for (value, shown) in [
-        (Value::Nothing, "the drive answered nothing to a write"),
-        (Value::Word(7), "the drive answered 7 to a write"),
+        (Value::Nothing, "8 was written, the drive answered nothing"),
+        (Value::Word(7), "8 was written, the drive answered 7"),
         (
             Value::Double(0x10007),
-            "the drive answered 65543 to a write",
+            "8 was written, the drive answered 65543",
         ),
     ] {
-        let error = ClientError::<Lost>::EchoMismatch(value, None);
+        let error = other::<Lost>(8, value, None);
         assert_eq!(chain(&error), [shown]);
+    }
+}
+
+const fn other<E>(word: u16, received: Value, point: Option<&'static str>) -> ClientError<E> {
+    ClientError::EchoMismatch {
+        expected: Value::Word(word),
+        received,
+        point,
     }
 }
 
@@ -579,7 +587,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
-            let mismatch = ClientError::EchoMismatch(Value::Word(8), Some("Word"));
+            let mismatch = other(9, Value::Word(8), Some("Word"));
             assert_eq!($wait(client.store::<Word>(9)), Err(mismatch));
             let refused = ClientError::Reply(NOT_NOW, Some("Long"));
             assert_eq!(
@@ -597,7 +605,7 @@ macro_rules! conversations {
                 assert_eq!(found, Err(wrong));
             }
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
-            let mismatch = ClientError::EchoMismatch(Value::Word(0xAB7D), Some("Group"));
+            let mismatch = other(0xAB6D, Value::Word(0xAB7D), Some("Group"));
             assert_eq!($wait(client.store_update::<Group>(6)), Err(mismatch));
             let long = ClientError::Point(Error::WrongLength(Some("Group")));
             assert_eq!($wait(client.update::<Group>(7)), Err(long));

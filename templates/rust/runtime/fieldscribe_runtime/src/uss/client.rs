@@ -39,8 +39,15 @@ pub enum ClientError<E> {
     Build(BuildError, Option<&'static str>),
     /// The answer was none, or the drive refused.
     Reply(ParseError, Option<&'static str>),
-    /// The drive answered a write with this other value.
-    EchoMismatch(Value, Option<&'static str>),
+    /// The drive answered a write with another value.
+    EchoMismatch {
+        /// What was written.
+        expected: Value,
+        /// What the drive answered.
+        received: Value,
+        /// The point's name.
+        point: Option<&'static str>,
+    },
     /// The transport failed.
     Transport(E, Option<&'static str>),
 }
@@ -53,7 +60,7 @@ impl<E> ClientError<E> {
             Self::Point(error) => error.point(),
             Self::Build(_, point)
             | Self::Reply(_, point)
-            | Self::EchoMismatch(_, point)
+            | Self::EchoMismatch { point, .. }
             | Self::Transport(_, point) => *point,
         }
     }
@@ -70,7 +77,7 @@ impl<E> ClientError<E> {
             Self::Point(error) => *error = error.named(name),
             Self::Build(_, point)
             | Self::Reply(_, point)
-            | Self::EchoMismatch(_, point)
+            | Self::EchoMismatch { point, .. }
             | Self::Transport(_, point) => *point = point.or(Some(name)),
         }
         self
@@ -105,9 +112,12 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
             Self::Point(_) => Ok(()),
             Self::Build(error, _) => error.fmt(formatter),
             Self::Reply(error, _) => error.fmt(formatter),
-            Self::EchoMismatch(value, _) => {
-                write!(formatter, "the drive answered {value} to a write")
-            }
+            Self::EchoMismatch {
+                expected, received, ..
+            } => write!(
+                formatter,
+                "{expected} was written, the drive answered {received}"
+            ),
             Self::Transport(error, _) => error.fmt(formatter),
         }
     }
@@ -657,7 +667,8 @@ macro_rules! client {
                 if request.is_confirmed::<P>(&reply) {
                     Ok(())
                 } else {
-                    Err(ClientError::EchoMismatch(reply.value(), Some(P::NAME)))
+                    let (expected, received) = (request.value(), reply.value());
+                    Err(ClientError::EchoMismatch { expected, received, point: Some(P::NAME) })
                 }
             }
 
@@ -709,7 +720,8 @@ macro_rules! client {
                 if request.is_answered(answer, point.is_floating()) {
                     Ok(())
                 } else {
-                    Err(ClientError::EchoMismatch(answer, None))
+                    let (expected, received) = (request.value(), answer);
+                    Err(ClientError::EchoMismatch { expected, received, point: None })
                 }
             }
 

@@ -173,6 +173,11 @@ impl Request {
         }
     }
 
+    /// What it writes.
+    pub(super) const fn value(&self) -> Value {
+        self.value
+    }
+
     /// Writes the telegram with these words of process data into `buffer` and gives its length in bytes.
     ///
     /// # Errors
