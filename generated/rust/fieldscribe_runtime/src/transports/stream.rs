@@ -110,8 +110,8 @@ impl<S: Read + Write> Transport for StreamLine<S> {
     }
 }
 
-/// Receives an answer; whether nothing came behind it. What comes of others is dropped: it is the answer only if nothing
-/// else came, as it tells who answered.
+/// Receives an answer; whether nothing came behind it. What comes of others is dropped: it is the answer only if
+/// nothing else came, as it tells who answered.
 pub(super) fn receive(
     answer: &mut Answer<'_>,
     mut read: impl FnMut(&mut [u8]) -> Result<usize>,
