@@ -634,7 +634,7 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
 {
     volatile uint32_t *const changes = &receiver->changes; /* volatile: written in this order */
     volatile fieldscribe_can_slot *slot;
-    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    uint16_t words[FIELDSCRIBE_CAN_WORDS] = {0U, 0U, 0U, 0U};
     size_t part = 0U;
     unsigned at;
     if (!fieldscribe_can_unpack(receiver->telegram, receiver->unit, frame, &part, words) ||

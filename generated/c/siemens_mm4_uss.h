@@ -5,8 +5,9 @@
  *
  * Siemens MICROMASTER 4: USS requests.
  *
- * A parameter is what it is read with (`read`) and written with (`write`; with `..._eeprom_frame` into the EEPROM too),
- * by fieldscribe_uss.h, which shows how. One that cannot be written has no `write`. One that shares its word with other
+ * `_read_`, `_write_` and `_store_` (into the EEPROM too) of a parameter are one exchange. A frame is what it is read
+ * with (`read`) and written with (`write`; with `..._eeprom_frame` into the EEPROM too), by fieldscribe_uss.h. One that
+     cannot be written has no `write`. One that shares its word with other
  * points has `update`: read the word first. Words of process data are `heard` and `sent`.
  */
 #include "siemens_mm4.h"
@@ -15,7 +16,7 @@
 #ifndef SIEMENS_MM4_USS_H
 #define SIEMENS_MM4_USS_H
 
-#if FIELDSCRIBE_USS_INTERFACE != 3
+#if FIELDSCRIBE_USS_INTERFACE != 4
 #error "fieldscribe_uss.h is of another version: take the one that was generated with this header."
 #endif
 #if SIEMENS_MM4_DESCRIPTION != 0xf5ceb9d4U
@@ -248,6 +249,11 @@ static const fieldscribe_uss_profile siemens_mm4_uss_profile = {
     8U /* the most */
 };
 
+/* A device on a line, for the functions that read, write and store (in the EEPROM, too) a parameter in one call. */
+typedef struct siemens_mm4_device {
+    fieldscribe_uss_unit unit;
+} siemens_mm4_device;
+
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
 /* For fieldscribe_take_* and fieldscribe_put_*. */
@@ -265,142 +271,692 @@ static const fieldscribe_uss_rw siemens_mm4_user_access_level_frame =
     {&siemens_mm4_layout_u16, {1U, 3U, 0U, 1U}, {2U, 3U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_user_access_level_eeprom_frame =
     {&siemens_mm4_layout_u16, {14U, 3U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_user_access_level(siemens_mm4_device *device, int32_t *value)
+{ FIELDSCRIBE_USS_READ_WORD(siemens_mm4_user_access_level_frame, value, siemens_mm4_user_access_level_decode(word)) }
+FIELDSCRIBE_USS_CALL siemens_mm4_write_user_access_level(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_user_access_level_frame, uint16_t,
+        siemens_mm4_user_access_level_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_user_access_level(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_user_access_level_eeprom_frame, uint16_t,
+        siemens_mm4_user_access_level_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_r siemens_mm4_inverter_status_word_frame = {&siemens_mm4_layout_u16, {1U, 52U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_inverter_status_word(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_inverter_status_word_frame, value,
+        siemens_mm4_inverter_status_word_decode(word))
+}
 static const fieldscribe_uss_rw siemens_mm4_command_source_frame =
     {&siemens_mm4_layout_u16, {1U, 700U, 0U, 1U}, {2U, 700U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_command_source_eeprom_frame = {&siemens_mm4_layout_u16, {14U, 700U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_command_source(siemens_mm4_device *device, int32_t *value)
+{ FIELDSCRIBE_USS_READ_WORD(siemens_mm4_command_source_frame, value, siemens_mm4_command_source_decode(word)) }
+FIELDSCRIBE_USS_CALL siemens_mm4_write_command_source(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_command_source_frame, uint16_t,
+        siemens_mm4_command_source_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_command_source(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_command_source_eeprom_frame, uint16_t,
+        siemens_mm4_command_source_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_p0731_source_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 731U, 0U, 2U}, {3U, 731U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_p0731_source_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {13U, 731U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_p0731_source(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_p0731_source_frame, value,
+        siemens_mm4_p0731_source_decode(siemens_mm4_p0731_source_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_p0731_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_p0731_source_frame, uint32_t, siemens_mm4_p0731_source_encode(value, &raw),
+        siemens_mm4_p0731_source_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_p0731_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_p0731_source_eeprom_frame, uint32_t,
+        siemens_mm4_p0731_source_encode(value, &raw), siemens_mm4_p0731_source_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_main_setpoint_source_frame =
     {&siemens_mm4_layout_u16, {1U, 1000U, 0U, 1U}, {2U, 1000U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_main_setpoint_source_eeprom_frame =
     {&siemens_mm4_layout_u16, {14U, 1000U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_main_setpoint_source(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_main_setpoint_source_frame, value,
+        siemens_mm4_main_setpoint_source_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_main_setpoint_source(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_main_setpoint_source_frame, uint16_t,
+        siemens_mm4_main_setpoint_source_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_main_setpoint_source(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_main_setpoint_source_eeprom_frame, uint16_t,
+        siemens_mm4_main_setpoint_source_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_maximum_frequency_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 1082U, 0U, 2U}, {3U, 1082U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_maximum_frequency_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {13U, 1082U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_maximum_frequency(siemens_mm4_device *device, int64_t *count)
+{
+    FIELDSCRIBE_USS_DECODE_WORDS(siemens_mm4_maximum_frequency_frame,
+        siemens_mm4_maximum_frequency_decode_count(siemens_mm4_maximum_frequency_from_words(words), count))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_maximum_frequency(siemens_mm4_device *device, int64_t count)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_maximum_frequency_frame, uint32_t,
+        siemens_mm4_maximum_frequency_encode_count(count, &raw), siemens_mm4_maximum_frequency_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_maximum_frequency(siemens_mm4_device *device, int64_t count)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_maximum_frequency_eeprom_frame, uint32_t,
+        siemens_mm4_maximum_frequency_encode_count(count, &raw), siemens_mm4_maximum_frequency_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_jog_time_selection_source_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 1124U, 0U, 2U}, {3U, 1124U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_jog_time_selection_source_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {13U, 1124U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_jog_time_selection_source(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_jog_time_selection_source_frame, value,
+        siemens_mm4_jog_time_selection_source_decode(siemens_mm4_jog_time_selection_source_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_jog_time_selection_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_jog_time_selection_source_frame, uint32_t,
+        siemens_mm4_jog_time_selection_source_encode(value, &raw),
+        siemens_mm4_jog_time_selection_source_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_jog_time_selection_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_jog_time_selection_source_eeprom_frame, uint32_t,
+        siemens_mm4_jog_time_selection_source_encode(value, &raw),
+        siemens_mm4_jog_time_selection_source_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_dc_braking_source_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 1230U, 0U, 2U}, {3U, 1230U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_dc_braking_source_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {13U, 1230U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_dc_braking_source(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_dc_braking_source_frame, value,
+        siemens_mm4_dc_braking_source_decode(siemens_mm4_dc_braking_source_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_dc_braking_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_dc_braking_source_frame, uint32_t,
+        siemens_mm4_dc_braking_source_encode(value, &raw), siemens_mm4_dc_braking_source_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_dc_braking_source(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_dc_braking_source_eeprom_frame, uint32_t,
+        siemens_mm4_dc_braking_source_encode(value, &raw), siemens_mm4_dc_braking_source_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_output_phase_sequence_frame =
     {&siemens_mm4_layout_u16, {1U, 1820U, 0U, 1U}, {2U, 1820U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_output_phase_sequence_eeprom_frame =
     {&siemens_mm4_layout_u16, {14U, 1820U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_output_phase_sequence(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_output_phase_sequence_frame, value,
+        siemens_mm4_output_phase_sequence_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_output_phase_sequence(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_output_phase_sequence_frame, uint16_t,
+        siemens_mm4_output_phase_sequence_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_output_phase_sequence(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_output_phase_sequence_eeprom_frame, uint16_t,
+        siemens_mm4_output_phase_sequence_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_reference_frequency_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2000U, 0U, 2U}, {3U, 2000U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_reference_frequency_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {13U, 2000U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_reference_frequency(siemens_mm4_device *device, int64_t *count)
+{
+    FIELDSCRIBE_USS_DECODE_WORDS(siemens_mm4_reference_frequency_frame,
+        siemens_mm4_reference_frequency_decode_count(siemens_mm4_reference_frequency_from_words(words), count))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_reference_frequency(siemens_mm4_device *device, int64_t count)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_reference_frequency_frame, uint32_t,
+        siemens_mm4_reference_frequency_encode_count(count, &raw), siemens_mm4_reference_frequency_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_reference_frequency(siemens_mm4_device *device, int64_t count)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_reference_frequency_eeprom_frame, uint32_t,
+        siemens_mm4_reference_frequency_encode_count(count, &raw), siemens_mm4_reference_frequency_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_normalisation_rs485_frame =
     {&siemens_mm4_layout_u16, {1U, 2009U, 0U, 1U}, {7U, 2009U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_normalisation_rs485_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2009U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_normalisation_rs485(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_normalisation_rs485_frame, value,
+        siemens_mm4_uss_normalisation_rs485_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_normalisation_rs485(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_normalisation_rs485_frame, uint16_t,
+        siemens_mm4_uss_normalisation_rs485_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_normalisation_rs485(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_normalisation_rs485_eeprom_frame, uint16_t,
+        siemens_mm4_uss_normalisation_rs485_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_normalisation_rs232_frame =
     {&siemens_mm4_layout_u16, {1U, 2009U, 1U, 1U}, {7U, 2009U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_normalisation_rs232_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2009U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_normalisation_rs232(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_normalisation_rs232_frame, value,
+        siemens_mm4_uss_normalisation_rs232_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_normalisation_rs232(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_normalisation_rs232_frame, uint16_t,
+        siemens_mm4_uss_normalisation_rs232_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_normalisation_rs232(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_normalisation_rs232_eeprom_frame, uint16_t,
+        siemens_mm4_uss_normalisation_rs232_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_baud_rate_index_0_frame =
     {&siemens_mm4_layout_u16, {1U, 2010U, 0U, 1U}, {7U, 2010U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_baud_rate_index_0_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2010U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_baud_rate_index_0(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_baud_rate_index_0_frame, value,
+        siemens_mm4_uss_baud_rate_index_0_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_baud_rate_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_baud_rate_index_0_frame, uint16_t,
+        siemens_mm4_uss_baud_rate_index_0_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_baud_rate_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_baud_rate_index_0_eeprom_frame, uint16_t,
+        siemens_mm4_uss_baud_rate_index_0_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_baud_rate_index_1_frame =
     {&siemens_mm4_layout_u16, {1U, 2010U, 1U, 1U}, {7U, 2010U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_baud_rate_index_1_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2010U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_baud_rate_index_1(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_baud_rate_index_1_frame, value,
+        siemens_mm4_uss_baud_rate_index_1_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_baud_rate_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_baud_rate_index_1_frame, uint16_t,
+        siemens_mm4_uss_baud_rate_index_1_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_baud_rate_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_baud_rate_index_1_eeprom_frame, uint16_t,
+        siemens_mm4_uss_baud_rate_index_1_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_slave_address_index_0_frame =
     {&siemens_mm4_layout_u16, {1U, 2011U, 0U, 1U}, {7U, 2011U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_slave_address_index_0_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2011U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_slave_address_index_0(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_slave_address_index_0_frame, value,
+        siemens_mm4_uss_slave_address_index_0_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_slave_address_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_slave_address_index_0_frame, uint16_t,
+        siemens_mm4_uss_slave_address_index_0_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_slave_address_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_slave_address_index_0_eeprom_frame, uint16_t,
+        siemens_mm4_uss_slave_address_index_0_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_slave_address_index_1_frame =
     {&siemens_mm4_layout_u16, {1U, 2011U, 1U, 1U}, {7U, 2011U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_slave_address_index_1_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2011U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_slave_address_index_1(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_slave_address_index_1_frame, value,
+        siemens_mm4_uss_slave_address_index_1_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_slave_address_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_slave_address_index_1_frame, uint16_t,
+        siemens_mm4_uss_slave_address_index_1_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_slave_address_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_slave_address_index_1_eeprom_frame, uint16_t,
+        siemens_mm4_uss_slave_address_index_1_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm410_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_0_mm410(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_0_mm410_frame, value,
+        siemens_mm4_uss_pzd_length_index_0_mm410_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_0_mm410(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm410_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm410_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_0_mm410(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm410_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm420_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_0_mm420(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_0_mm420_frame, value,
+        siemens_mm4_uss_pzd_length_index_0_mm420_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_0_mm420(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm420_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm420_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_0_mm420(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm420_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm430_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_0_mm430(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_0_mm430_frame, value,
+        siemens_mm4_uss_pzd_length_index_0_mm430_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_0_mm430(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm430_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm430_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_0_mm430(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm430_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm440_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_0_mm440(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_0_mm440_frame, value,
+        siemens_mm4_uss_pzd_length_index_0_mm440_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_0_mm440(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm440_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm440_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_0_mm440(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_0_mm440_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm410_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_1_mm410(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_1_mm410_frame, value,
+        siemens_mm4_uss_pzd_length_index_1_mm410_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_1_mm410(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm410_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm410_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_1_mm410(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm410_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm420_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_1_mm420(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_1_mm420_frame, value,
+        siemens_mm4_uss_pzd_length_index_1_mm420_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_1_mm420(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm420_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm420_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_1_mm420(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm420_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm430_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_1_mm430(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_1_mm430_frame, value,
+        siemens_mm4_uss_pzd_length_index_1_mm430_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_1_mm430(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm430_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm430_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_1_mm430(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm430_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm440_frame =
     {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pzd_length_index_1_mm440(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pzd_length_index_1_mm440_frame, value,
+        siemens_mm4_uss_pzd_length_index_1_mm440_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pzd_length_index_1_mm440(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm440_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm440_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pzd_length_index_1_mm440(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pzd_length_index_1_mm440_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pkw_length_index_0_frame =
     {&siemens_mm4_layout_u16, {1U, 2013U, 0U, 1U}, {7U, 2013U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pkw_length_index_0_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2013U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pkw_length_index_0(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pkw_length_index_0_frame, value,
+        siemens_mm4_uss_pkw_length_index_0_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pkw_length_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pkw_length_index_0_frame, uint16_t,
+        siemens_mm4_uss_pkw_length_index_0_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pkw_length_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pkw_length_index_0_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pkw_length_index_0_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_pkw_length_index_1_frame =
     {&siemens_mm4_layout_u16, {1U, 2013U, 1U, 1U}, {7U, 2013U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_pkw_length_index_1_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2013U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_pkw_length_index_1(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORD(siemens_mm4_uss_pkw_length_index_1_frame, value,
+        siemens_mm4_uss_pkw_length_index_1_decode(word))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_pkw_length_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pkw_length_index_1_frame, uint16_t,
+        siemens_mm4_uss_pkw_length_index_1_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_pkw_length_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_pkw_length_index_1_eeprom_frame, uint16_t,
+        siemens_mm4_uss_pkw_length_index_1_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_telegram_off_time_index_0_frame =
     {&siemens_mm4_layout_u16, {1U, 2014U, 0U, 1U}, {7U, 2014U, 0U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2014U, 0U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_telegram_off_time_index_0(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_DECODE_WORD(siemens_mm4_uss_telegram_off_time_index_0_frame,
+        siemens_mm4_uss_telegram_off_time_index_0_decode(word, value))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_telegram_off_time_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_telegram_off_time_index_0_frame, uint16_t,
+        siemens_mm4_uss_telegram_off_time_index_0_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_telegram_off_time_index_0(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, uint16_t,
+        siemens_mm4_uss_telegram_off_time_index_0_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_telegram_off_time_index_1_frame =
     {&siemens_mm4_layout_u16, {1U, 2014U, 1U, 1U}, {7U, 2014U, 1U, 1U}};
 static const fieldscribe_uss_w siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame =
     {&siemens_mm4_layout_u16, {12U, 2014U, 1U, 1U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_telegram_off_time_index_1(siemens_mm4_device *device, int32_t *value)
+{
+    FIELDSCRIBE_USS_DECODE_WORD(siemens_mm4_uss_telegram_off_time_index_1_frame,
+        siemens_mm4_uss_telegram_off_time_index_1_decode(word, value))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_telegram_off_time_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_telegram_off_time_index_1_frame, uint16_t,
+        siemens_mm4_uss_telegram_off_time_index_1_encode(value, &raw), raw)
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_telegram_off_time_index_1(siemens_mm4_device *device, int32_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORD(siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, uint16_t,
+        siemens_mm4_uss_telegram_off_time_index_1_encode(value, &raw), raw)
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_0_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 0U, 2U}, {8U, 2016U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs232_answer_source_index_0(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs232_answer_source_index_0_frame, value,
+        siemens_mm4_uss_rs232_answer_source_index_0_decode(
+        siemens_mm4_uss_rs232_answer_source_index_0_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs232_answer_source_index_0(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_0_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_0_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_0_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs232_answer_source_index_0(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_0_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_0_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_1_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 1U, 2U}, {8U, 2016U, 1U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 1U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs232_answer_source_index_1(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs232_answer_source_index_1_frame, value,
+        siemens_mm4_uss_rs232_answer_source_index_1_decode(
+        siemens_mm4_uss_rs232_answer_source_index_1_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs232_answer_source_index_1(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_1_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_1_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_1_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs232_answer_source_index_1(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_1_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_1_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_2_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 2U, 2U}, {8U, 2016U, 2U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 2U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs232_answer_source_index_2(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs232_answer_source_index_2_frame, value,
+        siemens_mm4_uss_rs232_answer_source_index_2_decode(
+        siemens_mm4_uss_rs232_answer_source_index_2_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs232_answer_source_index_2(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_2_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_2_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_2_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs232_answer_source_index_2(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_2_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_2_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_3_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 3U, 2U}, {8U, 2016U, 3U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 3U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs232_answer_source_index_3(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs232_answer_source_index_3_frame, value,
+        siemens_mm4_uss_rs232_answer_source_index_3_decode(
+        siemens_mm4_uss_rs232_answer_source_index_3_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs232_answer_source_index_3(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_3_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_3_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_3_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs232_answer_source_index_3(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs232_answer_source_index_3_encode(value, &raw),
+        siemens_mm4_uss_rs232_answer_source_index_3_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_0_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 0U, 2U}, {8U, 2019U, 0U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 0U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs485_answer_source_index_0(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs485_answer_source_index_0_frame, value,
+        siemens_mm4_uss_rs485_answer_source_index_0_decode(
+        siemens_mm4_uss_rs485_answer_source_index_0_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs485_answer_source_index_0(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_0_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_0_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_0_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_0(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_0_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_0_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_1_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 1U, 2U}, {8U, 2019U, 1U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 1U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs485_answer_source_index_1(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs485_answer_source_index_1_frame, value,
+        siemens_mm4_uss_rs485_answer_source_index_1_decode(
+        siemens_mm4_uss_rs485_answer_source_index_1_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs485_answer_source_index_1(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_1_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_1_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_1_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_1(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_1_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_1_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_2_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 2U, 2U}, {8U, 2019U, 2U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 2U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs485_answer_source_index_2(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs485_answer_source_index_2_frame, value,
+        siemens_mm4_uss_rs485_answer_source_index_2_decode(
+        siemens_mm4_uss_rs485_answer_source_index_2_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs485_answer_source_index_2(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_2_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_2_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_2_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_2(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_2_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_2_to_words(raw, words))
+}
 static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_3_frame =
     {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 3U, 2U}, {8U, 2019U, 3U, 2U}};
 static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame =
     {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 3U, 2U}};
+FIELDSCRIBE_USS_CALL siemens_mm4_read_uss_rs485_answer_source_index_3(siemens_mm4_device *device, int64_t *value)
+{
+    FIELDSCRIBE_USS_READ_WORDS(siemens_mm4_uss_rs485_answer_source_index_3_frame, value,
+        siemens_mm4_uss_rs485_answer_source_index_3_decode(
+        siemens_mm4_uss_rs485_answer_source_index_3_from_words(words)))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_write_uss_rs485_answer_source_index_3(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_3_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_3_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_3_to_words(raw, words))
+}
+FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_3(siemens_mm4_device *device, int64_t value)
+{
+    FIELDSCRIBE_USS_WRITE_WORDS(siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, uint32_t,
+        siemens_mm4_uss_rs485_answer_source_index_3_encode(value, &raw),
+        siemens_mm4_uss_rs485_answer_source_index_3_to_words(raw, words))
+}
 
 /*
  * ---- Words of process data: a link with fewer words than a telegram has carries the first ones ----

@@ -286,7 +286,7 @@ static inline void woodward_mpu2s_visualisation_values_decode(
 static inline bool woodward_mpu2s_visualisation_values_take(
     const fieldscribe_can_frame *frame, uint8_t unit, woodward_mpu2s_visualisation_values *group)
 {
-    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    uint16_t words[FIELDSCRIBE_CAN_WORDS] = {0U, 0U, 0U, 0U};
     size_t part = 0U;
     const bool taken = fieldscribe_can_unpack(&woodward_mpu2s_telegram_visualisation, unit, frame, &part, words);
     if (taken) {

@@ -451,3 +451,62 @@ void prove_ask(size_t size, size_t pzd_count)
         }
     }
 }
+
+static fieldscribe_uss_unit unit;
+
+/* What any exchange may bring; fieldscribe_uss_ask is proven above. */
+static fieldscribe_uss_status ask_any(const fieldscribe_uss_line *on, const fieldscribe_uss_request *what,
+    const fieldscribe_uss_words *with, fieldscribe_uss_reply *into_reply)
+{
+    (void)on;
+    (void)what;
+    (void)with;
+    into_reply->width = number;
+    into_reply->value = request.value;
+    into_reply->error = reply.error;
+    return (number % 2U != 0U) ? FIELDSCRIBE_USS_OK : FIELDSCRIBE_USS_REFUSED;
+}
+
+static void on_line(void)
+{
+    line.link = &link;
+    unit.line = &line;
+    unit.ask = &ask_any;
+    unit.sent = words;
+    unit.heard = words;
+}
+
+void prove_call(void)
+{
+    on_line();
+    (void)fieldscribe_uss_call(&unit, &request, &reply);
+}
+
+void prove_exchange_words(void)
+{
+    on_line();
+    (void)fieldscribe_uss_exchange_words(&unit);
+}
+
+void prove_read_words(size_t count)
+{
+    if (count <= 2U) {
+        //@ split count;
+        on_line();
+        (void)fieldscribe_uss_read_words(&unit, &reading, EXACTLY(count, words), count);
+    }
+}
+
+void prove_write_words(size_t count)
+{
+    if (count <= 2U) {
+        //@ split count;
+        on_line();
+        (void)fieldscribe_uss_write_words(&unit, &writing, EXACTLY(count, words), count);
+    }
+}
+
+void prove_converted(fieldscribe_status status)
+{
+    (void)fieldscribe_uss_converted(status);
+}

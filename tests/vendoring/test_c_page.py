@@ -269,21 +269,17 @@ def test_blocks_on_modbus(page: Page) -> None:
 USS = """
 int main(void)
 {
-    static const uint16_t sent[2] = {0x047FU, 0x4000U};
-    uint16_t heard[2] = {0U, 0U};
-    int64_t hundredths = 0;
-    uint16_t words[2] = {0U, 0U};
     bool fault = true;
     int64_t actual = 0;
     script = steps;
-    CHECK(maximum_frequency(3U, sent, heard, &hundredths));
-    CHECK(hundredths == 5000 && heard[0] == 0xFA31U && heard[1] == 0x1234U);
-    CHECK(!maximum_frequency(3U, sent, heard, &hundredths));
-    CHECK(!maximum_frequency(3U, sent, heard, &hundredths));
-    CHECK(command(false, 4000000, words) && words[0] == 0x047EU && words[1] == 0x3333U);
-    CHECK(command(true, 4000000, words) && !command(true, 400000000, words));
-    CHECK(exchange(3U, words, &fault, &actual) && !fault && actual == 3999939);
-    CHECK(!exchange(3U, words, &fault, &actual));
+    CHECK(limit(5000) == FIELDSCRIBE_USS_OK && heard[0] == 0xFA31U && heard[1] == 0x1234U);
+    CHECK(command(false, 4000000) && sent[0] == 0x047EU && sent[1] == 0x3333U);
+    CHECK(command(true, 4000000) && !command(true, 400000000));
+    CHECK(limit(4000) == FIELDSCRIBE_USS_REFUSED && drive.unit.error == 17U);
+    CHECK(strcmp(siemens_mm4_error_name(drive.unit.error), "not_in_this_operating_state") == 0);
+    CHECK(limit(4000) == FIELDSCRIBE_USS_NOISE && drive.unit.error == 0U);
+    CHECK(exchange(&fault, &actual) && !fault && actual == 3999939);
+    CHECK(!exchange(&fault, &actual));
     return 0;
 }
 """
@@ -295,14 +291,20 @@ def test_blocks_on_uss(page: Page) -> None:
     text = (ROOT / "descriptions/siemens_mm4/frames.yaml").read_text("utf-8")
     assert "143A 0000 0000 0000" in text
     assert "243A 0000 4248 0000" in text
-    requested = bcc("02 0E 03 14 3A 00 00 00 00 00 00 04 7F 40 00")
-    answer = bcc("02 0E 03 24 3A 00 00 42 48 00 00 FA 31 12 34")
-    refusal = bcc("02 0E 03 74 3A 00 00 00 00 00 00 FA 31 12 34")
     assert "047E 3333" in text
+    request, answer = "02 0E 03 14 3A 00 00 00 00 00 00", "02 0E 03 24 3A 00 00 42 48 00 00 FA 31 12 34"
+    still, running = bcc(f"{request} 00 00 00 00"), bcc(f"{request} 04 7F 33 33")
+    stored = bcc("02 0E 03 D4 3A 00 00 42 20 00 00 04 7F 33 33")
+    refusal = bcc("02 0E 03 74 3A 00 00 00 11 00 00 FA 31 12 34")
     run = bcc("02 0E 03 00 00 00 00 00 00 00 00 04 7F 33 33")
     runs = bcc("02 0E 03 00 00 00 00 00 00 00 00 FB 34 33 33")
-    steps = [(requested, f"02 {answer}"), (requested, refusal), (requested, answer[:-2] + "00"), (run, runs), (run, "")]
-    run_here(page, f'#include "host.h"\n{page.uss}{script_of(steps)}{USS}', board=True)
+    steps = [
+        (still, f"02 {bcc(answer)}"),
+        *((running, bcc(answer)), (stored, refusal), (running, bcc(answer)[:-2] + "00")),
+        *((run, runs), (run, "")),
+    ]
+    includes = '#include "host.h"\n#include <string.h>\n'
+    run_here(page, f"{includes}{page.uss}{script_of(steps)}{USS}", board=True)
 
 
 CAN = """

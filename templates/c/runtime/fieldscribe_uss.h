@@ -51,7 +51,7 @@ extern "C" {
 #endif
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_USS_INTERFACE 3
+#define FIELDSCRIBE_USS_INTERFACE 4
 
 /* The longest telegram there is. */
 #define FIELDSCRIBE_USS_MOST 256U
@@ -70,6 +70,14 @@ extern "C" {
 
 typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_OK = 0,
+    /* converting a value, of ..._read_POINT, _write_ and _store_ alone: the numbers of fieldscribe_status */
+    FIELDSCRIBE_USS_OUT_OF_RANGE,
+    FIELDSCRIBE_USS_NOT_A_NUMBER,
+    FIELDSCRIBE_USS_UNKNOWN_VALUE,
+    FIELDSCRIBE_USS_ZERO_FACTOR,
+    FIELDSCRIBE_USS_NO_CASE,
+    FIELDSCRIBE_USS_OVERFLOW,
+    FIELDSCRIBE_USS_SPECIAL,
     /* building */
     FIELDSCRIBE_USS_BAD_LINK,         /* a parameter part or a number of process data words that the device has not */
     FIELDSCRIBE_USS_BAD_UNIT,         /* not a unit of this device */
@@ -331,6 +339,97 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_words_of_reply(
     const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words, size_t count);
+
+/*
+ * A unit on a line: the part of a handle, such as `siemens_mm4_device`, that ..._read_POINT, ..._write_POINT and
+ * ..._store_POINT use. Each call sends one request and waits for its answer; a point that shares its word is read
+ * before it is written. `sent` goes with each request, `heard` comes with each answer: as many words as the link has.
+ */
+typedef struct fieldscribe_uss_unit {
+    const fieldscribe_uss_line *line;
+    fieldscribe_uss_status (*ask)(const fieldscribe_uss_line *line, const fieldscribe_uss_request *request,
+        const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply); /* fieldscribe_uss_ask */
+    const uint16_t *sent;
+    uint16_t *heard;
+    uint8_t number;
+    uint16_t error; /* the device's error if the last call returned REFUSED, else 0 */
+} fieldscribe_uss_unit;
+
+/* Exchanges process data alone. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_exchange_words(fieldscribe_uss_unit *unit);
+
+/* The words of a parameter of a unit, the high one first: there are `count`. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_read_words(
+    fieldscribe_uss_unit *unit, const fieldscribe_uss_reading *what, uint16_t *words, size_t count);
+
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_write_words(
+    fieldscribe_uss_unit *unit, const fieldscribe_uss_writing *what, const uint16_t *words, size_t count);
+
+/* Start of a function that reads or writes a point. */
+#define FIELDSCRIBE_USS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_uss_status
+
+/* The status of a conversion. */
+FIELDSCRIBE_USS_CALL fieldscribe_uss_converted(fieldscribe_status status)
+{
+    return (fieldscribe_uss_status)status;
+}
+
+/*
+ * Bodies of these functions, which have a `device`. `number` and `decoded` take `word` (or `words`), `encoded` stores
+ * in `raw`, from which `bits` (or `split`) makes what is written.
+ */
+
+#define FIELDSCRIBE_USS_READ_WORD(frame, to, number) \
+    uint16_t word = 0U; \
+    const fieldscribe_uss_status status = fieldscribe_uss_read_words(&device->unit, &(frame).read, &word, 1U); \
+    if (status == FIELDSCRIBE_USS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_USS_DECODE_WORD(frame, decoded) \
+    uint16_t word = 0U; \
+    const fieldscribe_uss_status status = fieldscribe_uss_read_words(&device->unit, &(frame).read, &word, 1U); \
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_converted(decoded) : status;
+
+#define FIELDSCRIBE_USS_READ_WORDS(frame, to, number) \
+    uint16_t words[2] = {0U, 0U}; \
+    const fieldscribe_uss_status status = fieldscribe_uss_read_words(&device->unit, &(frame).read, words, 2U); \
+    if (status == FIELDSCRIBE_USS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_USS_DECODE_WORDS(frame, decoded) \
+    uint16_t words[2] = {0U, 0U}; \
+    const fieldscribe_uss_status status = fieldscribe_uss_read_words(&device->unit, &(frame).read, words, 2U); \
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_converted(decoded) : status;
+
+#define FIELDSCRIBE_USS_WRITE_WORD(frame, type, encoded, bits) \
+    type raw = (type)0; \
+    const fieldscribe_uss_status status = fieldscribe_uss_converted(encoded); \
+    const uint16_t word = (bits); \
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_write_words(&device->unit, &(frame).write, &word, 1U) \
+                                          : status;
+
+#define FIELDSCRIBE_USS_WRITE_WORDS(frame, type, encoded, split) \
+    type raw = (type)0; \
+    uint16_t words[2]; \
+    const fieldscribe_uss_status status = fieldscribe_uss_converted(encoded); \
+    split; \
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_write_words(&device->unit, &(frame).write, words, 2U) \
+                                          : status;
+
+#define FIELDSCRIBE_USS_UPDATE_WORD(from, frame, type, encoded, bits) \
+    type raw = (type)0; \
+    uint16_t word = 0U; \
+    fieldscribe_uss_status status = fieldscribe_uss_converted(encoded); \
+    if (status == FIELDSCRIBE_USS_OK) { \
+        status = fieldscribe_uss_read_words(&device->unit, &(from).read, &word, 1U); \
+    } \
+    word = (bits); \
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_write_words(&device->unit, &(frame).update, &word, 1U) \
+                                          : status;
 
 /* The words of one point among the `count` of process data; NULL when those do not hold all of them. */
 FIELDSCRIBE_CHECKED static inline const uint16_t *fieldscribe_uss_words_heard(
@@ -829,6 +928,45 @@ fieldscribe_uss_status fieldscribe_uss_words_of_reply(
         left >>= 16;
     }
     return FIELDSCRIBE_USS_OK;
+}
+
+/* Exchanges one request of a unit, which brings the value of its reply. */
+static fieldscribe_uss_status fieldscribe_uss_call(
+    fieldscribe_uss_unit *unit, const fieldscribe_uss_request *request, fieldscribe_uss_reply *reply)
+{
+    const size_t count = unit->line->link->pzd;
+    const fieldscribe_uss_words process = {unit->sent, count};
+    fieldscribe_uss_status status;
+    reply->process = unit->heard;
+    reply->room = count;
+    fieldscribe_uss_clear(reply);
+    status = unit->ask(unit->line, request, &process, reply);
+    unit->error = reply->error;
+    return status;
+}
+
+fieldscribe_uss_status fieldscribe_uss_exchange_words(fieldscribe_uss_unit *unit)
+{
+    const fieldscribe_uss_request request = fieldscribe_uss_exchange(unit->number);
+    fieldscribe_uss_reply reply;
+    return fieldscribe_uss_call(unit, &request, &reply);
+}
+
+fieldscribe_uss_status fieldscribe_uss_read_words(
+    fieldscribe_uss_unit *unit, const fieldscribe_uss_reading *what, uint16_t *words, size_t count)
+{
+    const fieldscribe_uss_request request = fieldscribe_uss_read(unit->number, what);
+    fieldscribe_uss_reply reply;
+    const fieldscribe_uss_status status = fieldscribe_uss_call(unit, &request, &reply);
+    return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_words_of_reply(&reply, what, words, count) : status;
+}
+
+fieldscribe_uss_status fieldscribe_uss_write_words(
+    fieldscribe_uss_unit *unit, const fieldscribe_uss_writing *what, const uint16_t *words, size_t count)
+{
+    const fieldscribe_uss_request request = fieldscribe_uss_write(unit->number, what, words, count);
+    fieldscribe_uss_reply reply;
+    return fieldscribe_uss_call(unit, &request, &reply);
 }
 
 #ifdef __cplusplus

@@ -361,6 +361,10 @@ MISUSE = {
         "fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, request, bytes, 8U, reply);",
         "unused-result|nodiscard|warn_unused_result",
     ),
+    "a point of another device": (
+        "(void)kitchen_sink_read_run(other, NULL);",
+        r"(?s)kitchen_sink_device.*kitchen_uss_device|kitchen_uss_device.*kitchen_sink_device",
+    ),
     "whether a number fits is not ignored": (
         "fieldscribe_put_u16(kitchen_sink_ratio_frame.layout, 9U, words, 2U);",
         "unused-result|nodiscard|warn_unused_result",
@@ -374,11 +378,13 @@ MISUSE = {
 def test_misuse_does_not_compile(misuse: str, compiler: str, standard: str, folder: Path, tmp_path: Path) -> None:
     call, said = MISUSE[misuse]
     text = """#include "kitchen_sink_modbus.h"
+#include "kitchen_uss_uss.h"
 void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request *request,
-    fieldscribe_modbus_reply *reply);
+    fieldscribe_modbus_reply *reply, kitchen_uss_device *other);
 void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request *request,
-    fieldscribe_modbus_reply *reply)
+    fieldscribe_modbus_reply *reply, kitchen_uss_device *other)
 {
+    (void)other;
     (void)words;
     (void)bytes;
     (void)request;

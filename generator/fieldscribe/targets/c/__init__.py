@@ -15,7 +15,7 @@ from fieldscribe.targets.c.scope import scope_of
 
 SEES_TITLES = False
 NEEDS_FAMILY = True
-BEFORE_POINTS = ("", "read", "write")
+BEFORE_POINTS = ("", "read", "write", "store")
 
 
 def outputs(

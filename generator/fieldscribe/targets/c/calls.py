@@ -20,11 +20,12 @@ class Transfer(NamedTuple):
     family: str
     read: str = ""
     write: str = ""
+    store: str = ""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
     """Return the names of the functions that read and write a point under that name."""
-    ways = [way for way, call in (("read", transfer.read), ("write", transfer.write)) if call]
+    ways = [way for way in ("read", "write", "store") if getattr(transfer, way)]
     return [f"{scope.prefix}_{way}_{item}" for way in ways if view.shape != "text"]
 
 
@@ -40,14 +41,15 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
         way, *arguments = _decoding(view, value, tail, scope.passed(names))
         body = called(f"{start}{way}_WORD{_several(view)}", transfer.read, *arguments)
         yield function(f"{start}CALL", f"{scope.prefix}_read_{view.fields.item}", parameters, body)
-    if transfer.write:
-        names = point.arguments if tail is not None else point.limit_arguments
-        parameters = [handle, *scope.parameters(point, names), f"{kind} {value}"]
-        where = transfer.write if point.bits is None else f"{transfer.read}, {transfer.write}"
-        way = "WRITE" if point.bits is None else "UPDATE"
-        encoded = _encoding(view, kind, value, tail, scope.passed(names))
-        body = called(f"{start}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
-        yield function(f"{start}CALL", f"{scope.prefix}_write_{view.fields.item}", parameters, body)
+    for verb, to in (("write", transfer.write), ("store", transfer.store)):
+        if to:
+            names = point.arguments if tail is not None else point.limit_arguments
+            parameters = [handle, *scope.parameters(point, names), f"{kind} {value}"]
+            where = to if point.bits is None else f"{transfer.read}, {to}"
+            way = "WRITE" if point.bits is None else "UPDATE"
+            encoded = _encoding(view, kind, value, tail, scope.passed(names))
+            body = called(f"{start}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
+            yield function(f"{start}CALL", f"{scope.prefix}_{verb}_{view.fields.item}", parameters, body)
 
 
 def _several(view: PointView) -> str:

@@ -8,6 +8,7 @@ from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
+from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -49,7 +50,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
 def _identifiers(device: Device, kinds: list[Codes], scope: HeaderScope) -> Iterator[Named]:
     """Yield the identifiers of the header that only this family has, with their owners."""
     target = Owner("target", "what the header of frames needs")
-    yield target, [f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile")]
+    yield target, [f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile", "device")]
     yield target, [_name_function(kind, scope) for kind in kinds]
     for kind in kinds:
         for code in device.bus.codes(kind.section):
@@ -110,7 +111,10 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
             cases.append(f'WRITE("{kind}", {view.function}{tail}, {what})')
         elif reading:
             cases.append(f'UPDATE("{kind}", {name}.read, {view.function}{tail}, {what})')
-    return Frame(tuple(descriptors), tuple(cases))
+    changes_word = bool(reading) or point.bits is None
+    calls = ((reading, "_frame"), (writing and changes_word, "_frame"), (storing and changes_word, "_eeprom_frame"))
+    transfer = Transfer("uss", *(f"{view.function}{tail}" if tasks else "" for tasks, tail in calls))
+    return Frame(tuple(descriptors), tuple(cases), transfer)
 
 
 def _word(point: Point, view: PointView, layouts: Layouts, scope: HeaderScope) -> Frame:
