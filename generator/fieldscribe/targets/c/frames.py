@@ -77,8 +77,11 @@ class Frames:
         for point, view, _ in self._points:
             frame = self._made[view]
             names = [descriptor.name for descriptor in frame.descriptors]
-            names += [name for name, _ in self._rows(view, scope)]
-            yield Owner("point", point.item), names + call_names(point.item, view, frame.transfer, scope)
+            rows = [name for name, _ in self._rows(view, scope)]
+            names += [*rows[:1], *call_names(point.item, view, frame.transfer, scope)]
+            yield Owner("point", point.item), names
+            for old, name in zip(point.was, rows[1:], strict=False):
+                yield Owner("old name", old, Owner("point", point.item)), (name,)
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
         """Yield the descriptors of renamed points under their old names."""
