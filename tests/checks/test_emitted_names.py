@@ -14,7 +14,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import render, templates_dir
-from fieldscribe.targets import target
+from fieldscribe.targets import c, target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
 from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
 
@@ -168,7 +168,7 @@ def test_the_lists_hold_what_is_defined(folder: Path) -> None:
     """Every name that the headers define is one that the target lists, and no other is."""
     device = loaded(folder / "device.yaml")
     listed = {name for one in target("c").identifiers(device) for name in one.names}
-    headers = [text for _, text in target("c").outputs(for_code(device), render, tests=False, rows=True)]
+    headers = [text for _, text in c.outputs(for_code(device), render, tests=False, rows=True)]
     assert len(headers) == 2 + (device.family == "modbus")
     assert {name for header in headers for name in c_names(header)} - listed == set()
     code = re.sub(r"/\*.*?\*/", "", "\n".join(headers), flags=re.DOTALL)

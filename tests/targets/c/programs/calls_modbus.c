@@ -18,7 +18,7 @@ static fieldscribe_modbus_status ask(const fieldscribe_modbus_line *line, const 
         if (reply->values != NULL) {
             reply->values[at] = held[at];
         } else {
-            held[at] = (request->values != NULL) ? request->values[at] : request->first;
+            held[at] = request->values[at];
         }
     }
     writes += (reply->values == NULL) ? 1U : 0U;
