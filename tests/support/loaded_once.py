@@ -18,13 +18,18 @@ _load = pipeline.load_device
 def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
     """Load a device as the pipeline does, but only once if it is part of this repository."""
     place = device_file.resolve()
-    known = _loaded(place) if inputs is None and ROOT in place.parents else None
-    return known or _load(device_file, report, inputs)
+    device, read = _loaded(device_file, place) if ROOT in place.parents else (None, Inputs())
+    if device is None:
+        return _load(device_file, report, inputs)
+    if inputs is not None:
+        inputs.digests |= read.digests
+        inputs.states |= read.states
+    return device
 
 
 @cache
-def _loaded(device_file: Path) -> Device | None:
-    """Return a device that no test changes; None if it has findings, which each load must report."""
-    report = Report()
-    device = _load(device_file, report)
-    return None if report.findings else device
+def _loaded(device_file: Path, _place: Path) -> tuple[Device | None, Inputs]:
+    """Return a device that no test changes, and what was read; None if it has findings, which each load must report."""
+    report, inputs = Report(), Inputs()
+    device = _load(device_file, report, inputs)
+    return None if report.findings else device, inputs
