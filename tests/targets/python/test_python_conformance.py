@@ -102,7 +102,11 @@ def test_the_command_passes_what_is_right(folder: Path) -> None:
     ]
 
 
-@pytest.mark.parametrize("device", [sample_device(), can_device(), uss_device()], ids=lambda device: str(device.id))
+@pytest.mark.parametrize(
+    "device",
+    [sample_device(), *(pytest.param(device, marks=pytest.mark.full) for device in (can_device(), uss_device()))],
+    ids=lambda device: str(device.id),
+)
 def test_every_wrong_vector_fails(device: Device, tmp_path: Path) -> None:
     text, spoiled = spoil(next(iter(vectors.outputs(device, render)))[1])
     code, output = conformance(write_package(device, tmp_path), text, device.id)
