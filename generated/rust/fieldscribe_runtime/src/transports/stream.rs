@@ -2,10 +2,14 @@
 //! Any stream of bytes of the standard library, as a serial port. Needs the feature `std`.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
+use std::time::{Duration, Instant};
 
 use super::{Answer, Protocol, NOISE};
 use crate::modbus::LONGEST;
 use crate::Transport;
+
+/// How long bytes may come: the longest frame takes 2.4 seconds at 1200 baud.
+const LONGEST_TIME: Duration = Duration::from_secs(3);
 
 /// A stream whose reads end with an error when nothing comes in time, as those of a serial port with a timeout.
 ///
@@ -19,7 +23,8 @@ use crate::Transport;
 /// ```
 ///
 /// After a failure it waits until the line is silent before it asks again, so that no late answer is taken for another;
-/// a unit that did not answer makes only itself wait. What comes unasked, [`StreamLine::clearing`] throws away.
+/// a unit that did not answer makes only itself wait. What comes unasked, [`StreamLine::clearing`] throws away. A line
+/// that is never silent ends an exchange three seconds after its first byte.
 #[derive(Debug)]
 pub struct StreamLine<S> {
     stream: S,
@@ -71,7 +76,11 @@ impl<S: Read> StreamLine<S> {
     /// Reads until nothing comes any more.
     fn fall_silent(&mut self) -> Result<()> {
         let mut thrown_away = [0; 64];
+        let started = Instant::now();
         for _ in 0..NOISE {
+            if started.elapsed() > LONGEST_TIME {
+                break;
+            }
             match self.stream.read(&mut thrown_away) {
                 Ok(0) => break,
                 Err(error) if is_silence(error.kind()) => break,
@@ -97,9 +106,17 @@ impl<S: Read + Write> Transport for StreamLine<S> {
         self.stream.write_all(request)?;
         self.stream.flush()?;
         let mut answer = Answer::new(self.protocol, request, reply);
-        let received = receive(&mut answer, |space| match self.stream.read(space) {
-            Ok(0) => Err(ErrorKind::TimedOut.into()),
-            other => other,
+        let mut first: Option<Instant> = None;
+        let received = receive(&mut answer, |space| {
+            if first.is_some_and(|first| first.elapsed() > LONGEST_TIME) {
+                return Err(ErrorKind::TimedOut.into());
+            }
+            let count = self.stream.read(space)?;
+            first.get_or_insert_with(Instant::now);
+            if count == 0 {
+                return Err(ErrorKind::TimedOut.into());
+            }
+            Ok(count)
         });
         match received {
             Ok(is_all) if is_all && answer.is_clean() => self.late = Late::Nothing,

@@ -261,6 +261,35 @@ fn counted(statuses: &[&str]) -> String {
     texts.collect::<Vec<String>>().join(" ")
 }
 
+/// A line that is never silent, and has a byte in time for each read.
+struct Endless;
+
+impl Read for Endless {
+    fn read(&mut self, space: &mut [u8]) -> std::io::Result<usize> {
+        sleep(TIMEOUT);
+        space[0] = 0x55;
+        Ok(1)
+    }
+}
+
+impl Write for Endless {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+fn endless() {
+    let before = Instant::now();
+    let mut line = StreamLine::new(Endless);
+    let mut reply = [0; 256];
+    let lengths = [(); 2].map(|()| line.exchange(&[1, 3, 0x10, 0x28, 0, 1, 0, 0xC2], &mut reply).unwrap());
+    assert!(lengths.iter().all(|length| *length > 0) && before.elapsed() < Duration::from_secs(14), "{lengths:?}");
+}
+
 /// The errors by position: broken, cut, without the byte, with it twice. The last row is of whole replies.
 type Errors = [&'static str; 5];
 const TCP: Errors = [
@@ -335,6 +364,7 @@ const CASES: &[Case] = &[
 fn main() {
     programs::log::keep();
     let found: Vec<Vec<String>> = scope(|threads| {
+        threads.spawn(endless);
         let running: Vec<_> =
             CASES.iter().map(|(name, size, connect, _)| threads.spawn(|| statuses(name, *size, *connect))).collect();
         running.into_iter().map(|thread| thread.join().unwrap()).collect()
