@@ -112,7 +112,7 @@ def _rtu(text: str) -> str:
         ((L200, _rtu("01 03 00 30 00 01")), "the manual closes 002Fh to 08FFh"),
         ((L200, _rtu("28 03 10 28 00 01")), "the device cannot have unit 40"),
         ((L200, _rtu("01 04 10 28 00 01")), "the device does not know function 04h"),
-        ((L200, "00 07 00 00 00 06 05 03 10 28 00 01", "--framing", "tcp"), "the manual knows only RTU frames"),
+        ((L200, "00 07 00 00 00 06 05 03 10 28 00 01", "--framing", "tcp"), ""),
         ((L200, _rtu("00 03 10 28 00 01")), "only writes may be sent to all units"),
         ((CAN, "321#DDFF000000000000"), "the manual knows multiplexers 0 to 22 only"),
         ((USS, "A43A 0000 0000 0000", "--framing", "pkw"), "the device cannot do this task"),

@@ -183,12 +183,13 @@ def test_what_was_heard_serves_as_factor() -> None:
 
 def test_tcp_is_known_by_its_header() -> None:
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
-    decoded = StreamDecoder(rtu_only, {}, ModbusFrameDecoder(rtu_only)).decode(
-        bytes.fromhex("000700000006050310280001")
-    )
+    decoder = StreamDecoder(rtu_only, {}, ModbusFrameDecoder(rtu_only))
+    decoded, repeated = [decoder.decode(bytes.fromhex("000700000006050310280001")) for _ in range(2)]
     assert (decoded.framing, decoded.unit, decoded.kind) == ("tcp", 5, "request")
     assert decoded.checks == "ok (transaction 7)"
-    assert decoded.findings == ("the manual knows only RTU frames",)
+    assert decoded.findings == repeated.findings == ()
+    note = "the manual knows only RTU frames; TCP takes a gateway"
+    assert (decoded.notes, repeated.notes) == ((note,), ())
     wrong = StreamDecoder(DEVICE, {}, ModbusFrameDecoder(DEVICE, "tcp")).decode(
         bytes.fromhex("000700000009050310280001")
     )

@@ -41,7 +41,7 @@ A stream is decoded line by line as it arrives. --format json prints one object,
 ends with 0 when no frame is wrong; notes do not count, and neither do raw numbers in replies: a device may send any
 ends with 1 when a frame
   - is damaged or foreign (length, checksum, header), or does not answer the request before it
-  - asks for what the device does not have: unit, function, task, count, multiplexer, framing, address
+  - asks for what the device does not have: unit, function, task, count, multiplexer, address
   - writes what the device does not take: out of range, read only, or against bits that are always written
 ends with 2 when a line of a stream is no frame; the other lines are decoded"""
 

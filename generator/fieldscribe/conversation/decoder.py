@@ -58,7 +58,9 @@ class StreamDecoder:
     def __init__(self, device: Device, settings: Settings, frame_decoder: decoded_frame.FrameDecoder) -> None:
         given, directory = dict(settings), Directory(device)
         formatters: dict[Any, PointFormatter] = {}
-        self._frame_decoder, self._framings, self._directory = frame_decoder, device.bus.framings, directory
+        self._frame_decoder, self._directory = frame_decoder, directory
+        self._framings: Sequence[str] = device.bus.framings
+        """The framings of the manual; none once a note has named them."""
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
@@ -83,14 +85,16 @@ class StreamDecoder:
         state = self._state_of_unit(decoded.unit)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         self._open_requests.follow(decoded, expecting=expecting)
-        result, findings = decoded.result, decoded.result.findings
-        if self._framings and result.framing not in self._framings:  # the device does not use it
-            findings = (*findings, f"the manual knows only {' and '.join(self._framings).upper()} frames")
         notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, decoded_frame.CutFrame) else ()))
-        return replace(result, items=items, findings=findings, notes=result.notes + notes)
+        return replace(decoded.result, items=items, notes=decoded.result.notes + notes)
 
     def _warnings(self, decoded: decoded_frame.DecodedFrame) -> Iterator[str]:
-        """Yield what may be a mistake in a frame: an address that counts from 1, a misprint of the manual."""
+        """Yield what may be a mistake in a frame: its framing, an address from 1, a misprint of the manual."""
+        framing = decoded.result.framing
+        if self._framings and framing not in self._framings:  # once is enough: a gateway changes all
+            known = " and ".join(self._framings)
+            yield f"the manual knows only {known.upper()} frames; {framing.upper()} takes a gateway"
+            self._framings = ()
         for content in decoded.contents if decoded.request else ():
             if isinstance(content, decoded_frame.Span):
                 yield from _off_by_one(self._directory, content)
