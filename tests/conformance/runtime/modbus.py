@@ -202,16 +202,15 @@ def check_sizes(package: Package) -> None:
     }
     assert {data: size(data) for data in rtu} == rtu
     assert (size(b"\1\1\2"), size(b"\1\x0f\2"), size(b"\1\x08\2"), size(b"\1\3\xfa"), size(b"")) == (7, 8, 8, 255, None)
-    refuses(
-        package.runtime.FrameError, "the reply would have 257 bytes, and a frame has at most 256", size, b"\1\3\xfc"
-    )
+    told = "3 bytes came (01 03 FC): the reply would have 257 bytes, and a frame has at most 256"
+    refuses(package.runtime.FrameError, told, size, b"\1\3\xfc")
     assert size(b"\1\3\xfb") == 256
     tcp = {b"\0\0\0\0\0": None, b"\0\0\0\0\0\6": 12, b"\0\0\0\0\0\xfe": 260}
     assert {data: size(data, "tcp") for data in tcp} == tcp
     refused = refusal(size, b"\0\0\0\0\0\xff", "tcp")
     assert (refused.status, str(refused)) == (
         "long_frame",
-        "the reply would have 261 bytes, and a frame has at most 260",
+        "6 bytes came (00 00 00 00 00 FF): the reply would have 261 bytes, and a frame has at most 260",
     )
 
 
@@ -238,10 +237,12 @@ def check_receiving(package: Package) -> None:
         (rtu[:4], "4 bytes came (01 03 02 00), which are no reply; is the baud rate right?"),
         (foreign + rtu[:4], "4 bytes came (01 03 02 00), which are no reply; is the baud rate right?"),
     ):
-        refuses(TimeoutError, told, receive, _pieces(data, 9), ask["rtu"])
+        silent = refusal(receive, _pieces(data, 9), ask["rtu"])
+        assert (isinstance(silent, TimeoutError), str(silent)) == (True, told)
+        assert getattr(silent, "received", b"") == data[-4:]
     noise = f"256 bytes came ({' '.join(['55'] * 16)} ...), more than any frame has; is the baud rate right?"
     refuses(package.runtime.FrameError, noise, receive, _pieces(b"\x55" * 999, 1), ask["rtu"])
-    long = "the reply would have 260 bytes, and a frame has at most 256"
+    long = "5 bytes came (01 03 FF 00 00): the reply would have 260 bytes, and a frame has at most 256"
     refuses(package.runtime.FrameError, long, receive, _pieces(b"\1\3\xff\0\0", 5), ask["rtu"])
 
 

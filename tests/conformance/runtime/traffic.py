@@ -57,8 +57,8 @@ def check_retries(package: Package) -> None:
 
 
 def check_times(package: Package) -> None:
-    """Replies are timed from their requests on."""
-    for device, _ in _made(package):
+    """Good replies are counted and timed, as their transport says or from their requests on."""
+    for device, memory in _made(package):
         traffic = device.traffic
         assert (traffic.mean, traffic.longest, repr(traffic)) == (
             0.0,
@@ -71,6 +71,18 @@ def check_times(package: Package) -> None:
         assert traffic.total == traffic.mean * 3
         traffic.total, traffic.longest, traffic.errors = 0.006, 0.004, {"timeout": 2}
         assert repr(traffic) == "<Traffic 3 requests, 3 replies, 2 timeout; 2.0 ms each, 4.0 ms at most>"
+        traffic.clear()
+        memory._closed = lambda frame, close=memory._closed: _Timed(close(frame))
+        assert now(device.a.read()) == 3
+        memory._answer = lambda _: b"\3\4\0\0"
+        assert refusal(device.a.read).status == "short_frame"
+        memory._answer = lambda _: b"\x83\x02"
+        assert refusal(device.a.read).status == "exception"
+        assert (traffic.requests, traffic.replies, traffic.longest) == (3, 2, 5.0)
+
+
+class _Timed(bytes):
+    seconds = 5.0
 
 
 def check_log(package: Package) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import logging
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -195,6 +196,17 @@ def _spoiled_at(kind: str, at: int, reply: bytes) -> Iterator[bytes]:
 def test_whole_replies(line: str, kind: str, reads: dict[str, Callable[[], Any]]) -> None:
     fault, errors = WHOLE[kind]
     assert spoiled(reads[line], fault) == (errors.get(line[-3:]) or errors[""])
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_bytes_that_are_no_reply_are_logged(
+    line: str, reads: dict[str, Callable[[], Any]], caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.DEBUG, "fieldscribe"):
+        spoiled(reads[line], lambda _: iter((b"\x55" * 12,)))
+    came = [one for one in caplog.messages if "<- 55 55 55 55" in one]
+    assert len(came) == 1, caplog.messages
+    assert line == "UssLine uss" or "12 bytes came (55 55" in caplog.text
 
 
 def _each(statuses: str) -> list[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import FrameError, LineError
 from ..modbus import frames as modbus
-from ..receiving import Broadcast, Receiver
+from ..receiving import Broadcast, Receiver, Reply
 from ..uss import frames as uss
 
 if TYPE_CHECKING:
@@ -73,15 +73,16 @@ class Line(ABC):
 
     def _received(self, request: bytes) -> bytes:
         receiver = Receiver(self._framing, request)
-        until = time.monotonic() + self.timeout
+        since = time.monotonic()
+        until = since + self.timeout
         last = until + self.FRAME_SECONDS
         while data := self._read(receiver.missing, until):
             until = last
             if (reply := receiver.take(data)) is not None:
-                return reply
+                return Reply.timed(reply, since)
         reply = receiver.give_up()
         self._failed(request)
-        return reply
+        return Reply.timed(reply, since)
 
     def _after_broadcast(self) -> bytes:
         """Return what a broadcast brings: no bytes."""

@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import threading
 from inspect import iscoroutinefunction
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import LineError
 from ..modbus.frames import PDU
-from ..receiving import Broadcast
+from ..receiving import Broadcast, Reply
 from . import checks
 
 try:
@@ -121,10 +122,11 @@ class PymodbusLine:
             try:
                 if not self.client.connect():
                     raise LineError("the client cannot connect", unsent=True)
+                since = monotonic()
                 answer: Any = self.client.execute(silent, _Request(request))
             except (ConnectionException, ModbusIOException) as error:
                 raise _raised(error) from error
-        return b"" if silent else _reply(answer)
+            return b"" if silent else Reply.timed(_reply(answer), since)
 
     def __enter__(self) -> Self:
         return self

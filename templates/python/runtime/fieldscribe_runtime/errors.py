@@ -11,13 +11,14 @@ class FieldscribeError(Exception):
 
     `point` says which point was asked for, with its code (`device.point(error.point)` is that point); of several that
     one request reads, which they are; else the command or the place. `group` is the group that was read, where it was
-    one, and `needs` another point that had to be read first.
+    one, and `needs` another point that had to be read first. `received` is what came in place of a frame.
     """
 
     status: str = "error"
     group: str | None = None
     point: str | None = None
     needs: str | None = None
+    received: bytes = b""
 
     @property
     def lost(self) -> bool:
@@ -202,7 +203,9 @@ class NoReplyError(FieldscribeError, TimeoutError):
 
 def no_reply(what: str, error: TimeoutError) -> NoReplyError:
     """Return the error for a request that nobody answered, with what the transport says of the bytes that came."""
-    return NoReplyError(f"{what}: {error}" if str(error) else what)
+    made = NoReplyError(f"{what}: {error}" if str(error) else what)
+    made.received = getattr(error, "received", b"")
+    return made
 
 
 class LineError(FieldscribeError, ConnectionError):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple
 
 from .errors import FrameError
@@ -17,6 +18,27 @@ _HINT = "is the baud rate right?"
 
 class Broadcast(bytes):
     """A request to all units. No unit answers it, so a transport sends it and returns no bytes."""
+
+
+class Reply(bytes):
+    """A reply that says how many `seconds` it took once its request was sent: a wait for the line does not count."""
+
+    seconds: float
+
+    @classmethod
+    def timed(cls, reply: bytes, since: float) -> Reply:
+        """Return a reply to what was sent then."""
+        made = cls(reply)
+        made.seconds = monotonic() - since
+        return made
+
+
+class NoFrameError(TimeoutError):
+    """Only bytes came that are no reply: `received`."""
+
+    def __init__(self, message: str, received: bytes) -> None:
+        super().__init__(message)
+        self.received = received
 
 
 class Framing(NamedTuple):
@@ -35,7 +57,7 @@ class Framing(NamedTuple):
         """Return the length as `size` does; raises FrameError (long_frame) for one that no frame has."""
         size = self.size(received)
         if size is not None and size > self.longest:
-            text = f"the reply would have {size} bytes, and a frame has at most {self.longest}"
+            text = f"{_quoted(received)}: the reply would have {size} bytes, and a frame has at most {self.longest}"
             raise FrameError("long_frame", text)
         return size
 
@@ -56,8 +78,15 @@ class Receiver:
 
         Raises FrameError (long_frame) when there are more bytes than any frame has and no frame among them.
         """
-        framing = self._framing
         self.received = self.received + data if self.received else data
+        try:
+            return self._reply()
+        except FrameError as error:
+            error.received = self.received
+            raise
+
+    def _reply(self) -> bytes | None:
+        framing = self._framing
         while True:
             length = len(self.received)
             size = framing.size_of(self.received)
@@ -65,7 +94,7 @@ class Receiver:
                 return self.received
             if size is None or length < size:
                 if length >= framing.longest:
-                    raise FrameError("long_frame", f"{self._quoted()}, more than any frame has; {_HINT}")
+                    raise FrameError("long_frame", f"{_quoted(self.received)}, more than any frame has; {_HINT}")
                 self.missing = max(framing.shortest, size or 0, length + 1) - length
                 return None
             frame, self.received = self.received[:size], self.received[size:]
@@ -77,12 +106,15 @@ class Receiver:
         """Return the last frame of another address, for the error that names it; raises TimeoutError without one."""
         if self._foreign and not (self.received and self._framing.address(self.received) == self._address):
             return self._foreign
-        raise TimeoutError(f"{self._quoted()}, which are no reply; {_HINT}" if self.received else "no byte came")
+        if self.received:
+            raise NoFrameError(f"{_quoted(self.received)}, which are no reply; {_HINT}", self.received)
+        raise TimeoutError("no byte came")
 
-    def _quoted(self) -> str:
-        """Return how many bytes came, and the first of them."""
-        more = " ..." if len(self.received) > _QUOTED else ""
-        return f"{len(self.received)} bytes came ({self.received[:_QUOTED].hex(' ').upper()}{more})"
+
+def _quoted(received: bytes) -> str:
+    """Return how many bytes came, and the first of them."""
+    more = " ..." if len(received) > _QUOTED else ""
+    return f"{len(received)} bytes came ({received[:_QUOTED].hex(' ').upper()}{more})"
 
 
 def receive(read: Callable[[int], bytes], framing: Framing, request: bytes) -> bytes:

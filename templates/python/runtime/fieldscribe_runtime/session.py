@@ -87,12 +87,15 @@ class Session(NamedPoints, ABC):
         """Carry out one request, again while the line loses it, as often as is left; failures are counted."""
         while True:
             try:
-                return (yield from ask(*arguments))
+                result = yield from ask(*arguments)
             except FieldscribeError as error:
                 is_final = left <= 0 or not error.lost
                 self.traffic.failed(error, is_final=is_final)
                 if is_final:
                     raise
+            else:
+                self.traffic.answered()
+                return result
             if self.retry_pause:
                 yield Pause(self.retry_pause)
             left -= 1

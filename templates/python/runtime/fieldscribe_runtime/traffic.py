@@ -37,8 +37,9 @@ _WARNING = 30
 class Traffic:
     """Counts the requests of one unit, also those that are sent again, and its replies; times are in seconds.
 
-    `errors` counts failed requests by the status of their error. `longest` and `mean` are how long replies took, from
-    the request on; on a line that devices share that includes the wait for the line.
+    `replies` counts good frames that answer a request, refusals too; what is damaged, foreign or missing is in `errors`
+    alone, which count failed requests by the status of their error. `longest` and `mean` are how long replies took once
+    the request was sent, without the wait for a line that devices share; a transport of your own is timed as a whole.
     """
 
     def __init__(self, unit: int) -> None:
@@ -46,6 +47,8 @@ class Traffic:
         self._logger: Any = None
         self._is_logged = False
         self.about: Iterable[Labelled] = ()
+        self._took: float | None = None
+        """How long the frame took that came for the last request."""
         self.is_split = False
         """A request that is refused now is followed by one for each of its points."""
         self.clear()
@@ -69,6 +72,7 @@ class Traffic:
     def sent(self, frame: Frame) -> float:
         """Count a request; return when it is sent."""
         self.requests += 1
+        self._took = None
         if self._logger is None and "logging" in sys.modules:  # a program that logs has imported it: nobody else does
             self._logger = sys.modules["logging"].getLogger("fieldscribe")
             if not self._logger.handlers:
@@ -82,17 +86,26 @@ class Traffic:
         return ", ".join([one.label for one in self.about])
 
     def came(self, frame: Frame, sent: float) -> None:
-        """Count a reply to a request that was sent then."""
-        took = monotonic() - sent
-        self.replies += 1
-        self.total += took
-        self.longest = max(self.longest, took)
+        """Log a frame that came for a request that was sent then."""
+        seconds: float | None = getattr(frame, "seconds", None)
+        took = self._took = monotonic() - sent if seconds is None else seconds
         if self._is_logged:
             self._logger.debug("unit %d <- %s after %.1f ms", self._unit, frame.hex(" ").upper(), took * 1000)
+
+    def answered(self) -> None:
+        """Count what came last as a reply, if anything came: it is a good one."""
+        if self._took is not None:
+            self.replies += 1
+            self.total += self._took
+            self.longest = max(self.longest, self._took)
 
     def failed(self, error: FieldscribeError, *, is_final: bool) -> None:
         """Count a failure, and no request if none was sent; a final one, which the program gets, is a warning."""
         self.errors[error.status] = self.errors.get(error.status, 0) + 1
+        if not error.lost:
+            self.answered()
+        if error.received and self._is_logged:
+            self._logger.debug("unit %d <- %s", self._unit, error.received.hex(" ").upper())
         if unsent := isinstance(error, LineError) and error.unsent:
             self.requests -= 1
         if self._logger is not None:

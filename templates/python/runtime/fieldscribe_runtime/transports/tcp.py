@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import LineError
 from ..modbus.frames import TCP
-from ..receiving import Broadcast, Receiver
+from ..receiving import Broadcast, Receiver, Reply
 from ..turns import Turns
 from . import checks
 from .line import Line, framing_of
@@ -190,10 +190,10 @@ class AsyncTcpLine:
         return line
 
     async def _received(self, line: socket.socket, receiver: Receiver) -> bytes:
-        loop = asyncio.get_running_loop()
+        loop, since = asyncio.get_running_loop(), time.monotonic()
         while data := await loop.sock_recv(line, _PIECE):
             if (reply := receiver.take(data)) is not None:
-                return reply
+                return Reply.timed(reply, since)
         raise ConnectionError(_CLOSED)
 
     async def _connected(self) -> socket.socket:

@@ -196,6 +196,7 @@ class UssSession(Session):
             except FrameError as error:
                 if error.status != "no_answer" or left <= 0:
                     raise
+            self.traffic.answered()
             left -= 1
 
     def _number(self, place: Place) -> int:
