@@ -71,6 +71,6 @@ def test_a_call_does_what_codec_and_frames_do(device: str, way: str, tmp_path: P
 
 
 @pytest.mark.full(seconds=5)
-@pytest.mark.parametrize("device", ["jumo_controller", "nord_sk5xxe", "siemens_mm4"])
+@pytest.mark.parametrize("device", ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4"])
 def test_calls_of_shipped_devices(device: str, tmp_path: Path) -> None:
     check(shipped(device), "quick", tmp_path)
