@@ -85,6 +85,7 @@ struct fieldscribe_modbus_request {
     uint16_t address;
     uint16_t count;
     uint16_t number;
+    bool late; /* an answer to an earlier request may still come: ask_rtu first waits until the line is silent */
     const uint16_t *values;
     const struct fieldscribe_modbus_writer *writer;
 };
@@ -94,7 +95,7 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_
     uint8_t unit, const fieldscribe_modbus_reading *what)
 {
     const fieldscribe_modbus_request request = {
-        0U, unit, what->function, what->address, what->count, what->count, NULL, NULL};
+        0U, unit, what->function, what->address, what->count, what->count, false, NULL, NULL};
     return request;
 }
 
@@ -276,7 +277,9 @@ typedef struct fieldscribe_modbus_line {
  * came, or its beginning alone; NOISE that other bytes came (an answer with a wrong checksum, of another unit, at
  * another baud rate), or ASK_MOST bytes with no answer in them. Nothing is sent where `buffer` or the reply is too
  * small for the answer (BUFFER_TOO_SMALL). What goes to all units is OK when it is sent, as nobody answers. Over TCP
- * give each request another `transaction`: by that a late answer is told from the one waited for.
+ * give each request another `transaction`: by that a late answer is told from the one waited for. RTU has none: after
+ * SHORT_FRAME or NOISE set `late` in the next request to that unit, also when it is the same again. It is sent when
+ * nothing has come for `answer_ms`, or after ASK_MOST bytes. fieldscribe_modbus_read_words and the like do so.
  */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -296,6 +299,7 @@ typedef struct fieldscribe_modbus_unit {
     uint8_t number;
     uint8_t exception;    /* the device's code if the last call returned EXCEPTION, else 0 */
     uint16_t transaction; /* of the next request; over TCP alone */
+    bool late;            /* of the next request: the answer to the last one may still come */
 } fieldscribe_modbus_unit;
 
 /* One word (or coil) of a unit. */
@@ -645,7 +649,7 @@ fieldscribe_modbus_request fieldscribe_modbus_write(
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
     fieldscribe_modbus_request request = {
-        0U, unit, what->function, what->address, 0U, 0U, values, &fieldscribe_modbus_writes};
+        0U, unit, what->function, what->address, 0U, 0U, false, values, &fieldscribe_modbus_writes};
     if ((values != NULL) && (given > 0U) && (given >= what->count)) {
         request.count = what->count;
         request.number = (what->function > 0x08U) ? what->count : values[0];
@@ -1081,6 +1085,12 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
+    bool late = request->late;
+    size_t dropped;
+    uint8_t byte;
+    for (dropped = 0U; late && (dropped < FIELDSCRIBE_MODBUS_ASK_MOST); ++dropped) {
+        late = line->receive(line->context, line->answer_ms, &byte);
+    }
     return fieldscribe_modbus_exchange(&fieldscribe_modbus_rtu, line, request, reply);
 }
 
@@ -1097,9 +1107,12 @@ static fieldscribe_modbus_status fieldscribe_modbus_call(
     fieldscribe_modbus_reply reply = {words, count, 0U, 0U};
     fieldscribe_modbus_status status;
     request->transaction = unit->transaction;
+    request->late = unit->late;
     unit->transaction = (uint16_t)((unit->transaction + 1U) & 0xFFFFU);
     status = unit->ask(unit->line, request, &reply);
     unit->exception = reply.exception;
+    unit->late = (status == FIELDSCRIBE_MODBUS_SHORT_FRAME) || (status == FIELDSCRIBE_MODBUS_NOISE) ||
+        (status == FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT) || (status == FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
     return status;
 }
 

@@ -14,7 +14,7 @@
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 3
+#if FIELDSCRIBE_MODBUS_INTERFACE != 4
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0xef54be83U

@@ -14,7 +14,7 @@
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 3
+#if FIELDSCRIBE_MODBUS_INTERFACE != 4
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x8555fae2U

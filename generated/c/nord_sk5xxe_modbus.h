@@ -14,7 +14,7 @@
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 3
+#if FIELDSCRIBE_MODBUS_INTERFACE != 4
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x57363088U

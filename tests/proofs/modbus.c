@@ -629,6 +629,7 @@ static void link(uint8_t *buffer, size_t size)
     know(KNOWN);
     ask_any();
     request.writer = NULL;
+    request.late = number % 2U != 0U;
 }
 
 void prove_clear(void)
@@ -684,6 +685,7 @@ static void on_line(void)
     link(frame, FRAMES);
     unit.line = &line;
     unit.ask = &fieldscribe_modbus_ask_rtu;
+    unit.late = number % 2U != 0U;
 }
 
 void prove_call(size_t count)

@@ -15,6 +15,8 @@ from fnmatch import fnmatchcase
 from fieldscribe.user_errors import UnclearError
 
 RUNTIME_NAME = re.compile(r"fieldscribe_[a-z0-9_]*\*?|FIELDSCRIBE_[A-Z0-9_]*\*?")
+_FOR_USERS = {"FIELDSCRIBE_COUNT"}
+"""What a user's program may need though no generated line does."""
 _HEAD = re.compile(r"\A\s*/\*.*?\*/", re.DOTALL)
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _DEFINED = re.compile(
@@ -41,7 +43,7 @@ def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) ->
     unknown = [word for word in sorted(words) if not matching(known, word)]
     if unknown:
         raise UnclearError(f"the runtime has no `{unknown[0]}`", "`fieldscribe_*` keeps all of it")
-    used = {word for text in users for word in RUNTIME_NAME.findall(_HEAD.sub("", text))} | words
+    used = {word for text in users for word in RUNTIME_NAME.findall(_HEAD.sub("", text))} | words | _FOR_USERS
     used |= {name for word in used if "*" in word for name in known if fnmatchcase(name.lower(), word.lower())}
     kept: set[str] = set()
     size = -1

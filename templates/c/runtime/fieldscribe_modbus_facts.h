@@ -9,7 +9,7 @@
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 3
+#define FIELDSCRIBE_MODBUS_INTERFACE 4
 
 /* In a profile: no unit number is a broadcast. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU

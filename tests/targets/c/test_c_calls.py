@@ -13,7 +13,7 @@ from support.described import made, shipped
 from support.python_families import uss_device
 
 HANDLES = {
-    "modbus": "{{NULL, &ask, 3U, 0U, 0U}}",
+    "modbus": "{{NULL, &ask, 3U, 0U, 0U, false}}",
     "uss": "{{&line, &ask, sent, heard, 3U, 0U}}",
 }
 NUMBERS = (0, 1, 2, 3, 7, 10, 99, 100, 101, 255, 400, 1000, 4000, 0x1234, 0x7FFF, 0x8000, 0x8001, 0xFFFF)

@@ -137,13 +137,11 @@ def test_words_of_a_telegram_are_of_one_moment_in_interrupts(level: str, tmp_pat
     succeed([compiled("gcc", flags, source, tmp_path / "interrupts")])
 
 
-ASK = program("ask")
-
-
-@pytest.mark.full(seconds=2)
-def test_a_line_is_asked(folder: Path, tmp_path: Path) -> None:
-    """Over TCP an answer to an earlier request is dropped; nobody is waited for who does not answer."""
-    run_program(ASK, "gcc", folder, tmp_path)
+@pytest.mark.full(seconds=4)
+@pytest.mark.parametrize("name", ["ask", "late"])
+def test_a_line_is_asked(name: str, folder: Path, tmp_path: Path) -> None:
+    """An answer to an earlier request is dropped; nobody is waited for who does not answer."""
+    run_program(program(name), "gcc", folder, tmp_path)
 
 
 BABBLE = program("babble")
