@@ -190,7 +190,9 @@ fn points_are_read_and_written_as_data() {
     let shared = Shared(Rc::new(RefCell::new(line())));
     assert_eq!(finish(LocalClient::new(shared, Framing::Rtu, 1).read_point(voltage)), Ok(500.0.into()));
     for (name, value, text) in [
-        ("base_frequency", "fast", "the value is not a number"),
+        ("base_frequency", "fast", "\"fast\" is not a number"),
+        ("frequency_source", "Logic", "\"Logic\" is not a number, nor one of the names keypad, terminal, logic"),
+        ("frequency_source", "77", "nothing has the number 77"),
         ("base_frequency", "500", "500 Hz is outside 0 to 400 Hz (raw 0 to 4000)"),
         ("temperature", "no_sensor", "the number is the special code no_sensor and no quantity, which is only read"),
         ("power", "1", "the point is only read"),
@@ -199,6 +201,9 @@ fn points_are_read_and_written_as_data() {
         let error = client.write_point(point(name), value).unwrap_err();
         assert_eq!(error.to_string(), format!("{name}: {text}"));
     }
+    let missing = "voltage_setpoint: the raw numbers of other points are missing: voltage_ratio";
+    assert_eq!(voltage.decode(500, &[]).unwrap_err().to_string(), missing);
+    assert_eq!(voltage.encode(50.0, &[]).unwrap_err().to_string(), missing);
 }
 
 /// What an error says, and what its sources say: nothing twice.

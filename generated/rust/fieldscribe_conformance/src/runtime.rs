@@ -12,8 +12,8 @@ use fieldscribe_runtime::flags::{show, Flag, Flags};
 use fieldscribe_runtime::form::floating::Pattern;
 use fieldscribe_runtime::{
     digits, in_address_order, in_reading_order, point_table, quantity, text, written, AnyDevice,
-    Code, Coded, CountWritable, Digits, Encodable, Error, Outside, Points, Raw, Reading, Refused,
-    Rule, Space, Special, Text, Whole,
+    AnyValue, Code, Coded, CountWritable, Digits, Encodable, Error, Outside, Point, Points, Raw,
+    Reading, Refused, Rule, Space, Special, Text, Whole, Writable,
 };
 
 /// A point that is a plain number; the greatest of its type may not be.
@@ -323,6 +323,32 @@ fn errors() {
                 Error::UnknownValue(Refused::Raw(COUNT)),
                 "unknown_value",
                 "speed: nothing has the number -5",
+            ),
+            (
+                Error::OutOfRange(Refused::FixedBits {
+                    point: "control",
+                    given: 3,
+                    mask: 0x8000,
+                    bits: 0x8000,
+                }),
+                "out_of_range",
+                "control: raw 3 lacks constant bits: those of mask 8000h are always written as 8000h",
+            ),
+            (
+                Error::OutOfRange(Refused::Fraction {
+                    point: "speed",
+                    given: 3.5,
+                }),
+                "out_of_range",
+                "speed: 3.5 is not a whole number",
+            ),
+            (
+                Error::Missing {
+                    point: "speed",
+                    needs: &[],
+                },
+                "wrong_length",
+                "speed: the raw numbers of other points are missing",
             ),
             (
                 Error::BadText(None),
@@ -1026,6 +1052,15 @@ mod told {
     }
 
     point! {
+        /// A word with a bit that is always written as 1.
+        Control: u16 = "control";
+        at Holding 0x13;
+        fixed 0x8000 0x8000;
+        => value u16 as plain();
+        write { count i32; }
+    }
+
+    point! {
         /// A word that nobody asks for by itself.
         Neither: u16 = "neither";
         at Coil 1;
@@ -1080,6 +1115,32 @@ fn tables() {
     assert_eq!(told(told::Plain::encode(500)), Err(shown.to_owned()));
     let shown = "plain: raw 500 is outside 30 to 400";
     assert_eq!(told(told::Plain::encode_count(500)), Err(shown.to_owned()));
+    let shown =
+        "control: raw 3 lacks constant bits: those of mask 8000h are always written as 8000h";
+    let raw = told::Control::check(3).map_err(|error| error.to_string());
+    assert_eq!(raw, Err(shown.to_owned()));
+    assert_eq!(told::Control::encode(3), Ok(0x8003));
+    let data = |value: AnyValue<'_>| {
+        let encoded = told::Control::INFO.encode(value, &[]);
+        encoded.map_err(|error| error.to_string())
+    };
+    for (value, shown) in [
+        ("3".into(), Ok(0x8003)),
+        (3.0.into(), Ok(0x8003)),
+        (3.5.into(), Err("3.5 is not a whole number")),
+        ("70000".into(), Err("raw 70000 is outside 0 to 65535")),
+        (1e5.into(), Err("raw 100000 is outside 0 to 65535")),
+        ("a\"b".into(), Err("\"a\\\"b\" is not a number")),
+        (
+            "a text of more than 30 characters, \u{e9}".into(),
+            Err("\"a text of more than 30 charact\"... is not a number"),
+        ),
+    ] {
+        assert_eq!(
+            data(value),
+            shown.map_err(|text| format!("control: {text}"))
+        );
+    }
     let level = |value| told::Level::encode(value).map_err(|error| error.to_string());
     let shown = "level: 0.4 kPa is outside 0.5 to 60 kPa (raw 5 to 600)";
     assert_eq!(level(0.4), Err(shown.to_owned()));

@@ -83,6 +83,8 @@ point! {
     /// Binary output control.
     ///
     /// At holding 0027h (39), `u16`, raw `0..65535`, read and write.
+    ///
+    /// Constant bits when written: bit 15 always 1.
     BinaryOutputControl of crate::JumoController: u16 = "binary_output_control";
     at Holding 0x0027;
     fixed 0x8000 0x8000;

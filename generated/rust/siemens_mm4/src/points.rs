@@ -677,6 +677,8 @@ point! {
     ///
     /// `STW` at telegram `task` word 0000h (0), `u16`, raw `0..65535`, write only.
     ///
+    /// Constant bits when written: bit 10 always 1.
+    ///
     /// The manual leaves open `whether the edge or the level of acknowledge_fault acknowledges`
     /// (`stw_bit_7_edge`).
     #[doc(alias = "STW")]

@@ -3822,6 +3822,8 @@ point! {
     /// Relay 1 event 1.
     ///
     /// At parameter 01B4h (436) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay1Event1 of crate::WoodwardMpu2s: u8 = "relay_1_event_1";
     at Parameter 0x01B4;
     bits 8 0xFF00 group;
@@ -3837,6 +3839,8 @@ point! {
     /// Relay 1 logic 1.
     ///
     /// At parameter 01B4h (436) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay1Logic1 of crate::WoodwardMpu2s: u8 = "relay_1_logic_1";
     at Parameter 0x01B4;
     bits 0 0x0007 group;
@@ -3852,6 +3856,8 @@ point! {
     /// Relay 1 event 2.
     ///
     /// At parameter 01B5h (437) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay1Event2 of crate::WoodwardMpu2s: u8 = "relay_1_event_2";
     at Parameter 0x01B5;
     bits 8 0xFF00 group;
@@ -3867,6 +3873,8 @@ point! {
     /// Relay 1 logic 2.
     ///
     /// At parameter 01B5h (437) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay1Logic2 of crate::WoodwardMpu2s: u8 = "relay_1_logic_2";
     at Parameter 0x01B5;
     bits 0 0x0007 group;
@@ -3882,6 +3890,8 @@ point! {
     /// Relay 1 event 3.
     ///
     /// At parameter 01B6h (438) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay1Event3 of crate::WoodwardMpu2s: u8 = "relay_1_event_3";
     at Parameter 0x01B6;
     bits 8 0xFF00 group;
@@ -3897,6 +3907,8 @@ point! {
     /// Relay 1 logic 3.
     ///
     /// At parameter 01B6h (438) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -3915,6 +3927,8 @@ point! {
     /// Relay 2 event 1.
     ///
     /// At parameter 01B7h (439) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay2Event1 of crate::WoodwardMpu2s: u8 = "relay_2_event_1";
     at Parameter 0x01B7;
     bits 8 0xFF00 group;
@@ -3930,6 +3944,8 @@ point! {
     /// Relay 2 logic 1.
     ///
     /// At parameter 01B7h (439) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay2Logic1 of crate::WoodwardMpu2s: u8 = "relay_2_logic_1";
     at Parameter 0x01B7;
     bits 0 0x0007 group;
@@ -3945,6 +3961,8 @@ point! {
     /// Relay 2 event 2.
     ///
     /// At parameter 01B8h (440) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay2Event2 of crate::WoodwardMpu2s: u8 = "relay_2_event_2";
     at Parameter 0x01B8;
     bits 8 0xFF00 group;
@@ -3960,6 +3978,8 @@ point! {
     /// Relay 2 logic 2.
     ///
     /// At parameter 01B8h (440) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay2Logic2 of crate::WoodwardMpu2s: u8 = "relay_2_logic_2";
     at Parameter 0x01B8;
     bits 0 0x0007 group;
@@ -3975,6 +3995,8 @@ point! {
     /// Relay 2 event 3.
     ///
     /// At parameter 01B9h (441) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay2Event3 of crate::WoodwardMpu2s: u8 = "relay_2_event_3";
     at Parameter 0x01B9;
     bits 8 0xFF00 group;
@@ -3990,6 +4012,8 @@ point! {
     /// Relay 2 logic 3.
     ///
     /// At parameter 01B9h (441) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -4008,6 +4032,8 @@ point! {
     /// Relay 3 event 1.
     ///
     /// At parameter 01BAh (442) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay3Event1 of crate::WoodwardMpu2s: u8 = "relay_3_event_1";
     at Parameter 0x01BA;
     bits 8 0xFF00 group;
@@ -4023,6 +4049,8 @@ point! {
     /// Relay 3 logic 1.
     ///
     /// At parameter 01BAh (442) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay3Logic1 of crate::WoodwardMpu2s: u8 = "relay_3_logic_1";
     at Parameter 0x01BA;
     bits 0 0x0007 group;
@@ -4038,6 +4066,8 @@ point! {
     /// Relay 3 event 2.
     ///
     /// At parameter 01BBh (443) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay3Event2 of crate::WoodwardMpu2s: u8 = "relay_3_event_2";
     at Parameter 0x01BB;
     bits 8 0xFF00 group;
@@ -4053,6 +4083,8 @@ point! {
     /// Relay 3 logic 2.
     ///
     /// At parameter 01BBh (443) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay3Logic2 of crate::WoodwardMpu2s: u8 = "relay_3_logic_2";
     at Parameter 0x01BB;
     bits 0 0x0007 group;
@@ -4068,6 +4100,8 @@ point! {
     /// Relay 3 event 3.
     ///
     /// At parameter 01BCh (444) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay3Event3 of crate::WoodwardMpu2s: u8 = "relay_3_event_3";
     at Parameter 0x01BC;
     bits 8 0xFF00 group;
@@ -4083,6 +4117,8 @@ point! {
     /// Relay 3 logic 3.
     ///
     /// At parameter 01BCh (444) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -4101,6 +4137,8 @@ point! {
     /// Relay 4 event 1.
     ///
     /// At parameter 01BDh (445) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay4Event1 of crate::WoodwardMpu2s: u8 = "relay_4_event_1";
     at Parameter 0x01BD;
     bits 8 0xFF00 group;
@@ -4116,6 +4154,8 @@ point! {
     /// Relay 4 logic 1.
     ///
     /// At parameter 01BDh (445) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay4Logic1 of crate::WoodwardMpu2s: u8 = "relay_4_logic_1";
     at Parameter 0x01BD;
     bits 0 0x0007 group;
@@ -4131,6 +4171,8 @@ point! {
     /// Relay 4 event 2.
     ///
     /// At parameter 01BEh (446) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay4Event2 of crate::WoodwardMpu2s: u8 = "relay_4_event_2";
     at Parameter 0x01BE;
     bits 8 0xFF00 group;
@@ -4146,6 +4188,8 @@ point! {
     /// Relay 4 logic 2.
     ///
     /// At parameter 01BEh (446) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay4Logic2 of crate::WoodwardMpu2s: u8 = "relay_4_logic_2";
     at Parameter 0x01BE;
     bits 0 0x0007 group;
@@ -4161,6 +4205,8 @@ point! {
     /// Relay 4 event 3.
     ///
     /// At parameter 01BFh (447) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay4Event3 of crate::WoodwardMpu2s: u8 = "relay_4_event_3";
     at Parameter 0x01BF;
     bits 8 0xFF00 group;
@@ -4176,6 +4222,8 @@ point! {
     /// Relay 4 logic 3.
     ///
     /// At parameter 01BFh (447) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -4194,6 +4242,8 @@ point! {
     /// Relay 5 event 1.
     ///
     /// At parameter 01C0h (448) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay5Event1 of crate::WoodwardMpu2s: u8 = "relay_5_event_1";
     at Parameter 0x01C0;
     bits 8 0xFF00 group;
@@ -4209,6 +4259,8 @@ point! {
     /// Relay 5 logic 1.
     ///
     /// At parameter 01C0h (448) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay5Logic1 of crate::WoodwardMpu2s: u8 = "relay_5_logic_1";
     at Parameter 0x01C0;
     bits 0 0x0007 group;
@@ -4224,6 +4276,8 @@ point! {
     /// Relay 5 event 2.
     ///
     /// At parameter 01C1h (449) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay5Event2 of crate::WoodwardMpu2s: u8 = "relay_5_event_2";
     at Parameter 0x01C1;
     bits 8 0xFF00 group;
@@ -4239,6 +4293,8 @@ point! {
     /// Relay 5 logic 2.
     ///
     /// At parameter 01C1h (449) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay5Logic2 of crate::WoodwardMpu2s: u8 = "relay_5_logic_2";
     at Parameter 0x01C1;
     bits 0 0x0007 group;
@@ -4254,6 +4310,8 @@ point! {
     /// Relay 5 event 3.
     ///
     /// At parameter 01C2h (450) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay5Event3 of crate::WoodwardMpu2s: u8 = "relay_5_event_3";
     at Parameter 0x01C2;
     bits 8 0xFF00 group;
@@ -4269,6 +4327,8 @@ point! {
     /// Relay 5 logic 3.
     ///
     /// At parameter 01C2h (450) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -4287,6 +4347,8 @@ point! {
     /// Relay 6 event 1.
     ///
     /// At parameter 01C3h (451) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay6Event1 of crate::WoodwardMpu2s: u8 = "relay_6_event_1";
     at Parameter 0x01C3;
     bits 8 0xFF00 group;
@@ -4302,6 +4364,8 @@ point! {
     /// Relay 6 logic 1.
     ///
     /// At parameter 01C3h (451) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay6Logic1 of crate::WoodwardMpu2s: u8 = "relay_6_logic_1";
     at Parameter 0x01C3;
     bits 0 0x0007 group;
@@ -4317,6 +4381,8 @@ point! {
     /// Relay 6 event 2.
     ///
     /// At parameter 01C4h (452) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay6Event2 of crate::WoodwardMpu2s: u8 = "relay_6_event_2";
     at Parameter 0x01C4;
     bits 8 0xFF00 group;
@@ -4332,6 +4398,8 @@ point! {
     /// Relay 6 logic 2.
     ///
     /// At parameter 01C4h (452) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay6Logic2 of crate::WoodwardMpu2s: u8 = "relay_6_logic_2";
     at Parameter 0x01C4;
     bits 0 0x0007 group;
@@ -4347,6 +4415,8 @@ point! {
     /// Relay 6 event 3.
     ///
     /// At parameter 01C5h (453) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay6Event3 of crate::WoodwardMpu2s: u8 = "relay_6_event_3";
     at Parameter 0x01C5;
     bits 8 0xFF00 group;
@@ -4362,6 +4432,8 @@ point! {
     /// Relay 6 logic 3.
     ///
     /// At parameter 01C5h (453) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).
@@ -4380,6 +4452,8 @@ point! {
     /// Relay 7 event 1.
     ///
     /// At parameter 01C6h (454) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay7Event1 of crate::WoodwardMpu2s: u8 = "relay_7_event_1";
     at Parameter 0x01C6;
     bits 8 0xFF00 group;
@@ -4395,6 +4469,8 @@ point! {
     /// Relay 7 logic 1.
     ///
     /// At parameter 01C6h (454) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay7Logic1 of crate::WoodwardMpu2s: u8 = "relay_7_logic_1";
     at Parameter 0x01C6;
     bits 0 0x0007 group;
@@ -4410,6 +4486,8 @@ point! {
     /// Relay 7 event 2.
     ///
     /// At parameter 01C7h (455) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay7Event2 of crate::WoodwardMpu2s: u8 = "relay_7_event_2";
     at Parameter 0x01C7;
     bits 8 0xFF00 group;
@@ -4425,6 +4503,8 @@ point! {
     /// Relay 7 logic 2.
     ///
     /// At parameter 01C7h (455) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay7Logic2 of crate::WoodwardMpu2s: u8 = "relay_7_logic_2";
     at Parameter 0x01C7;
     bits 0 0x0007 group;
@@ -4440,6 +4520,8 @@ point! {
     /// Relay 7 event 3.
     ///
     /// At parameter 01C8h (456) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     Relay7Event3 of crate::WoodwardMpu2s: u8 = "relay_7_event_3";
     at Parameter 0x01C8;
     bits 8 0xFF00 group;
@@ -4455,6 +4537,8 @@ point! {
     /// Relay 7 logic 3.
     ///
     /// At parameter 01C8h (456) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    ///
+    /// Constant bits when written: bits 7..3 always 00000.
     ///
     /// The manual leaves open `whether the device looks at the bits that combine with the next id`
     /// (`relay_last_word`).

@@ -48,7 +48,9 @@ def _comment(paragraph: str) -> str:
 
 
 def _paragraphs(point: Point, lowered: Lowered) -> Iterator[str]:
-    """Yield the special codes of a point, and its errata."""
+    """Yield the constant bits of a point, its special codes, and its errata."""
+    if point.fixed is not None:
+        yield f"Constant bits when written: {wording.fixed_text(point)}."
     if point.specials:
         yield f"{wording.codes_text(point, '`')}."
     errata, doubts = lowered.errata_of(point)

@@ -15,7 +15,7 @@ pub use crate::scale::DataScale;
 
 use crate::check::beyond;
 use crate::form::ruled;
-use crate::{Encodable, Error, Raw, Scaled, Writable};
+use crate::{Encodable, Error, Point, Raw, Scaled, Writable};
 
 /// The value of a point that is known at run time only.
 ///
@@ -96,19 +96,19 @@ impl Needs for () {
 /// The value of a point whose scale needs others, for [`Form::Ruled`].
 ///
 /// # Errors
-/// What its rule says; [`Error::NotBrought`] if the numbers of others are not all there.
+/// What its rule says; [`Error::Missing`] if the numbers of others are not all there.
 pub fn ruled<P: Scaled<Factors: Needs>>(raw: i128, with: &[i128]) -> Result<f64, Error> {
-    let missing = Error::NotBrought(Some(P::NAME));
-    let factors = P::Factors::from_raws(with).ok_or(missing)?;
-    ruled::decode::<P, f64>(P::Raw::from_i128(raw).ok_or(missing)?, factors)
+    let factors = P::Factors::from_raws(with).ok_or_else(missing::<P, P::Factors>)?;
+    let beyond = Error::Overflow(Some(P::NAME));
+    ruled::decode::<P, f64>(P::Raw::from_i128(raw).ok_or(beyond)?, factors)
 }
 
 /// Whether a raw number may be written, for [`Writing::check`].
 ///
 /// # Errors
-/// As [`Writable::check_with`]; [`Error::NotBrought`] if the numbers of others are not all there.
+/// As [`Writable::check_with`]; [`Error::Missing`] if the numbers of others are not all there.
 pub fn checked<P: Writable<With: Needs>>(raw: i128, with: &[i128]) -> Result<(), Error> {
-    let needs = P::With::from_raws(with).ok_or(Error::NotBrought(Some(P::NAME)))?;
+    let needs = P::With::from_raws(with).ok_or_else(missing::<P, P::With>)?;
     let number = P::Raw::from_i128(raw);
     P::check_with(number.ok_or_else(|| beyond::<P>(raw))?, needs)
 }
@@ -116,11 +116,17 @@ pub fn checked<P: Writable<With: Needs>>(raw: i128, with: &[i128]) -> Result<(),
 /// The raw number of a value, for [`Writing::encode`].
 ///
 /// # Errors
-/// As [`Encodable::encode_with`]; [`Error::NotBrought`] if the numbers of others are not all there.
+/// As [`Encodable::encode_with`]; [`Error::Missing`] if the numbers of others are not all there.
 pub fn encoded<P>(value: f64, with: &[i128]) -> Result<i128, Error>
 where
     P: Encodable<With: Needs, Value: From<f64>>,
 {
-    let needs = P::With::from_raws(with).ok_or(Error::NotBrought(Some(P::NAME)))?;
+    let needs = P::With::from_raws(with).ok_or_else(missing::<P, P::With>)?;
     P::encode_with(value.into(), needs).map(Raw::to_i128)
+}
+
+/// What is said where the raw numbers of other points are not all there.
+fn missing<P: Point, N: Needs>() -> Error {
+    let (point, needs) = (P::NAME, N::points());
+    Error::Missing { point, needs }
 }

@@ -68,7 +68,8 @@ const fn per_unit(decimals: u32) -> i64 {
 fn stored<P: Writable>(number: impl Into<i128>, with: P::With) -> Result<P::Raw, Error> {
     let number = number.into();
     let raw = P::Raw::from_i128(number).ok_or_else(|| beyond::<P>(number))?;
-    checked::<P>(with_fixed_bits::<P>(raw), with)
+    let stored = checked::<P>(with_fixed_bits::<P>(raw), with);
+    stored.map_err(|error| error.about(raw.to_i64()))
 }
 
 /// The raw number, if it may be written.

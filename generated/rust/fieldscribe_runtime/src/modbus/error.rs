@@ -86,7 +86,9 @@ impl BuildError {
 impl fmt::Display for BuildError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
-            Self::BadFraming => "the device does not speak this framing",
+            Self::BadFraming => {
+                "the device does not speak this framing; behind a gateway that does, use `with_framings`"
+            }
             Self::BadUnit => "the device has no such unit number",
             Self::NotForAll => "this cannot be sent to all units",
             Self::BadFunction => "the device does not know the function",
@@ -149,7 +151,8 @@ pub enum ReplyError {
     Exception {
         /// The code that says why.
         code: u8,
-        /// Its name in the description, which the [`Profile`](super::Profile) knows.
+        /// Its name in the description, which the [`Profile`](super::Profile) knows. Where there is none, the text of the
+        /// error has the name of the standard.
         name: Option<&'static str>,
     },
     /// The byte count is not what the request asked for.
@@ -214,7 +217,8 @@ impl fmt::Display for ReplyError {
             }
             Self::Exception { code, name } => {
                 write!(formatter, "the device refused with exception {code:02X}h")?;
-                name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
+                name.or_else(|| standard_name(*code))
+                    .map_or(Ok(()), |name| write!(formatter, " ({name})"))
             }
             Self::BadByteCount { expected, received } => {
                 write!(
@@ -231,6 +235,22 @@ impl fmt::Display for ReplyError {
             }
         }
     }
+}
+
+/// What Modbus calls an exception code.
+const fn standard_name(code: u8) -> Option<&'static str> {
+    Some(match code {
+        0x01 => "illegal_function",
+        0x02 => "illegal_data_address",
+        0x03 => "illegal_data_value",
+        0x04 => "server_device_failure",
+        0x05 => "acknowledge",
+        0x06 => "server_device_busy",
+        0x08 => "memory_parity_error",
+        0x0A => "gateway_path_unavailable",
+        0x0B => "gateway_target_device_failed_to_respond",
+        _ => return None,
+    })
 }
 
 impl core::error::Error for ReplyError {}

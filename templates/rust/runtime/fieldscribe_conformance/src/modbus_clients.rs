@@ -72,7 +72,7 @@ fn errors() {
             (
                 BuildError::BadFraming,
                 "bad_framing",
-                "the device does not speak this framing",
+                "the device does not speak this framing; behind a gateway that does, use `with_framings`",
             ),
             (
                 BuildError::NotForAll,
@@ -162,7 +162,15 @@ fn errors() {
                     name: None,
                 },
                 "exception",
-                "the device refused with exception 02h",
+                "the device refused with exception 02h (illegal_data_address)",
+            ),
+            (
+                ReplyError::Exception {
+                    code: 0x0B,
+                    name: None,
+                },
+                "exception",
+                "the device refused with exception 0Bh (gateway_target_device_failed_to_respond)",
             ),
             (
                 ReplyError::BadByteCount {
@@ -248,8 +256,12 @@ fn functions() {
         assert_eq!([0, 1].map(|place| profile.speaks(BOTH[place])), speaks);
         assert_eq!((profile.knows(6), profile.is_broadcast(0)), (true, true));
     }
-    let exceptions = [2, 3].map(|code| RTU.named(refused(code)).to_string());
-    let shown = ["02h (no_such_address)", "03h"];
+    let exceptions = [2, 4, 7].map(|code| RTU.named(refused(code)).to_string());
+    let shown = [
+        "02h (no_such_address)",
+        "04h (server_device_failure)",
+        "07h",
+    ];
     assert_eq!(
         exceptions,
         shown.map(|code| format!("the device refused with exception {code}"))

@@ -22,7 +22,9 @@ pub fn listed<P: Writable>(raw: P::Raw, is_listed: bool) -> Result<(), Error> {
     let kept = P::IS_GROUPED || P::FIXED_MASK == 0 || with_fixed_bits::<P>(raw) == raw;
     if is_listed && kept {
         Ok(())
-    } else if P::IS_CLOSED && kept {
+    } else if !kept {
+        Err(fixed_bits::<P>(raw.to_i64()))
+    } else if P::IS_CLOSED {
         Err(unknown::<P>(raw.to_i64()))
     } else {
         Err(outside::<P>(raw, P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64()))
@@ -68,6 +70,18 @@ pub fn with_fixed_bits<P: Point>(raw: P::Raw) -> P::Raw {
         *word = (*word & !mask) | bits;
     }
     P::Raw::from_words(words)
+}
+
+/// What is said of a raw number without the bits that are always the same.
+#[cold]
+fn fixed_bits<P: Point>(given: i64) -> Error {
+    let (point, mask, bits) = (P::NAME, P::FIXED_MASK, P::FIXED_BITS);
+    Error::OutOfRange(Refused::FixedBits {
+        point,
+        given,
+        mask,
+        bits,
+    })
 }
 
 /// What is said of a raw number between others than these.

@@ -3,7 +3,7 @@
 
 use core::fmt;
 
-use crate::{Access, Point};
+use crate::{Access, Given, Point, PointFacts};
 
 /// Why a number could not be encoded, decoded or checked.
 ///
@@ -26,6 +26,22 @@ pub enum Error {
     OutOfRange(Refused),
     /// The value is not a number.
     NotANumber(&'static str),
+    /// The text is neither a number nor a name of the point.
+    UnknownName {
+        /// The name of the point.
+        point: &'static str,
+        /// The text.
+        given: Given,
+        /// The names that the point knows.
+        names: &'static [(i128, &'static str)],
+    },
+    /// Raw numbers of other points are missing, or one does not fit its type.
+    Missing {
+        /// The name of the point.
+        point: &'static str,
+        /// The points whose raw numbers it needs; none if they depend on the variant of the device.
+        needs: &'static [&'static PointFacts],
+    },
     /// The closed enum has no such number, or the point no such code.
     UnknownValue(Refused),
     /// The text is too long, or has a character that is none of its encoding.
@@ -83,6 +99,24 @@ pub enum Refused {
         /// The limits as raw numbers, where these are others.
         raw: Option<(i64, i64)>,
     },
+    /// A raw number without the bits that are always written as a constant.
+    FixedBits {
+        /// The point's name.
+        point: &'static str,
+        /// What was given.
+        given: i64,
+        /// Which bits are always written as a constant.
+        mask: u32,
+        /// The constant, within the mask.
+        bits: u32,
+    },
+    /// A value that is not whole, where raw numbers have no scale.
+    Fraction {
+        /// The point's name.
+        point: &'static str,
+        /// What was given.
+        given: f64,
+    },
 }
 
 /// What was given to a point, and the least and the greatest number that it takes now.
@@ -107,13 +141,16 @@ impl Error {
     pub const fn name(self) -> &'static str {
         match self {
             Self::OutOfRange(_) | Self::BadText(_) => "out_of_range",
-            Self::NotANumber(_) => "not_a_number",
+            Self::NotANumber(_) | Self::UnknownName { .. } => "not_a_number",
             Self::UnknownValue(_) => "unknown_value",
             Self::ZeroFactor(_) => "zero_factor",
             Self::NoCase(_) => "no_case",
             Self::Overflow(_) | Self::BrokenFactor { .. } => "overflow",
             Self::Special { .. } => "special",
-            Self::WrongLength(_) | Self::NotBrought(_) | Self::BeyondLink(_) => "wrong_length",
+            Self::WrongLength(_)
+            | Self::NotBrought(_)
+            | Self::BeyondLink(_)
+            | Self::Missing { .. } => "wrong_length",
             Self::WrongSpace(_) => "wrong_space",
             Self::NotHeard(_) => "not_heard",
             Self::Access(..) => "access",
@@ -134,9 +171,11 @@ impl Error {
     pub const fn point(self) -> Option<&'static str> {
         match self {
             Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused.point()),
-            Self::NotANumber(point) | Self::Special { point, .. } | Self::Access(point, _) => {
-                Some(point)
-            }
+            Self::NotANumber(point)
+            | Self::UnknownName { point, .. }
+            | Self::Missing { point, .. }
+            | Self::Special { point, .. }
+            | Self::Access(point, _) => Some(point),
             Self::BadText(point)
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
@@ -173,6 +212,16 @@ impl Error {
         }
         self
     }
+
+    /// The same about the number that was given, of which the refused raw number was made.
+    pub(crate) fn about(mut self, number: i64) -> Self {
+        if let Self::OutOfRange(Refused::Raw(outside)) | Self::UnknownValue(Refused::Raw(outside)) =
+            &mut self
+        {
+            outside.given = number;
+        }
+        self
+    }
 }
 
 impl Refused {
@@ -182,6 +231,7 @@ impl Refused {
         match self {
             Self::Raw(outside) | Self::Count(outside) => outside.point,
             Self::Value { outside, .. } => outside.point,
+            Self::FixedBits { point, .. } | Self::Fraction { point, .. } => point,
         }
     }
 }
@@ -224,6 +274,8 @@ impl fmt::Display for Error {
                     "the number is the special code {code} and no quantity{hint}"
                 );
             }
+            Self::UnknownName { given, names, .. } => return unknown(*given, names, formatter),
+            Self::Missing { needs, .. } => return missing(needs, formatter),
             Self::NotANumber(_) => "the value is not a number",
             Self::UnknownValue(_) => "the enum has no such number",
             Self::BadText(_) => {
@@ -242,6 +294,39 @@ impl fmt::Display for Error {
             Self::Access(..) => "the point is neither read nor written by itself",
         })
     }
+}
+
+/// The text, and the first names that it could be.
+fn unknown(
+    given: Given,
+    names: &[(i128, &str)],
+    formatter: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    write!(formatter, "{given:?} is not a number")?;
+    let mut before = ", nor one of the names ";
+    for (_, name) in names.iter().take(MOST_NAMES) {
+        write!(formatter, "{before}{name}")?;
+        before = ", ";
+    }
+    formatter.write_str(if names.len() > MOST_NAMES {
+        ", ... (`names()` has all)"
+    } else {
+        ""
+    })
+}
+
+/// So many names an error lists.
+const MOST_NAMES: usize = 6;
+
+/// The points whose raw numbers are missing.
+fn missing(needs: &[&PointFacts], formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    formatter.write_str("the raw numbers of other points are missing")?;
+    let mut before = ": ";
+    for point in needs {
+        write!(formatter, "{before}{}", point.name)?;
+        before = ", ";
+    }
+    Ok(())
 }
 
 impl fmt::Display for Refused {
@@ -264,6 +349,13 @@ impl Refused {
                     None => Ok(()),
                 }
             }
+            Self::FixedBits {
+                given, mask, bits, ..
+            } => write!(
+                formatter,
+                "raw {given} lacks constant bits: those of mask {mask:04X}h are always written as {bits:04X}h"
+            ),
+            Self::Fraction { given, .. } => write!(formatter, "{given} is not a whole number"),
         }
     }
 }

@@ -25,6 +25,7 @@ mod display;
 mod error;
 pub mod flags;
 pub mod form;
+mod given;
 mod info;
 mod macros;
 pub mod modbus;
@@ -48,6 +49,7 @@ pub use display::{Displayed, Shown};
 pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;
+pub use given::Given;
 pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,

@@ -300,11 +300,11 @@ const TCP: Errors = [
     "timeout ok*2 wrong_unit*3 ok bad_protocol*2",
 ];
 const RTU: Errors = [
-    "bad_crc short_frame*2 bad_crc*4",
+    "bad_crc*2 short_frame bad_crc*4",
     "timeout short_frame*6",
     "bad_crc*3 short_frame*4",
     "bad_crc*6 ok",
-    "timeout ok*2 wrong_unit ok*3 short_frame*2",
+    "timeout ok*2 wrong_unit ok*3 bad_crc*2",
 ];
 const USS: Errors = [
     "wrong_start wrong_length wrong_check*10",
@@ -314,7 +314,7 @@ const USS: Errors = [
     "timeout ok*2 wrong_unit ok*3 wrong_start*2",
 ];
 /// It does not look behind the frame of another.
-const UART: Errors = [RTU[0], RTU[1], RTU[2], RTU[3], "timeout ok*2 wrong_unit*3 ok short_frame*2"];
+const UART: Errors = [RTU[0], RTU[1], RTU[2], RTU[3], "timeout ok*2 wrong_unit*3 ok bad_crc*2"];
 /// The library's errors; it drops bytes until a frame is right.
 const TOKIO_TCP: Errors = [
     "invalid*4 timeout*2 invalid wrong_function invalid ok*2",

@@ -7,7 +7,7 @@ use crate::arithmetic::round_i128;
 use crate::check::saturated;
 use crate::error::{Outside, Refused};
 use crate::form::{floating::Pattern, in_order, scaled};
-use crate::{Error, Raw};
+use crate::{Error, Given, Raw};
 
 impl PointFacts {
     /// The numbers that have names.
@@ -58,13 +58,13 @@ impl PointFacts {
     /// The raw number of a value, checked, by the raw numbers of [`write_needs`](crate::PointInfo::write_needs).
     ///
     /// # Errors
-    /// As [`Encodable::encode_with`](crate::Encodable::encode_with); [`Error::NotANumber`] for a name that the point
-    /// does not know; [`Error::Access`] if the point is not written.
+    /// As [`Encodable::encode_with`](crate::Encodable::encode_with); [`Error::UnknownName`] for a name that the point
+    /// does not know; [`Error::Missing`] if `with` lacks numbers; [`Error::Access`] if the point is not written.
     pub fn encode<'v>(&self, value: impl Into<AnyValue<'v>>, with: &[i128]) -> Result<i128, Error> {
         self.writable()?;
         let raw = match value.into() {
             AnyValue::Name(name) => return self.encode_name(name, with),
-            AnyValue::Integer(number) if !self.has_scale() => self.with_fixed_bits(number),
+            AnyValue::Integer(number) if !self.has_scale() => return self.stored(number, with),
             AnyValue::Integer(number) => self.quantity_raw(to_f64(number), with)?,
             AnyValue::Number(number) => self.quantity_raw(number, with)?,
         };
@@ -89,11 +89,21 @@ impl PointFacts {
             };
         }
         let within = |(low, high): &(i128, i128)| *low <= raw && raw <= *high;
-        if self.ranges().iter().any(within) && self.with_fixed_bits(raw) == raw {
+        if self.with_fixed_bits(raw) != raw {
+            Err(self.lacks_fixed_bits(raw))
+        } else if self.ranges().iter().any(within) {
             Ok(())
         } else {
             Err(self.refused(raw))
         }
+    }
+
+    /// The raw number of an integer that needs no scale, with the bits that are always the same.
+    fn stored(&self, number: i128, with: &[i128]) -> Result<i128, Error> {
+        let raw = self.with_fixed_bits(number);
+        let checked = self.check(raw, with);
+        checked.map_err(|error| error.about(saturated(number)))?;
+        Ok(raw)
     }
 
     /// The raw number of a name, or of a number as text.
@@ -103,7 +113,11 @@ impl PointFacts {
         }
         let value = name.parse().map(AnyValue::Integer);
         let value = value.or_else(|_| name.parse().map(AnyValue::Number));
-        let value: AnyValue<'_> = value.map_err(|_| Error::NotANumber(self.name))?;
+        let value: AnyValue<'_> = value.map_err(|_| Error::UnknownName {
+            point: self.name,
+            given: Given::new(name),
+            names: self.names(),
+        })?;
         self.encode(value, with)
     }
 
@@ -130,7 +144,7 @@ impl PointFacts {
         }
         let raw = match self.form {
             Form::Scaled(scale) => round_i128(scaled::unrounded(scale.scale, value)),
-            Form::Plain | Form::Named(_) => round_i128(value),
+            Form::Plain | Form::Named(_) => return self.whole_raw(value, with),
             _ => return Err(Error::NotANumber(self.name)),
         };
         let raw = raw.ok_or_else(|| self.refused_value(value, self.raw_limits()))?;
@@ -141,6 +155,18 @@ impl PointFacts {
                 Err(self.refused_value(value, (raw.low.into(), raw.high.into())))
             }
             (Err(error), _) => Err(error),
+        }
+    }
+
+    /// The raw number of a value that needs no scale.
+    fn whole_raw(&self, value: f64, with: &[i128]) -> Result<i128, Error> {
+        match round_i128(value) {
+            None => Err(self.refused_value(value, self.raw_limits())),
+            Some(number) if to_f64(number) - value == 0.0 => self.stored(number, with),
+            Some(_) => Err(Error::OutOfRange(Refused::Fraction {
+                point: self.name,
+                given: value,
+            })),
         }
     }
 
@@ -197,6 +223,17 @@ impl PointFacts {
         } else {
             Error::OutOfRange(refused)
         }
+    }
+
+    /// What is said of a raw number without the bits that are always the same.
+    fn lacks_fixed_bits(&self, raw: i128) -> Error {
+        let (mask, bits) = self.fixed;
+        Error::OutOfRange(Refused::FixedBits {
+            point: self.name,
+            given: saturated(raw),
+            mask,
+            bits,
+        })
     }
 
     /// What is said of a value that is not taken, by the raw numbers that are.

@@ -40,6 +40,9 @@ use crate::uss::check_byte;
 ))]
 const NOISE: u32 = 64;
 
+/// The shortest reply of RTU, an exception, in bytes.
+const SHORTEST_RTU: usize = 5;
+
 /// The shortest reply over TCP, an exception, in bytes.
 const SHORTEST_TCP: usize = 9;
 
@@ -178,10 +181,10 @@ impl<'a> Answer<'a> {
         let came = self.came();
         let (length, needed) = match self.frames {
             Some(framing) => {
-                let needed = if framing == Framing::Rtu {
-                    3
-                } else {
-                    SHORTEST_TCP
+                let needed = match framing {
+                    Framing::Rtu if self.length < 3 => 3,
+                    Framing::Rtu => SHORTEST_RTU,
+                    Framing::Tcp => SHORTEST_TCP,
                 };
                 (reply_length(framing, came), needed)
             }
