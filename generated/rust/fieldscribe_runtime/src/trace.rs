@@ -34,6 +34,19 @@ pub(crate) fn frame(unit: u8, way: Way, id: Option<u32>, bytes: &[u8]) {
     let _ = (unit, arrow, id, bytes);
 }
 
+/// Tells that the line failed with the last frame to a unit.
+#[inline]
+pub(crate) fn failed(unit: u8) {
+    #[cfg(feature = "log")]
+    ::log::debug!(target: "fieldscribe", "unit {unit}: failed: nothing was sent, or nothing came");
+    #[cfg(feature = "defmt")]
+    ::defmt::debug!(
+        "unit {=u8}: failed: nothing was sent, or nothing came",
+        unit
+    );
+    let _ = unit;
+}
+
 /// An identifier, if there is one, and bytes, with a space before each.
 #[cfg(feature = "log")]
 struct Shown<'a>(Option<u32>, &'a [u8]);

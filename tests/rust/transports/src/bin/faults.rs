@@ -375,7 +375,7 @@ fn main() {
     }
     assert!(wrong.is_empty());
     let messages = programs::log::kept();
-    for message in ["unit 1 -> 01 03 10 28 00 01 00 C2", "unit 1 <- 01 03 02 00 02 39 85", "unit 1 -> 02 0A 01 14 3A 00 00 00 00 00 00 27"] {
+    for message in ["unit 1 -> 01 03 10 28 00 01 00 C2", "unit 1 <- 01 03 02 00 02 39 85", "unit 1 -> 02 0A 01 14 3A 00 00 00 00 00 00 27", "unit 1: failed: nothing was sent, or nothing came"] {
         assert!(messages.iter().any(|one| one == message), "{message}: {:#?}", &messages[..9]);
     }
 }

@@ -222,7 +222,10 @@ macro_rules! client {
                     Ok(()) => Ok(()),
                     Err(error) => Err(ClientError::Reply(error, Some(request.about()))),
                 },
-                Err(error) => Err(ClientError::Transport(error, Some(request.about()))),
+                Err(error) => {
+                    trace::failed(request.unit());
+                    Err(ClientError::Transport(error, Some(request.about())))
+                }
             }
         }
 

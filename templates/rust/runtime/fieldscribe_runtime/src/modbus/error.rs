@@ -151,8 +151,8 @@ pub enum ReplyError {
     Exception {
         /// The code that says why.
         code: u8,
-        /// Its name in the description, which the [`Profile`](super::Profile) knows. Where there is none, the text of the
-        /// error has the name of the standard.
+        /// Its name in the description, which the [`Profile`](super::Profile) knows. Where there is none, the error
+        /// shows the name of the standard.
         name: Option<&'static str>,
     },
     /// The byte count is not what the request asked for.

@@ -322,6 +322,12 @@ impl Drive {
     }
 }
 
+/// The error of a line, which is traced.
+fn failed<E>(unit: u8, error: E) -> ClientError<E> {
+    trace::failed(unit);
+    ClientError::Transport(error, None)
+}
+
 /// The same client twice: what differs is how it waits for the transport.
 macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
@@ -491,7 +497,7 @@ macro_rules! client {
             ) -> Result<Reply<'_>, ClientError<T::Error>> {
                 let (sent, space) = self.drive.telegrams(&request, &process)?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
-                let length = answer.map_err(|error| ClientError::Transport(error, None))?;
+                let length = answer.map_err(|error| failed(self.drive.unit, error))?;
                 Ok(self.drive.reply(&request, &process, length)?)
             }
 
@@ -521,7 +527,7 @@ macro_rules! client {
             ) -> Result<(), ClientError<T::Error>> {
                 let sent = self.drive.for_all(masks)?;
                 let answer = self.transport.exchange(sent, &mut [])$($wait)*;
-                answer.map_err(|error| ClientError::Transport(error, None))?;
+                answer.map_err(|error| failed(self.drive.unit, error))?;
                 Ok(())
             }
 
