@@ -73,6 +73,12 @@ def check_number(status: str, what: str, number: Any, ends: tuple[int, int]) -> 
         raise RequestError(status, f"{what} {shown(number)} is outside {ends[0]}..{ends[1]}")
 
 
+def check_seconds(status: str, what: str, given: Any) -> None:
+    """Raises RequestError for what is no number of seconds from 0 on."""
+    if isinstance(given, bool) or not isinstance(given, (int, float)) or not given >= 0:
+        raise RequestError(status, f"{what} is a number of seconds from 0 on, not {shown(given)}")
+
+
 def check_words(status: str, what: str, words: Any) -> None:
     """Raises RequestError for what is no tuple or list of words."""
     if not isinstance(words, (tuple, list)):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .arguments import raw_number, shown, whole
 from .errors import (
+    AbsentError,
     CodecError,
     RangeError,
     SpecialCodeError,
@@ -92,7 +93,8 @@ class Point(Guided):
 
         def __getattr__(self, name: str) -> Any:
             """Say how a point is read and written, where it is asked for what it cannot do."""
-            raise AttributeError(_lacks(self, name), name=name, obj=self)
+            kind = AbsentError if name in _READS | _WRITES else AttributeError
+            raise kind(_lacks(self, name), name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         """Return what people use of a point."""

@@ -239,8 +239,16 @@ class Floating(Form[float, float]):
         """Return the number, as people read it; with `display` rounded from the exact one."""
         number = self.decode(raw, raws)
         if display is None or not math.isfinite(number):
-            return f"{number:.12g}"
+            return self._shortest(number)
         return decimal_text(*number.as_integer_ratio(), display)
+
+    def _shortest(self, number: float) -> str:
+        """Return as few digits, from 6 on, as it takes to be the same number of the type; at most 12."""
+        for digits in range(6, 10) if self.wire.bits == 32 else ():
+            rounded = float(f"{number:.{digits}g}")
+            if self._nearest(rounded) == number:
+                return f"{rounded:.12g}"
+        return f"{number:.12g}"
 
     def same(self, raw: int, other: int) -> bool:
         """Return True if both are the same number: 0 and -0 are."""

@@ -14,7 +14,7 @@ from copy import copy
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .about import About, needing, of_group
-from .arguments import check_name, shown
+from .arguments import check_name, check_number, check_seconds, shown
 from .errors import (
     AccessError,
     EchoError,
@@ -46,6 +46,8 @@ class Pause(float):
     """A step that asks for nothing: so many seconds later the next one follows."""
 
 
+_TRIES = frozenset({"retries", "repeats"})
+_SECONDS = frozenset({"retry_pause", "patience", "fresh_for"})
 _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})
 _LASTING = frozenset({0x01, 0x02, 0x03})
@@ -70,6 +72,16 @@ class Session(NamedPoints, ABC):
         self._kept: dict[str, int] = {}
         self._refused: dict[str, FieldscribeError] = {}
         """What `read_many` does not request again, by item."""
+
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, name: str, value: object) -> None:
+            """Refuse numbers that are none of tries, or of seconds."""
+            if name in _TRIES:
+                check_number(f"bad_{name}", name, value, (0, 0xFFFF))
+            elif name in _SECONDS:
+                check_seconds(f"bad_{name}", name, value)
+            super().__setattr__(name, value)
 
     def __repr__(self) -> str:
         known = "".join(f", {axis} {value}" for axis, value in self.variants.items() if value is not None)
@@ -281,7 +293,7 @@ class Session(NamedPoints, ABC):
                 known = yield from self._raws_steps(point, point.scale_needs, raws, refusals)
                 values[point.facts.name] = point.decode(raws[point.facts.item], known)
             except FieldscribeError as error:
-                if refusals is None or error.lost:
+                if refusals is None or (error.lost and not refusals):  # what is in them was read already
                     raise
                 error.group = group
                 values[point.facts.name] = error

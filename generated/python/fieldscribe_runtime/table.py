@@ -79,9 +79,11 @@ class PointTable:
                 return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
             documented = type(self).DOCUMENTED.get(name)
             message = f"{type(self).__name__!r} object has no attribute {name!r}"
-            raise AbsentError(
-                message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
-            )
+            if documented is not None:
+                message = f"{name} is documented only: {documented}"
+            elif name[:1] != "_" and (near := nearest(self.POINTS.values(), name)):
+                message += f"; did you mean {' or '.join(near)}?"
+            raise AbsentError(message, name=name, obj=self)
 
         def __setattr__(self, name: str, value: object) -> None:
             """Refuse what the class does not know: a misspelt point that is assigned to would pass without a word."""
@@ -111,6 +113,8 @@ class NamedPoints(PointTable):
         `value` is None where there is none: `status` is "ok", "special" or that of an error, and `detail` the name of
         the special code or the message of the error. `raw` is None, too, if the scale needs other points.
         """
+        if not isinstance(values, Mapping):
+            raise RequestError("bad_value", f"takes values by name, as read_many gives them, not {shown(values)}")
         return [self._row(name, value) for name, value in values.items()]
 
     def _row(self, name: str, value: object) -> dict[str, Any]:

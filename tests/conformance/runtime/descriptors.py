@@ -56,9 +56,9 @@ def check_access(package: Package) -> None:
         refuses(AttributeError, "a point is not assigned to: use its write method", setattr, device, "one", 1)
         refuses(AttributeError, "a command is not assigned to: use its send method", setattr, device, "any", 1)
         refuses(package.runtime.AbsentError, "odd is documented only: nobody knows", getattr, device, "odd")
-        refuses(package.runtime.AbsentError, "'Made' object has no attribute 'none'", getattr, device, "none")
-        missing = refusal(getattr, device, "none")
-        assert (missing.name, missing.obj) == ("none", device)
+        refuses(package.runtime.AbsentError, "'Made' object has no attribute 'zzz'", getattr, device, "zzz")
+        missing = refusal(getattr, device, "zzz")
+        assert (missing.name, missing.obj) == ("zzz", device)
         assert (device.read.facts, device.class_.facts.item) == (kind.read.facts, "class")
 
 
@@ -161,7 +161,7 @@ def check_points_by_text(package: Package) -> None:
         assert device.point("A020") is device.speed
         refuses(access, "P1 means several points: first, second", device.point, "P1")
         refuses(absent, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
-        refuses(absent, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
+        refuses(absent, "A02 is no point of this device; did you mean A020 or A021?", device.point, "A02")
         refuses(absent, "zzz is no point of this device: its `POINTS` lists their names", device.point, "zzz")
         refuses(access, "a point is named by a text, not ''", device.point, "")
         refuses(access, "a point is named by a text, not None", device.point, None)

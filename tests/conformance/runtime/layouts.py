@@ -71,6 +71,9 @@ def check_layout_needs(package: Package) -> None:
     refuses(runtime.MissingRawError, missing, last.decode, b"\0\x0c")
     refuses(runtime.MissingRawError, missing, last.encode, {"scaled": 3.0})
     assert (last.decode_known(b"\0\x0c", {}), last.decode_known(b"\0\x0c", {"factor": 6})) == ({}, {"scaled": 2.0})
+    errors: dict[str, Exception] = {}
+    assert last.decode_known(b"\0\x0c", {}, errors) == {}
+    assert str(errors["scaled"]) == "scaled: needs factor, not known yet"
     both = runtime.Layout(every, range(16, 18), {"factor"})
     assert (both.decode(b"\0\4\0\x0c", {"factor": 6}), both.gives, both.wanted(b"\0\4\0\x0c")) == (
         {"factor": 4, "scaled": 3.0}, True, {"factor": 4},

@@ -89,6 +89,8 @@ def check_floating(package: Package) -> None:
     runtime = package.runtime
     point = _point(package, runtime.Floating(runtime.F32, units=((0.1, 2.0), (5.0, 6.0))))
     assert (point.encode(0.1), point.decode(0x40000000), point.told(0x3FC00000)) == (0x3DCCCCCD, 2.0, "1.5 V")
+    texts = [point.text(value) for value in (25.3, 100.0, 16777216.0, 1e-9)]
+    assert texts == ["25.3 V", "100 V", "16777216 V", "1e-09 V"]
     refuses(runtime.RangeError, "one: 3 V is outside 0.1..2 or 5..6 V", point.encode, 3)
     refuses(runtime.RangeError, "one: raw 0 is outside 0.1..2 or 5..6 V", point.check, 0)
     assert point.check(0x40B00000) is None

@@ -56,6 +56,30 @@ def check_retries(package: Package) -> None:
         assert memory.words[5] == 1
 
 
+def check_settings(package: Package) -> None:
+    """What is no number of tries, or of seconds, is refused where it is set."""
+    for device, _ in _made(package):
+        for name, wrong in (("retries", (-1, 1.5, "two", True)), ("retry_pause", (-1, "1", float("nan"), None))):
+            for value in wrong:
+                error = refusal(setattr, device, name, value)
+                assert (isinstance(error, ValueError), error.status) == (True, f"bad_{name}")
+        device.retries, device.retry_pause = 3, 0.5
+
+
+def check_absent_methods(package: Package) -> None:
+    """What a point or a command cannot do is an AccessError, and an AttributeError; so are misspelt names."""
+    for device, _ in _made(package):
+        for owner, name, told in (
+            (device.point("b"), "write", "b is only read: it has no write"),
+            (device.store, "read", "store is a command: it has no read, and store.send() gives it"),
+        ):
+            error = refusal(getattr, owner, name)
+            assert (isinstance(error, package.runtime.AccessError), str(error)) == (True, told)
+            assert not hasattr(owner, name)
+        assert str(refusal(getattr, device, "stor")).startswith("'Made' object has no attribute 'stor'")
+        assert refusal(device.rows, [("a", 1)]).status == "bad_value"
+
+
 def check_times(package: Package) -> None:
     """Good replies are counted and timed, as their transport says or from their requests on."""
     for device, memory in _made(package):

@@ -131,6 +131,14 @@ def test_a_point_without_value_leaves_the_others_of_its_frame(can: Any, package:
         decoder.decode(unit.words(0, 5000, 25, 0x0200), raws=5)
 
 
+def test_a_word_that_nobody_sends_is_the_error_of_its_point(mpu: Any, unit: CanUnit) -> None:
+    unit.waiting = [unit.words(0, 5000, 25, 0x0200)]
+    values = mpu.read_many(["starts", "frequency"], errors="return")
+    assert (values["frequency"], values["starts"].status) == (50.0, "timeout")
+    mpu.fresh_for = 0
+    assert error(mpu.read_many, ["starts", "frequency"], errors="return").status == "timeout"  # nothing is sent at all
+
+
 def test_another_answer_is_told_in_the_form_of_the_point(mpu: Any, unit: CanUnit) -> None:
     unit.parameters[507], unit.most[510], unit.most[737] = 200, 5, 1
     failure = error(mpu.voltage_setpoint.write, 100.0)

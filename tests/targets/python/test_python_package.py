@@ -177,9 +177,19 @@ def test_what_a_point_cannot_do_is_said(package: Any) -> None:
         (lambda: drive.base_frequency.send, "object has no attribute 'send'"),
     ):
         refused = error(asked)
-        assert type(refused) is AttributeError
+        assert isinstance(refused, AttributeError)
         assert words in str(refused)
     assert not hasattr(drive.running, "write")
+
+
+def test_names_are_suggested_as_they_look(l200: Any) -> None:
+    drive = l200.HitachiL200(Slave(), 1)
+    for asked, words in (
+        (lambda: drive.base_freqency, "did you mean base_frequency or "),
+        (lambda: drive.point("A02O"), "did you mean A020 or A021 or A022?"),
+        (lambda: drive.read_many(["A02"]), "did you mean A002 or A020 or "),
+    ):
+        assert words in str(error(asked))
 
 
 def test_misspelt_points_are_not_assigned_to(package: Any) -> None:

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from time import monotonic
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from ..about import about_place
 from ..arguments import check_name, check_place, check_values, check_words, shown
@@ -62,6 +62,8 @@ class CanSession(Session):
         super().__init__(unit, variants)
         self._receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
         self._since: float | None = None
+        self._until: float | None = None
+        """When the wait for words that nobody sends was over, of several points that are read."""
         self._unanswered = False
 
     def take(self, frame: Frame) -> bool:
@@ -99,7 +101,21 @@ class CanSession(Session):
         try:
             return (yield from super()._gather_steps(points, group, refusals))
         finally:
-            self._since = None
+            self._since = self._until = None
+
+    def _part_steps(
+        self, points: Sequence[Point], refusals: Refusals, ask: Callable[..., Steps[dict[str, int]]], *arguments: Any
+    ) -> Steps[dict[str, int]]:
+        """Read some points; where `refusals` are noted, words that do not come in a telegram that comes are, too."""
+        try:
+            return (yield from super()._part_steps(points, refusals, ask, *arguments))
+        except NoReplyError as error:
+            receiver = self._receivers.get(points[0].facts.at.telegram or "")
+            if refusals is None or receiver is None or not receiver.is_sent(self._since or 0.0):
+                raise
+            self._until = monotonic()
+            refusals.update(dict.fromkeys([point.facts.item for point in points], error))
+            return {}
 
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write parameters one by one."""
@@ -157,7 +173,7 @@ class CanSession(Session):
         self.PROFILE.telegram(place.telegram)
         receiver = self._receivers[place.telegram or ""]
         since = monotonic() - self.fresh_for if self._since is None else self._since
-        deadline = monotonic() + self.patience
+        deadline = self._until or monotonic() + self.patience
         awaited = f"{receiver.telegram} with words {', '.join(map(str, place.addresses))}"
         trouble: TelegramError | None = None
         while True:

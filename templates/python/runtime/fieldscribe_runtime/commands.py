@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, overload
 
 from .about import About
 from .arguments import check_integer, shown
-from .errors import AccessError
+from .errors import AbsentError, AccessError
 from .guided import Guided
 
 if TYPE_CHECKING:
+    from typing import Never
+
     from .device import AnyAsyncDevice, AnyDevice
     from .facts import Place
     from .session import Session, Steps
@@ -68,12 +70,23 @@ class Command(Guided):
             device.retries = retries
 
 
+def _refuse(handle: CommandHandle, name: str) -> Never:
+    """Say how a command is used."""
+    if name[:1] == "_":
+        raise AttributeError(name)
+    what = handle._command.name
+    raise AbsentError(f"{what} is a command: it has no {name}, and {what}.send() gives it", name=name, obj=handle)
+
+
 class CommandHandle:
     """A command of a device."""
 
     def __init__(self, command: Command, device: AnyDevice) -> None:
         self._command = command
         self._device = device
+
+    if not TYPE_CHECKING:
+        __getattr__ = _refuse
 
     def __repr__(self) -> str:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
@@ -89,6 +102,9 @@ class AsyncCommandHandle:
     def __init__(self, command: Command, device: AnyAsyncDevice) -> None:
         self._command = command
         self._device = device
+
+    if not TYPE_CHECKING:
+        __getattr__ = _refuse
 
     def __repr__(self) -> str:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"

@@ -14,6 +14,7 @@ from .arguments import shown
 from .errors import (
     AccessError,
     CodecError,
+    MissingRawError,
     RequestError,
     WrongLengthError,
     WrongTypeError,
@@ -139,11 +140,11 @@ class Layout:
         return raws
 
     def decode_known(self, data: bytes, raws: Raws, errors: dict[str, CodecError] | None = None) -> dict[str, Value]:
-        """Return the same without the points whose scales need what is not there; with `errors` also without these."""
+        """Return the same without the points whose scales need what is not there; `errors` takes the reasons."""
         known, fields = {**raws, **self._numbers(self._own, data)}, self._struct.unpack(data)
         values: dict[str, Value] = {}
         for piece in self._read:
-            if known.keys() >= set(piece.point.scale_needs):
+            if has_needs(piece.point, known, errors):
                 with noted(piece.point, errors):
                     values[piece.point.facts.name] = piece.way(fields[piece.at], known)
         return values
@@ -217,6 +218,16 @@ class Layout:
         if needs or not all(piece.whole for piece in self._pieces):
             return self._encode
         return put_together(self._struct.pack, [(point.facts.name, point.encoder) for point in self._written])
+
+
+def has_needs(point: Point, known: Raws, errors: dict[str, CodecError] | None) -> bool:
+    """Return True if all that the scale needs is known; keep the error that names what is missing."""
+    missing = [name for name in point.scale_needs if name not in known]
+    if missing and errors is not None:
+        error = MissingRawError(f"needs {' and '.join(missing)}, not known yet")
+        error.point = point.label
+        errors[point.facts.name] = error
+    return not missing
 
 
 @contextmanager

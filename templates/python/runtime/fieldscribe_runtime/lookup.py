@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from .descriptors import PointAttribute
+
+_LOOK_ALIKE = str.maketrans("oil", "011")
+_ZEROS = re.compile(r"(?<!\d)0+(?=\d)")
 
 
 def find(points: Iterable[PointAttribute[Any, Any]], what: str) -> list[PointAttribute[Any, Any]]:
@@ -24,8 +28,20 @@ def is_code(code: str | None, what: str) -> bool:
 
 
 def nearest(points: Iterable[PointAttribute[Any, Any]], what: str) -> list[str]:
-    """Return names and codes that resemble what was asked for."""
-    from difflib import get_close_matches
+    """Return names and codes that resemble what was asked for: as it looks, then by likeness and how it begins."""
+    from difflib import SequenceMatcher, get_close_matches
 
     known = {name.casefold(): name for point in points for name in (point.facts.item, point.facts.code) if name}
-    return [known[one] for one in get_close_matches(what.partition("[")[0].casefold(), list(known), 3)]
+    wanted = what.partition("[")[0].casefold()
+
+    def order(one: str) -> tuple[bool, float, int, str]:
+        likeness = SequenceMatcher(None, one, wanted).ratio()
+        same = [a == b for a, b in zip(one, wanted, strict=False)]
+        return _plain(one) != _plain(wanted), -likeness, -[*same, False].index(False), one
+
+    return [known[one] for one in sorted(get_close_matches(wanted, list(known), len(known) or 1), key=order)[:3]]
+
+
+def _plain(code: str) -> str:
+    """Return a code without leading zeros and with digits for the letters that look like them."""
+    return _ZEROS.sub("", code.translate(_LOOK_ALIKE))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..arguments import shown
 from ..errors import CodecError, RequestError, TelegramError, WrongTypeError
-from ..layouts import Layout, noted
+from ..layouts import Layout, has_needs, noted
 from ..points import Decoding, Point
 from ..rules import NO_RAWS
 from ..table import check_variants, exists
@@ -39,7 +39,8 @@ class Decoder(Receiver):
     """Tells what the frames of a telegram mean that one unit sends: `Decoder(WoodwardMpu2s, "visualisation", unit=1)`.
 
     It remembers of earlier frames what the scales of points need, and the words of numbers that two frames carry.
-    `errors` says, by the names of points, whose numbers in the last frame have no value, and why.
+    `errors` says, by the names of points, whose numbers in the last frame have no value, and why: what a scale needs
+    has not come, or the number has no value.
     """
 
     def __init__(self, device: type[CanSession], telegram: str, unit: int, **variants: str) -> None:
@@ -70,8 +71,8 @@ class Decoder(Receiver):
 
         A frame with another identifier or length, or that a check byte does not fit, is something else.
         `raws` holds the raw numbers that scales need of points that are not in the telegram. What needs a number that
-        has not come yet is left out, and so is a number that two frames carry while they may not belong together, and
-        one that has no value (see `errors`): a scale may need an implausible number.
+        has not come yet is left out, and so is one that has no value (see `errors` for both): a scale may need an
+        implausible number. A number that two frames carry is left out while they may not belong together.
         """
         if self.errors:
             self.errors = {}
@@ -102,7 +103,7 @@ class Decoder(Receiver):
     def _add_apart(self, points: Sequence[Decoding[Value]], known: Raws, values: dict[str, Value]) -> None:
         """Add the values of points in several frames."""
         for point in points:
-            if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
+            if has_needs(point, known, self.errors) and (raw := self._joined(point)) is not None:
                 with noted(point, self.errors):
                     values[point.facts.name] = point.decode(raw, known)
 

@@ -80,6 +80,10 @@ class Receiver:
         slots = [self._slot(position) for position in positions]
         return all(slot.number and slot.moment >= moment for slot in slots)
 
+    def is_sent(self, moment: float) -> bool:
+        """Whether any frame of the telegram came at `moment` or later."""
+        return any(slot.number and slot.moment >= moment for slot in self._slots)
+
     def words(self, positions: Sequence[int]) -> tuple[int, ...]:
         """The words at these positions, the high one first; raises TelegramError, `missing` or `torn`.
 
