@@ -38,13 +38,13 @@ class Descriptor(NamedTuple):
 class Frame(NamedTuple):
     """The descriptors that read and write a point, the macros of the conformance program for them, and its calls.
 
-    `row` is the point as a row of a table, empty if it has none.
+    `row` writes the point as a row of a table; None if it has none.
     """
 
     descriptors: tuple[Descriptor, ...]
     cases: tuple[str, ...]
     transfer: Transfer = Transfer("")
-    row: str = ""
+    row: Callable[[], str] | None = None
 
 
 class Frames:
@@ -72,12 +72,19 @@ class Frames:
         """Return the macros of rows, those of old names with them."""
         return "".join(texts_of(self._points, lambda view: folded(_macros(self._rows(view, scope)))))
 
+    def _rows(self, view: PointView, scope: HeaderScope) -> list[Define]:
+        row = self._made[view].row
+        if row is None:
+            return []
+        name = f"{view.macro}_ROW"
+        return [(name, row()), *((each, name) for each in self._row_names(view, scope)[1:])]
+
     def names(self, scope: HeaderScope) -> Iterator[Named]:
         """Yield the identifiers of the descriptors and functions."""
         for point, view, _ in self._points:
             frame = self._made[view]
             names = [descriptor.name for descriptor in frame.descriptors]
-            rows = [name for name, _ in self._rows(view, scope)]
+            rows = self._row_names(view, scope)
             names += [*rows[:1], *call_names(point.item, view, frame.transfer, scope)]
             yield Owner("point", point.item), names
             for old, name in zip(point.was, rows[1:], strict=False):
@@ -95,12 +102,9 @@ class Frames:
                 for name, new in zip(*names, strict=True):
                     yield AliasView(old, item, point.item, name, new, "FUNCTION")
 
-    def _rows(self, view: PointView, scope: HeaderScope) -> list[Define]:
-        row = self._made[view].row
-        if not row:
-            return []
-        name = f"{view.macro}_ROW"
-        return [(name, row), *((f"{scope.upper}_{upper(item)}_ROW", name) for item in view.point.old_items)]
+    def _row_names(self, view: PointView, scope: HeaderScope) -> list[str]:
+        old = [f"{scope.upper}_{upper(item)}_ROW" for item in view.point.old_items]
+        return [f"{view.macro}_ROW", *old] if self._made[view].row else []
 
     def _constants(self, view: PointView, render: Render, scope: HeaderScope | None) -> str:
         frame = self._made[view]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from fieldscribe.families.modbus import SPACES, Profile, profile_of
 from fieldscribe.model import Block, Command, Device, Point
@@ -131,7 +132,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
     transfers = _transfer(read, address, point.words), _transfer(write, to, point.words)
-    row = _row(view, parts[0], access, layouts.scope) if has_row(view) else ""
+    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) else None
     return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
 
 
