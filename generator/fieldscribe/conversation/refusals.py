@@ -131,7 +131,8 @@ def _out_of_range(device: Device, point: Point, value: Fraction | None, raw: int
         return _refused(point, "out_of_range", f"raw {raw} breaks what is always written: {always}")
     given = amount_with_unit(point, value) if value is not None else f"raw {raw}"
     span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
-    if point.form in ("enum", "flags", "bit") or not span:
+    raw_alone = value is None and wording.raw_range_text(point)
+    if point.form in ("enum", "flags", "bit") or raw_alone or not span:
         span = f"raw {wording.raw_range_text(point) or f'{point.least}..{point.greatest}'}"
     span = (_range_now(point, settings) if point.limit_arguments else "") or span
     nearest = _nearest(point, value, raw, settings)
