@@ -777,7 +777,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     if (length < 5U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
-    pdu = fieldscribe_modbus_pdu(request->function, bytes[1], bytes[2]);
+    pdu = (size_t)fieldscribe_modbus_pdu(request->function, bytes[1], bytes[2]);
     if ((pdu != 0U) && (length != (pdu + 3U))) {
         return (length < (pdu + 3U)) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
@@ -825,7 +825,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     if (length < 2U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
-    expected = fieldscribe_modbus_pdu(request->function, pdu[0], pdu[1]);
+    expected = (size_t)fieldscribe_modbus_pdu(request->function, pdu[0], pdu[1]);
     if ((expected != 0U) && (length != expected)) {
         return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
@@ -886,7 +886,7 @@ static size_t fieldscribe_modbus_begun_rtu(
         return 0U;
     }
     if (length > 1U) {
-        whole = fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
+        whole = (size_t)fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
         if (whole == 0U) {
             return 0U;
         }

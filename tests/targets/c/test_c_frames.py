@@ -341,7 +341,7 @@ def test_a_program_that_reads_registers_links_nothing_else(tmp_path: Path) -> No
     assert not re.search("take_echo|put_writing|put_several|_tcp", symbols)
     text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
     print(f"Cortex-M0, -Os, one register read over RTU: .text {text} bytes")
-    assert text <= 960
+    assert text <= 970
 
 
 MISUSE = {

@@ -79,11 +79,11 @@ def test_the_words_are_reached_raw(texts: dict[str, str]) -> None:
             "energy is documented only: no type says its encoding; `read_at` and `write_at` reach its words at {}",
         ),
         ("nowhere", "nowhere is documented only: the manual prints no address"),
-        ("speeed", "'MadeUp' object has no attribute 'speeed'"),
+        ("speeed", "'MadeUp' object has no attribute 'speeed'; did you mean speed?"),
     ],
 )
 def test_python_says_why(package: Any, name: str, message: str) -> None:
-    """A point that is no attribute answers with its reason, and a name that nobody has as ever."""
+    """A point that is no attribute answers with its reason, and a misspelt name with those that are near."""
 
     class Nowhere:
         framing = "rtu"
