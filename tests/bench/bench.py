@@ -166,8 +166,8 @@ def main() -> None:
         bench = Bench(Path(folder))
         bench.run(arguments.runs)
         print(*bench.table(), sep="\n", flush=True)
-    print_python(3 * arguments.runs)
     print_lines(3 * arguments.runs)
+    print_python(3 * arguments.runs)
     print_streams(STREAMED)
     print_m0()
 
