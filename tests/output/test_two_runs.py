@@ -135,6 +135,24 @@ def test_a_folder_that_takes_no_files_is_no_other_run(tmp_path: Path, monkeypatc
         raise AssertionError("locked")
 
 
+@pytest.mark.parametrize("misses", [1, 5])
+def test_a_folder_that_vanishes_between_two_steps_of_mkdir_is_made_again(
+    misses: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another run makes it, so ours finds it there, and removes it before ours can look at it."""
+    made, left = os.mkdir, [*range(misses)]
+
+    def mkdir(path: Any, mode: int = 0o777) -> None:
+        if left:
+            left.pop()
+            raise FileExistsError(17, "File exists", str(path))
+        made(path, mode)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    with only_run(tmp_path / "out", nobody, 30.0):
+        assert not left
+
+
 @pytest.mark.parametrize(
     "put",
     [

@@ -35,7 +35,7 @@ _PAUSE = 0.05
 _SILENCE = 0.5
 """Seconds before a waiting run says so: most runs are over by then."""
 _MOST_MISSES = 5
-"""How often the folder may vanish while we open the lock, because another run removes what it made."""
+"""How often in a row the folder may vanish while we open the lock, because another run removes what it made."""
 _FLAGS = os.O_CREAT
 for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
     _FLAGS |= getattr(os, _name, 0)
@@ -68,8 +68,8 @@ def _acquire(place: Path, waiting: Callable[[], None], patience: float) -> int:
     start, has_told, misses = time.monotonic(), False, 0
     while True:
         try:
-            handle = _try_lock(place)
-        except FileNotFoundError:
+            handle, misses = _try_lock(place), 0
+        except (FileNotFoundError, FileExistsError):  # the second: it vanished between two steps of mkdir
             handle, misses = None, misses + 1
             if misses > _MOST_MISSES:
                 raise
