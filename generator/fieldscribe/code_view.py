@@ -107,6 +107,8 @@ def _terms(terms: Terms) -> Terms:
         since=None if terms.since is None and terms.until is None else "",  # code only learns that there is one
         until=None,
         untyped=None if terms.untyped is None else "",
+        view_of=None,
+        certainty=None,
     )
 
 

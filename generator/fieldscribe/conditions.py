@@ -9,7 +9,8 @@ from __future__ import annotations
 import operator
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 _TESTS: Mapping[str, Callable[[int, int], bool]] = {
     "<": operator.lt,
@@ -45,12 +46,51 @@ class Comparison:
 Clause = tuple[Comparison, ...]
 """Comparisons that hold together."""
 
+Clauses = tuple[Clause, ...]
+"""Clauses of which one holds."""
+
+OPPOSITES: Mapping[str, str] = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+
+MOST_CLAUSES = 64
+
+Test = TypeVar("Test")
+
+
+class TooManyClausesError(ValueError):
+    """Written out, a condition has more than MOST_CLAUSES clauses."""
+
+
+def any_of(parts: Iterable[tuple[Test, ...]]) -> tuple[Test, ...]:
+    """Return the clauses of which one holds if one part is true."""
+    return tuple(clause for clauses in parts for clause in clauses)
+
+
+def all_of(parts: Iterable[tuple[tuple[Test, ...], ...]]) -> tuple[tuple[Test, ...], ...]:
+    """Return the clauses of which one holds if all parts are true. Raises TooManyClausesError."""
+    clauses: tuple[tuple[Test, ...], ...] = ((),)
+    for part in parts:
+        if len(clauses) * len(part) > MOST_CLAUSES:
+            raise TooManyClausesError(f"written out, this is more than {MOST_CLAUSES} cases")
+        clauses = tuple(first + second for first in clauses for second in part)
+    return clauses
+
+
+def opposite(clauses: Clauses) -> Clauses:
+    """Return the clauses of which one holds if none of these does. Raises TooManyClausesError."""
+    return all_of(any_of(map(_opposite, clause)) for clause in clauses)
+
+
+def _opposite(comparison: Comparison) -> Clauses:
+    if comparison.test == "in":
+        return (tuple(Comparison(comparison.of, "!=", (each,)) for each in comparison.than),)  # type: ignore[arg-type]
+    return ((replace(comparison, test=OPPOSITES[comparison.test]),),)
+
 
 @dataclass(frozen=True, slots=True)
 class Condition:
     """True if all comparisons of one of its `clauses` are true."""
 
-    clauses: tuple[Clause, ...]
+    clauses: Clauses
 
     @property
     def names(self) -> tuple[str, ...]:

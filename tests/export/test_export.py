@@ -25,10 +25,10 @@ EXPECTED: dict[str, Any] = json.loads(Path(__file__).with_name("sample_drive.jso
 POINT_KEYS = """
 name code group space telegram direction address index addresses references places written type untyped words access
 bits variant when since until record set repeat format unit unit_name quantity display decimals default step special
-special_of fixed changes changes_with together scale raw enum enum_name enum_was open flags digits encoding persistence
-conditions title note source errata was reserved generated reason
+special_of fixed changes changes_with view_of certainty together scale raw enum enum_name enum_was open flags digits
+encoding persistence conditions title note source errata was reserved generated reason
 """
-"""The keys of format 5: another key, or one less, is another format."""
+"""The keys of format 6: another key, or one less, is another format."""
 TOP_KEYS = (
     *("format", "device", "version", "family", "vendor", "model", "title", "note", "documents", "variants", "limits"),
     *("groups", "points", "commands", "messages", "telegrams", "frames", "codes", "errata"),
@@ -108,7 +108,7 @@ def test_no_value_and_a_span_of_special_codes() -> None:
         {"raw": [32768, 32768], "name": "no_value", "title": {"en": "No value"}, "no_value": True, "writable": False},
         {"raw": [65280, 65535], "name": "error", "title": {"en": "Error"}, "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 5
+    assert exported["format"] == 6
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 

@@ -85,6 +85,12 @@ def _by_base(text: str, base: str) -> str:
 
 def _sets(row: Row) -> Iterator[Row]:
     """The point in its own set, and in those that have rows of their own."""
+    if "cases" in row:
+        for which, own in row["cases"].items():
+            yield (
+                {key: value for key, value in row.items() if key != "cases"} | own | {"name": f"{row['name']}_{which}"}
+            )
+        return
     if not isinstance(row.get("sets"), dict):
         yield row
         return

@@ -128,8 +128,52 @@ def test_points_that_never_coexist_may_share_an_address(tmp_path: Path) -> None:
     ]
     assert wording.condition_text(points["b"].when) == "mode.raw in (1, 2) and level.raw < 50"
     exported: Any = export_model(device)
-    assert exported["format"] == 5
+    assert exported["format"] == 6
     assert {one["name"]: one["when"] for one in exported["points"] if one["name"] in "bd"} == {
         "b": {"any": [{"all": [{"of": "mode", "is": "in", "than": [1, 2]}, {"of": "level", "is": "<", "than": 50}]}]},
         "d": {"any": [{"all": [{"of": "model", "is": "==", "than": "550"}]}]},
     }
+
+
+VIEWS = """\
+- {name: mode, at: 0, range: 0..9}
+- {name: a, at: 1, when: model.phases >= 2}
+- {name: b, at: 2, when: model.kind == pro}
+- {name: c, at: 3, when: mode == 1 or mode == 2 and model == small}
+- {name: d, at: 4, when: exists(a) and exists(c)}
+- {name: e, at: 4, when: not exists(c) and exists(a)}
+- {name: f, at: 5, variants: {model=large: {}, model=small: {}}}
+- {name: g, at: 6, when: exists(f)}
+- {name: h, at: 6, when: not exists(g)}
+- {name: target, at: 7, cases: {speed: {when: mode == 1, unit: Hz}, torque: {when: "mode in (2, 3)", unit: V}}}
+- {name: i, at: 8, when: exists(target_torque)}
+- {name: j, at: 3, view_of: c}
+- {name: exists, at: 9}
+- {name: k, at: 10, when: exists == 3}
+"""
+
+
+def test_existence_is_written_out_and_properties_name_variants(tmp_path: Path) -> None:
+    """The condition of another point stands in place of `exists`, turned round behind `not`."""
+    variants = "{model: {values: {large: {phases: 3, kind: pro}, small: {phases: 2h}, tiny: {phases: 1}}}}"
+    device, findings = compile_in(tmp_path, described(VIEWS, variants=variants))
+    assert findings == ()
+    assert device is not None
+    conditions = {point.item: wording.condition_text(point.when) for point in device.points if point.when}
+    assert conditions == {
+        "a": "model in (large, small)",
+        "b": "model in (large)",
+        "c": "mode.raw == 1 or mode.raw == 2 and model == small",
+        "d": "model in (large, small) and mode.raw == 1 or "
+        "model in (large, small) and mode.raw == 2 and model == small",
+        "e": "mode.raw != 1 and mode.raw != 2 and model in (large, small) or "
+        "mode.raw != 1 and model != small and model in (large, small)",
+        "g": "model == large or model == small",
+        "h": "model != large and model != small",
+        "target_speed": "mode.raw == 1",
+        "target_torque": "mode.raw in (2, 3)",
+        "i": "mode.raw in (2, 3)",
+        "k": "exists.raw == 3",
+    }
+    units = {point.name: (point.unit.symbol, point.title["en"]) for point in device.points if "target" in point.name}
+    assert units == {"target_speed": ("Hz", "Target (speed)"), "target_torque": ("V", "Target (torque)")}

@@ -26,6 +26,7 @@ CHECKS = (
     "conditions_can_hold",
     "write_addresses_are_used",
     "addresses_do_not_overlap",
+    "views_share_words",
     "groups_use_what_they_say",
     "enums_fit_their_range",
     "fixed_bits_can_be_written",

@@ -13,7 +13,10 @@ from fieldscribe.resolve.points import ResolvedPoint
 
 _WHOLE = (15, 0)
 _MOST = 512
-_APART = ", or say by `when`, `variants`, `since` or `until` that they are never there at once"
+_APART = (
+    ", or say by `when`, `variants`, `since` or `until` that they are never there at once, or by `view_of` that both "
+    "may be"
+)
 
 
 def check(analysis: Analysis) -> None:
@@ -23,7 +26,7 @@ def check(analysis: Analysis) -> None:
     for resolved in analysis.resolved:
         if analysis.report.full:
             return
-        if "space" in resolved.facts.failed:
+        if resolved.facts.failed & {"space", "view_of"}:
             continue
         for address, key in _stands(resolved.point):
             overlaps.add(resolved, address, key)
@@ -66,7 +69,14 @@ class _Overlaps:
         """Return True if two points at one address have bits in common and can exist in the same device."""
         (high, low), (other_high, other_low) = mine.point.bits or _WHOLE, other.point.bits or _WHOLE
         common = low <= other_high and other_low <= high and other is not mine
-        return common and not self._coexistence.exclude(mine, other)
+        return common and not _are_views(mine.point, other.point) and not self._coexistence.exclude(mine, other)
+
+
+def _are_views(point: Point, other: Point) -> bool:
+    """Return True if one point is a view of the other, or both are views of a third."""
+    return bool({point.view_of, other.view_of} & {point.name, other.name}) or (
+        point.view_of is not None and point.view_of == other.view_of
+    )
 
 
 def _stands(point: Point) -> Iterator[tuple[int, str]]:

@@ -31,6 +31,8 @@ from fieldscribe.facts.schema import (
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, FactTable, Parts, View
 from fieldscribe.model import TYPES
 
+_CERTAINTIES = {"imported": "imported, not compared with a manual", "hardware": "seen on hardware"}
+
 _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 
 _by_raw = partial(Parts, same_by=("raw",), added=BEHAVIOUR)
@@ -544,6 +546,27 @@ POINT: FactTable = (
         yaml=("changes_with",),
         label="Changes with",
         remark="read it again after writing {}",
+    ),
+    Fact(
+        "view_of",
+        "The point that has the same words.",
+        TEXT_OR_NULL,
+        DOCS,
+        refers="point",
+        label="A view of",
+        remark="another view of {}",
+        for_people=True,
+    ),
+    Fact(
+        "certainty",
+        "Where the facts come from: `imported` (compared by nobody), `hardware` (seen on a device); null: the manual.",
+        null_or(one_of("imported", "hardware")),
+        DOCS,
+        label="Certainty",
+        text=lambda point, _: _CERTAINTIES.get(point.certainty or "", ""),
+        remark="{}",
+        column="where the facts come from, if not from the manual",
+        for_people=True,
     ),
     _always_null("together", "What must be read or written in one telegram."),
     Fact(

@@ -83,7 +83,8 @@ class Terms:
 
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
     `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
-    place of a type: empty if it leaves the type open, None if there is a type.
+    place of a type: empty if it leaves the type open, None if there is a type. `view_of` names
+    a point that has the same words. `certainty` says where the facts come from, None if it is the manual.
     """
 
     group: str
@@ -103,6 +104,8 @@ class Terms:
     telegram: str | None = None
     changes_with: tuple[str, ...] = ()
     untyped: str | None = None
+    view_of: str | None = None
+    certainty: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,6 +182,8 @@ class Point:
     telegram = _Shared(lambda point: point.terms.telegram)
     changes_with = _Shared(lambda point: point.terms.changes_with)
     untyped = _Shared(lambda point: point.terms.untyped)
+    view_of = _Shared(lambda point: point.terms.view_of)
+    certainty = _Shared(lambda point: point.terms.certainty)
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
     addresses = _Shared(lambda point: point.place.addresses)
     references = _Shared(lambda point: point.place.references)

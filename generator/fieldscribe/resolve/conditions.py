@@ -6,11 +6,19 @@ from fractions import Fraction
 from math import ceil, floor
 
 from fieldscribe import conditions
-from fieldscribe.conditions import Condition
-from fieldscribe.language.formula.conditions import Comparison, Constant, parse_condition, wrong_number
+from fieldscribe.conditions import Clauses, Condition, TooManyClausesError, all_of, any_of, opposite
+from fieldscribe.language.formula.conditions import (
+    EXISTS,
+    NOT_EXISTS,
+    Comparison,
+    Constant,
+    parse_condition,
+    wrong_number,
+)
 from fieldscribe.language.formula.normal import Affine
 from fieldscribe.language.formula.suggestions import suggest_condition
 from fieldscribe.language.formula.syntax import FormulaError
+from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.scope import Scope
@@ -21,42 +29,87 @@ _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """The test of raw numbers for a test of values, if raw numbers fall while the value rises."""
 
 
-def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition | None:
+def condition_of(facts: PointFacts, scales: Scales) -> Condition | None:
     """Return the condition for the point to exist; None if it always does, or after a finding."""
     text = facts.get("when")
     if text is None:
         return None
-    written = Written(text, facts.span("when"))
-    try:
-        stated = parse_condition(text)
-    except FormulaError as error:
-        suggestion = suggest_condition(text)
-        error.hint = f"write `{suggestion}`" if suggestion else error.hint
-        formula_finding(error, written.span, scope.report)
-        stated = ()
-    resolved = {
-        comparison: _resolved(scope, facts, scales, comparison, written) for clause in stated for comparison in clause
-    }
-    clauses = tuple(
-        [tuple([result for comparison in clause if (result := resolved[comparison]) is not None]) for clause in stated]
-    )
-    if stated and None not in resolved.values():
+    clauses = _clauses_of(facts, scales, (facts,))
+    if clauses:
         return Condition(clauses)
     facts.failed.add("when")
     return None
 
 
-def _resolved(
-    scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
-) -> conditions.Comparison | None:
-    """Return a comparison as the model has it; None after a finding."""
+def _clauses_of(facts: PointFacts, scales: Scales, asking: tuple[PointFacts, ...]) -> Clauses:
+    """Return the clauses of a point's `when`; none after a finding. `asking` are the points whose `when` needs them."""
+    text = facts.get("when")
+    written = Written(text, facts.span("when"))
+    report = scales.symbols.scope.report
     try:
-        return _comparison(scope, facts, scales, comparison, written)
+        stated = parse_condition(text)
+    except FormulaError as error:
+        suggestion = suggest_condition(text)
+        error.hint = f"write `{suggestion}`" if suggestion else error.hint
+        formula_finding(error, written.span, report)
+        return ()
+    comparisons = dict.fromkeys(comparison for clause in stated for comparison in clause)
+    resolved = {each: _resolved(facts, scales, each, written, asking) for each in comparisons}
+    if not all(resolved.values()):
+        return ()
+    try:
+        return any_of([all_of([resolved[comparison] for comparison in clause]) for clause in stated])
+    except TooManyClausesError as error:
+        formula_finding(FormulaError(str(error), 0, "simplify it"), written.span, report)
+        return ()
+
+
+def _resolved(
+    facts: PointFacts, scales: Scales, comparison: Comparison, written: Written, asking: tuple[PointFacts, ...]
+) -> Clauses:
+    """Return a comparison as the model has it, as clauses; none after a finding."""
+    scope = scales.symbols.scope
+    try:
+        if comparison.op in (EXISTS, NOT_EXISTS):
+            clauses = _existence(scales, comparison, written, asking)
+            return clauses if comparison.op == EXISTS else opposite(clauses)
+        return ((_comparison(scope, facts, scales, comparison, written),),)
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
+    except TooManyClausesError as error:
+        formula_finding(FormulaError(str(error), comparison.column, "simplify it"), written.span, scope.report)
     except FactError as error:
         error.report(scope.report)
-    return None
+    return ()
+
+
+def _existence(scales: Scales, comparison: Comparison, written: Written, asking: tuple[PointFacts, ...]) -> Clauses:
+    """Return when another point exists: in its variants, under its own condition. Raises FactError or FormulaError."""
+    name, column = comparison.name.name, comparison.name.column
+    points = scales.symbols.all(name)
+    if not points:
+        scales.symbols.unknown(name, written.of(name))
+        raise FactError
+    if any(point in asking for point in points):
+        raise FormulaError(f"`{name}` exists by a condition that leads back to itself", column, "write it out")
+    versions = next((key for point in points for key in ("since", "until") if point.get(key) is not None), None)
+    if versions is not None:
+        raise FormulaError(
+            f"`{name}` has `{versions}`, which no condition can tell", column, f"write `{versions}` at this point, too"
+        )
+    if any(point.variant is None and point.get("when") is None for point in points):
+        raise FormulaError(f"`{name}` always exists", column, "leave this out, or name a point that has `when`")
+    parts = [_clauses_of_point(scales, point, (*asking, point)) for point in points]
+    if not all(parts):
+        raise FactError
+    return any_of(parts)
+
+
+def _clauses_of_point(scales: Scales, point: PointFacts, asking: tuple[PointFacts, ...]) -> Clauses:
+    clauses = ((),) if point.get("when") is None else _clauses_of(point, scales, asking)
+    variant = point.variant
+    own = () if variant is None else (conditions.Comparison(variant.axis, "==", (variant.value,)),)
+    return tuple(own + clause for clause in clauses)
 
 
 def _comparison(
@@ -65,8 +118,13 @@ def _comparison(
     """Return a comparison of whole raw numbers or of a variant. Raises FactError or FormulaError."""
     name = comparison.name.name
     if name in scope.axes:
+        if comparison.key:
+            return _by_property(scope, comparison)
         values = [_value(scope, name, constant, written) for constant in comparison.constants]
         return conditions.Comparison(name, comparison.op, tuple(values))
+    if comparison.key:
+        message = f"`{name}.{comparison.key}`: a point has `.raw` and `.value` only"
+        raise FormulaError(message, comparison.name.column, "names hold letters, digits and _")
     used = scales.symbols.find(name, facts.variant)
     if used is None:
         scales.symbols.unknown(name, written.of(name), scope.axes)
@@ -92,6 +150,28 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
         scope.unknown("variant", constant.text, place, [*values])
         raise FactError
     return constant.text
+
+
+def _by_property(scope: Scope, comparison: Comparison) -> conditions.Comparison:
+    """Return which variants have a property that makes the comparison true. Raises FormulaError."""
+    axis, key, column = comparison.name.name, comparison.key, comparison.name.column
+    stated = {value: facts[key] for value, facts in scope.axes[axis]["values"].items() if key in facts}
+    if not stated:
+        raise FormulaError(f"no variant of `{axis}` has a property `{key}`", column, "write it at its values")
+    than = tuple(_whole(constant.value) for constant in comparison.constants)
+    test = conditions.Comparison(axis, comparison.op, than)  # type: ignore[arg-type]  # words or numbers
+    fitting = [value for value, text in stated.items() if test.holds(_whole(text))]
+    if not fitting:
+        raise FormulaError(f"no variant of `{axis}` makes this true", column, "correct the property or the constant")
+    return conditions.Comparison(axis, "in", tuple(fitting))
+
+
+def _whole(stated: Fraction | str | int) -> int | str:
+    """Return a property or a constant as a whole number, else as a word."""
+    try:
+        return parse_integer(str(stated))
+    except NumberError:
+        return str(stated)
 
 
 def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, written: Written) -> Fraction:

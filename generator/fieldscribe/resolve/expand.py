@@ -52,7 +52,29 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterable[PointFacts]:
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
     title = _title(point)
     facts = PointFacts(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
+    if "cases" in point:
+        return _cases(scope, facts, point["cases"])
     return _variants(scope, facts) if rows is None else _sets(scope, facts, rows)
+
+
+def _cases(scope: Scope, row: PointFacts, cases: Map) -> Iterator[PointFacts]:
+    """Yield a point for each meaning of the row; report a case without a condition, and what repeats besides."""
+    for key in ("sets", "variants"):
+        if key in row.node:
+            hint = "say it in the `when` of each case, or write rows of their own"
+            message = f"`{row.name}` has `cases` and `{key}`"
+            scope.report.error("two-meanings", message, row.node.key_span(key), hint)
+    for name, override in cases.items():
+        words = humanised(name).lower()
+        title = titles(override.get("title")) or {language: f"{text} ({words})" for language, text in row.title.items()}
+        own_name = f"{row.name}_{name}"
+        enum_name = own_name if "enum" in override else row.name
+        case = replace(row, name=own_name, layers=(override, *row.layers), title=title, enum_name=enum_name)
+        if "when" not in override and "when" not in override.broken:
+            message, hint = f"the case `{name}` does not say when it holds", "add `when: …`"
+            scope.report.error("missing-key", message, cases.key_span(name), hint)
+            case.failed.add("when")
+        yield case
 
 
 def _title(point: Map) -> Titles:

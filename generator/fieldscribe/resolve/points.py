@@ -126,7 +126,7 @@ class _Points:
             changes=get("changes"),
             keeps=_keeps(scope, facts) if shape.writable else None,
             conditions=tuple(get("conditions", ())) if shape.writable else (),
-            when=condition_of(scope, facts, self._scales),
+            when=condition_of(facts, self._scales),
             since=get("since"),
             until=get("until"),
             reserved=bool(get("reserved", False)),
@@ -135,12 +135,14 @@ class _Points:
             telegram=facts.group.get("telegram") if encoding.space == SPACE else None,
             changes_with=_changes_with(facts, self._scales.symbols),
             untyped=_untyped(scope, facts),
+            view_of=_view_of(facts, self._scales.symbols),
+            certainty=_certainty(scope, facts),
         )
 
 
 def _are_general(terms: Terms) -> bool:
     """Return True if points of a kind share these terms: they name no other points."""
-    return terms.when is None and not terms.changes_with
+    return terms.when is None and not terms.changes_with and terms.view_of is None
 
 
 def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:
@@ -215,6 +217,27 @@ def _changes_with(facts: PointFacts, symbols: SymbolTable) -> tuple[str, ...]:
             symbols.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
         names.update(dict.fromkeys(writer.name for writer in used))
     return tuple(names)
+
+
+def _view_of(facts: PointFacts, symbols: SymbolTable) -> str | None:
+    """Return the name of the point that has the same words; report a word that names none."""
+    word = facts.get("view_of")
+    if word is None:
+        return None
+    viewed = symbols.find(word, facts.variant)
+    if viewed is None:
+        symbols.unknown(word, facts.span("view_of"))
+        facts.failed.add("view_of")
+    elif viewed is facts:
+        message = f"`{facts.name}` cannot be a view of itself"
+        symbols.scope.report.error("two-meanings", message, facts.span("view_of"), "name another point")
+    return None if viewed is None else viewed.name
+
+
+def _certainty(scope: Scope, facts: PointFacts) -> str | None:
+    """Return where the facts come from if that is not the manual: by the point, its group or the device."""
+    certainty = facts.get("certainty", scope.header.get("certainty"))
+    return None if certainty == "manual" else certainty
 
 
 def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction | None, int | None]:

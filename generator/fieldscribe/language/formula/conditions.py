@@ -1,4 +1,4 @@
-"""Parses conditions: comparisons of a name with constants, joined by and, or, not; without arithmetic."""
+"""Parses conditions: comparisons of a name with constants and `exists(name)`, joined by and, or, not; no arithmetic."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TypeAlias
 
+from fieldscribe.conditions import OPPOSITES, TooManyClausesError, all_of, any_of
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import FormulaError, Name
 from fieldscribe.language.formula.tokens import Token, number
@@ -16,9 +17,11 @@ from fieldscribe.language.formula.tokens import Token, number
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"
 _WORDS = ("and", "or", "not", "in")
-_OPPOSITES = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+EXISTS, NOT_EXISTS = "exists", "not exists"
+"""The tests of a comparison without constants: whether a point exists."""
+
+_OPPOSITES = {**OPPOSITES, EXISTS: NOT_EXISTS}
 _NAME = re.compile(r"[A-Za-z0-9_]+")
-_MOST_CLAUSES = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +35,16 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """A name against constants; `op` is one of == != < <= > >= (one constant) or `in` (one or more)."""
+    """A name against constants; `op` is one of == != < <= > >= (one constant) or `in` (one or more).
+
+    Without constants it is `exists` or `not exists`. `key` is the property of a variant that is compared.
+    """
 
     name: Name
     op: str
     constants: tuple[Constant, ...]
     column: int = field(compare=False)
+    key: str = ""
 
 
 Clauses: TypeAlias = tuple[tuple[Comparison, ...], ...]
@@ -73,13 +80,13 @@ def parse_case(text: str) -> tuple[Name, int]:
 def _alternatives(parser: Parser, *, opposite: bool) -> Clauses:
     """Parse conditions joined by `or`; return their clauses, or those of the opposite."""
     parts = _joined(parser, "or", _conjunction, opposite=opposite)
-    return _all_of(parts) if opposite else _any_of(parts)
+    return _all_of(parts) if opposite else any_of(parts)
 
 
 def _conjunction(parser: Parser, *, opposite: bool) -> Clauses:
     """Parse conditions joined by `and`; return their clauses, or those of the opposite."""
     parts = _joined(parser, "and", _operand, opposite=opposite)
-    return _any_of(parts) if opposite else _all_of(parts)
+    return any_of(parts) if opposite else _all_of(parts)
 
 
 def _joined(parser: Parser, word: str, read: Callable[..., Clauses], *, opposite: bool) -> list[Clauses]:
@@ -102,28 +109,45 @@ def _operand(parser: Parser, *, opposite: bool) -> Clauses:
         if not parser.accept(")"):
             parser.refuse("`)`", _NO_ARITHMETIC)
         return inside
-    comparison = _comparison(parser)
+    comparison = _existence(parser) or _comparison(parser)
     return _opposite(comparison) if opposite else ((comparison,),)
+
+
+def _existence(parser: Parser) -> Comparison | None:
+    """Parse `exists(NAME)`; None if something else stands there."""
+    if not parser.sees_call(EXISTS):
+        return None
+    column = parser.take().column
+    parser.take()
+    if parser.token.kind != "name":
+        parser.refuse("the name of a point", "write exists(NAME)")
+    name = parser.name()
+    if not parser.accept(")"):
+        parser.refuse("`)`", "write exists(NAME)")
+    return Comparison(name, EXISTS, (), column)
 
 
 def _comparison(parser: Parser) -> Comparison:
     token = parser.token
     if token.kind != "name" or token.text in _WORDS:
         parser.refuse("a name", "the name stands on the left" if token.kind == "number" else _NO_ARITHMETIC)
-    name = parser.name()
+    key = "" if token.part in ("raw", "value") else token.part
+    if key:
+        parser.take()
+    name = Name(token.text, "value", token.column) if key else parser.name()
     if name.name in VARIABLES:
         raise FormulaError(f"`{name.name}` is not known in a condition", name.column, "name a point")
     op = parser.token
     if parser.sees_word("in"):
         parser.take()
-        return Comparison(name, "in", _set(parser), op.column)
+        return Comparison(name, "in", _set(parser), op.column, key)
     if not parser.sees(*_COMPARISONS):
         parser.refuse("a comparison", "equality is written ==" if parser.sees("=") else _NO_ARITHMETIC)
     parser.take()
     constant = _constant(parser)
     if isinstance(constant.value, str) and op.text not in ("==", "!="):
         raise FormulaError("a word has no order", constant.column, "compare it with == or !=")
-    return Comparison(name, op.text, (constant,), op.column)
+    return Comparison(name, op.text, (constant,), op.column, key)
 
 
 def _set(parser: Parser) -> tuple[Constant, ...]:
@@ -168,19 +192,12 @@ def wrong_number(text: str, column: int) -> FormulaError:
     return FormulaError(f"`{text}` is a number", column)
 
 
-def _any_of(parts: list[Clauses]) -> Clauses:
-    return tuple(clause for clauses in parts for clause in clauses)
-
-
 def _all_of(parts: list[Clauses]) -> Clauses:
     """Return the clauses that are true if all parts are. Raises FormulaError for too many."""
-    clauses: Clauses = ((),)
-    for part in parts:
-        if len(clauses) * len(part) > _MOST_CLAUSES:
-            column = part[0][0].column
-            raise FormulaError(f"written out, this is more than {_MOST_CLAUSES} cases", column, "simplify it")
-        clauses = tuple(first + second for first in clauses for second in part)
-    return clauses
+    try:
+        return all_of(parts)
+    except TooManyClausesError as error:
+        raise FormulaError(str(error), parts[-1][0][0].column, "simplify it") from None
 
 
 def _opposite(comparison: Comparison) -> Clauses:

@@ -48,6 +48,10 @@ class Parser:
         """Return True if the next token is this word, without a part."""
         return self.token[:3] == ("name", word, "")
 
+    def sees_call(self, word: str) -> bool:
+        """Return True if the next tokens are this word and an opening parenthesis."""
+        return self.sees_word(word) and self._tokens[self._at + 1].text == "("
+
     def take(self) -> Token:
         """Return the next token and move on, but never past the end."""
         token = self.token

@@ -67,7 +67,10 @@ ELEMENT = Place(
     [{"default": 52, "line": 377}],
 )
 VARIANT = Place(
-    "variant_facts", "A point in a variant, under `variants`", "What differs in this variant.", [{"range": "660..780"}]
+    "variant_facts",
+    "A point in a variant or a case, under `variants` or `cases`",
+    "What differs in this variant or case.",
+    [{"range": "660..780"}],
 )
 USE = Place(
     "use",

@@ -112,6 +112,21 @@ WHICH = (
         [{"voltage=400V": {"range": "660..780"}}],
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
+    Key(
+        "cases",
+        POINT,
+        "What the same address means under different conditions: each case becomes a point `<name>_<case>` with the "
+        "facts of the row and its own, among them `when`.",
+        [{"speed": {"when": "mode == 1", "unit": "rpm"}, "torque": {"when": "mode == 2", "unit": "%"}}],
+        by(forms.NAME, VARIANT.shape, least=1),
+    ),
+    Key(
+        "view_of",
+        POINT,
+        "Another point that has the same words, or some of them; both always exist.",
+        ["outputs"],
+        Text(80),
+    ),
     Key("was", POINT, "Former names; each stays usable as a deprecated alias.", [["main_frequency"]], Items(NAME, 1)),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), identity=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
@@ -180,6 +195,14 @@ USING = (
     ),
     Key("since", _EVERYWHERE, "The first firmware that has the point.", ["firmware 2.1.0"], Text(80)),
     Key("until", _EVERYWHERE, "The last firmware that has the point.", ["firmware 3.7"], Text(80)),
+    Key(
+        "certainty",
+        Places(DEVICE, *_EVERYWHERE.all, inherited=_EVERYWHERE.inherited),
+        "Where the facts come from: compared with the manual (the default), `imported` and compared by nobody, or seen "
+        "on `hardware`.",
+        ["imported"],
+        one_of("manual", "imported", "hardware"),
+    ),
     Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "The maker reserves this address.", ["yes"], *YES_NO),
 )
 """The keys that say how a point may be used, and when it exists."""

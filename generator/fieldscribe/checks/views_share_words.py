@@ -1,0 +1,27 @@
+"""A point that is a view of another one shares words with it."""
+
+from __future__ import annotations
+
+from fieldscribe.checks.coexistence import WordKey, word_key
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+
+
+def check(analysis: Analysis) -> None:
+    """Report views that lie elsewhere than the point that they name."""
+    viewed: dict[str, list[Point]] = {}
+    if any(resolved.point.view_of for resolved in analysis.resolved):
+        for resolved in analysis.resolved:
+            viewed.setdefault(resolved.point.name, []).append(resolved.point)
+    for resolved in analysis.resolved:
+        point, facts = resolved.point, resolved.facts
+        if point.view_of is None or facts.failed & {"at", "space", "type"}:
+            continue
+        others = {word for other in viewed.get(point.view_of, ()) for word in _words(analysis, other)}
+        if others.isdisjoint(_words(analysis, point)):
+            message = f"`{point.name}` has no word of `{point.view_of}`"
+            analysis.report.error("view", message, facts.span("view_of"), "correct `at`, or leave `view_of` out")
+
+
+def _words(analysis: Analysis, point: Point) -> set[WordKey]:
+    return {word_key(analysis, point, address) for address in point.addresses}
