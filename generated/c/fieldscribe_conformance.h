@@ -800,6 +800,20 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_part(fieldscribe_vector *v, const char *par
         fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
     }
 
+/* What identifies a device, or a variant of it: a raw number or a text. */
+#define FIELDSCRIBE_IDENTITY_RAW(constant) fieldscribe_is_number(v, "raw", (uint64_t)(constant))
+#define FIELDSCRIBE_IDENTITY_TEXT(constant) fieldscribe_is_text(v, "text", constant)
+#define FIELDSCRIBE_IDENTITY(identity, point, is)                                                \
+    if (fieldscribe_asks_of(v, "identity", "name", identity)) {                                  \
+        fieldscribe_is_text(v, "of", point);                                                     \
+        FIELDSCRIBE_IDENTITY_##is;                                                               \
+    }
+#define FIELDSCRIBE_IDENTITY_OF(identity, axis, value)                                           \
+    if (fieldscribe_asks_of(v, "identity", "name", identity)) {                                  \
+        fieldscribe_is_text_pair(v, "variant", axis, value);                                     \
+        fieldscribe_are_all_pairs(v, "variant");                                                 \
+    }
+
 /* What a point was called before: each old name stands for the same as the new one. */
 typedef void (*fieldscribe_function)(void);
 
@@ -1233,7 +1247,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
-        fieldscribe_asks(v, "alias")) {
+        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identity")) {
         v->suite->run_code(v);
     } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);

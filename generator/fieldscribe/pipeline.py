@@ -156,6 +156,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
+    from fieldscribe.resolve.identities import identities_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
     from fieldscribe.resolve.symbols import symbols_of
@@ -171,6 +172,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, symbols, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, symbols, bus)
-    analysis = Analysis(scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata)
+    identities = identities_of(scope, symbols, points)
+    analysis = Analysis(scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata, identities)
     run_checks(analysis)
     return analysis

@@ -99,6 +99,14 @@ class Documented(Record):
         return f"{self.reason}; `read_at` reaches its words at {where}{index}, `write_at` at {written}"
 
 
+class Identity(Record):
+    """What a point holds in a device, or in one of its variants: one of `values`, raw numbers or texts."""
+
+    point: str
+    values: tuple[int | str, ...]
+    variant: tuple[str, str] | None = None
+
+
 class Telegram(Record):
     """A layout of words that travel together: `request` to the device, `response` or `cyclic` from it.
 

@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
+from itertools import groupby
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .about import About, needing, of_group
@@ -20,6 +21,7 @@ from .errors import (
     EchoError,
     ExceptionReplyError,
     FieldscribeError,
+    IdentityError,
     RequestError,
 )
 from .points import Decoding, Encoding, Point
@@ -30,7 +32,7 @@ from .table import NamedPoints, check_variants
 from .traffic import Traffic
 
 if TYPE_CHECKING:
-    from .facts import Place
+    from .facts import Identity, Place
     from .rules import Raws
 
 T = TypeVar("T")
@@ -298,6 +300,33 @@ class Session(NamedPoints, ABC):
                 error.group = group
                 values[point.facts.name] = error
         return values
+
+    def _identify_steps(self) -> Steps[dict[str, str]]:
+        """Read what tells the device from others, then what tells its variants, until one value of each axis fits."""
+        held: dict[str, int | str] = {}
+        variants: dict[str, str] = {}
+        for variant, rows in groupby(self.IDENTITIES, lambda row: row.variant):
+            misfit = None if variant and variant[0] in variants else (yield from self._misfit_steps(rows, held))
+            if variant and misfit is None:
+                variants.setdefault(*variant)
+            elif not variant and misfit is not None:
+                raise IdentityError(misfit)
+        return variants
+
+    def _misfit_steps(self, rows: Iterable[Identity], held: dict[str, int | str]) -> Steps[str | None]:
+        """Return what a point holds in place of what is wanted; None if all fit."""
+        for row in rows:
+            name, values = row.point, row.values
+            point = self.POINTS[name]
+            if name not in held:
+                try:
+                    raw = yield from self._read_raw_steps(point)
+                except ExceptionReplyError as error:
+                    return f"{name}: {error}"
+                held[name] = point.decode(raw) if isinstance(values[0], str) and isinstance(point, Decoding) else raw
+            if held[name] not in values:
+                return f"{name} is {shown(held[name])}, not {' or '.join(map(shown, values))}"
+        return None
 
     def _group(self, group: str) -> list[Decoding[Any]]:
         check_name("group", group)

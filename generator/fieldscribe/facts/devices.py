@@ -74,6 +74,12 @@ def _errata(device: Exported) -> Iterator[Exported]:
         yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
 
 
+def _identities(device: Exported) -> Iterator[Exported]:
+    """What identifies the device, by variant and point."""
+    for identity in device["identities"]:
+        yield {**identity, "name": f"{identity['variant'] or device['device']}: {identity['point']}"}
+
+
 def _open(erratum: Erratum, _: object) -> Mapping[str, str]:
     return dict(erratum.leaves_open)
 
@@ -121,6 +127,18 @@ COMMAND: FactTable = (
     Fact("wears", "How many such writes the memory stands.", INTEGER_OR_NULL, BEHAVIOUR),
     Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, BEHAVIOUR, refers="point"),
     SOURCE,
+)
+IDENTITY: FactTable = (
+    Fact(
+        "variant",
+        "The variant that it tells: `axis=value`; null: the device.",
+        TEXT_OR_NULL,
+        BEHAVIOUR,
+        value=lambda identity, _: None if identity.variant is None else str(identity.variant),
+    ),
+    Fact("point", "The point to read.", STRING, BEHAVIOUR, refers="point"),
+    Fact("raws", "The raw numbers of which it holds one.", list_of(INTEGER), BEHAVIOUR),
+    Fact("texts", "The texts of which it holds one.", TEXTS, BEHAVIOUR),
 )
 _SENDER = Fact(
     "direction",
@@ -354,6 +372,11 @@ def device_table(own_family: str) -> FactTable:
         _list("points", "All points, in the author's order.", POINTS),
         _list(
             "commands", "Named constant writes.", _parts("command", COMMAND, "space", "address", "function", "value")
+        ),
+        _list(
+            "identities",
+            "What tells the device and its variants, in the order of reading.",
+            _parts("identity", IDENTITY, listed=_identities, change=BEHAVIOUR),
         ),
         _list("messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "direction", "layout")),
         _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),

@@ -12,6 +12,7 @@ from fieldscribe.model.device import (
     FamilyFacts,
     Frame,
     Group,
+    Identity,
     Message,
     Named,
     Role,

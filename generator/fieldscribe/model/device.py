@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, Self
 
 from fieldscribe.model.numbers import Enum, Titles
-from fieldscribe.model.point import Point, Source
+from fieldscribe.model.point import Point, Source, Variant
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +144,16 @@ class Command:
 
 
 @dataclass(frozen=True, slots=True)
+class Identity:
+    """What a point holds in this device, or in one variant of it: one of `raws`, or one of `texts` if it is a text."""
+
+    variant: Variant | None
+    point: str
+    raws: tuple[int, ...]
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Code:
     """A number of the protocol with a name: a function or an exception.
 
@@ -241,6 +251,7 @@ class Device:
     digest: str
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
+    identities: tuple[Identity, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
 
     @property

@@ -62,6 +62,51 @@ def check_access(package: Package) -> None:
         assert (device.read.facts, device.class_.facts.item) == (kind.read.facts, "class")
 
 
+def check_identification(package: Package) -> None:
+    """What identifies a device is read in order, each point once; another device is told by what it holds."""
+    runtime = package.runtime
+    text = runtime.ReadOnly(runtime.Text(4), at=runtime.holding(1, 2))
+    maker, kind, size = (runtime.ReadOnly(runtime.Integer(runtime.U16), at=runtime.holding(at)) for at in (3, 4, 5))
+    identities = (
+        runtime.Identity("maker", (7,)),
+        runtime.Identity("kind", (1, 2)),
+        runtime.Identity("text", ("AB",), ("model", "a")),
+        runtime.Identity("text", ("AC", "AD"), ("model", "b")),
+        runtime.Identity("kind", (2,), ("model", "b")),
+        runtime.Identity("size", (1,), ("size", "x")),
+        runtime.Identity("size", (2,), ("size", "y")),
+    )
+    points = {
+        "PROFILE": runtime.Profile(functions={3: 8}),
+        "VARIANTS": {"model": ("a", "b", "c"), "size": ("x", "y")},
+        "IDENTITIES": identities,
+        "text": text,
+        "maker": maker,
+        "kind": kind,
+        "size": size,
+    }
+    text_of = {"AB  ": (0x4142, 0x2020), "AD  ": (0x4144, 0x2020)}
+    for made, line in zip(
+        devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice), (Memory, AsyncMemory), strict=True
+    ):
+
+        def held(text: str, kind: int, size: int, *, maker: int = 7) -> Any:
+            first, second = text_of[text]
+            return made(line({1: first, 2: second, 3: maker, 4: kind, 5: size}), 1)  # noqa: B023  # called at once
+
+        assert now(held("AB  ", 1, 1).identify()) == {"model": "a", "size": "x"}
+        assert now(held("AD  ", 2, 2).identify()) == {"model": "b", "size": "y"}
+        assert now(held("AD  ", 1, 3).identify()) == {}
+        other = refusal(lambda device: now(device.identify()), held("AB  ", 1, 1, maker=8))
+        assert (type(other), str(other)) == (runtime.IdentityError, "maker is 8, not 7")
+        other = refusal(lambda device: now(device.identify()), held("AB  ", 3, 1))
+        assert str(other) == "kind is 3, not 1 or 2"
+        refused = line({})
+        refused.errors = [runtime.ExceptionReplyError(2)]
+        other = refusal(lambda device: now(device.identify()), made(refused, 1))
+        assert "exception 02h" in str(other)
+
+
 def check_commands(package: Package) -> None:
     """A command has its number, or any."""
     for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):

@@ -157,6 +157,7 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
         own = {name for name in dir(drive) if not name.startswith("_") and name.islower()} - set(names)
         assert own == {
             "forget",
+            "identify",
             "layouts",
             "point",
             "read_at",

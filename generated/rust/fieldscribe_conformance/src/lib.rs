@@ -30,8 +30,8 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
-    Encodable, Error, Flags, Point, Points, Raw, Readable, Reading, Refused, Space, Text, Whole,
-    Writable,
+    Encodable, Error, Flags, Held, Identity, Point, Points, Raw, Readable, Reading, Refused, Space,
+    Text, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -270,7 +270,7 @@ impl<'a> Vector<'a> {
             "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
             "can_taken" | "can_carrier" => return self.text("telegram"),
-            "documented" => return self.text("name"),
+            "documented" | "identity" => return self.text("name"),
             _ => return self.text("point"),
         };
         [self.text("point"), part].join(" ")
@@ -686,6 +686,24 @@ pub fn documented(vector: &Vector, found: &Documented) -> Outcome {
     same(vector.raw("address"), found.address)?;
     same(vector.raw("words"), found.words)?;
     same(vector.number("index"), found.index.map(i128::from))
+}
+
+/// What identifies the device or a variant, an alternative at a time.
+pub fn identity(vector: &Vector, rows: &[Identity]) -> Option<Outcome> {
+    let axis = vector.pairs("variant");
+    let is_row = |row: &&Identity| {
+        let (axis_of_row, value) = row.variant.unzip();
+        let held = match row.holds {
+            Held::Raw(raw) => vector.number("raw") == Some(raw),
+            Held::Text(text) => vector.said("text").as_deref() == Some(text),
+        };
+        let variant = axis
+            .first()
+            .map(|(axis, value)| (axis.as_str(), value.as_str()));
+        let named = vector.text("name").contains(row.point); // the name of a macro of C
+        named && held && variant.unzip() == (axis_of_row, value) && row.point == vector.text("of")
+    };
+    Some(same(rows.iter().filter(is_row).count(), 1))
 }
 
 /// A number of the protocol by its name, and its name where a function tells it.

@@ -16,6 +16,7 @@ _PROPERTY = Shape(
     [3],
     *(Text(200), NUMBER),
 )
+_HELD = Shape("One of several.", [3], Whole(), Text(250))
 _VALUE = Place(
     "", "", "One value of the axis, and its properties.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY}
 )
@@ -54,6 +55,14 @@ HEADS = (
         ["modbus"],
         one_of(*FAMILIES),
         required=True,
+    ),
+    Key(
+        "identify",
+        (DEVICE, _VALUE),
+        "What tells this device, or this variant, from others: points by code or name, in the order of reading, each "
+        "with its raw number, name or text, or a list of them.",
+        [{"signature": "MAP12E", "hardware": [3, 4]}],
+        by(forms.ANY, Shape("What the point holds.", ["MAP12E", 3], Whole(), Text(250), Items(_HELD, 1)), least=1),
     ),
     Key("group", GROUP, NAME, required=True),
     Key(

@@ -5,19 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.lowered import named_numbers
-from fieldscribe.model import Device, Point, Version
+from fieldscribe.model import Device, Point, Variant, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import filled, folded, framed
+from fieldscribe.targets.c.literals import signed
 from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, texts_of
 from fieldscribe.targets.c.point_views import functions_of, symbols_of
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import AliasView, Define, PointFields, PointView
 from fieldscribe.targets.heads import head_lines
-from fieldscribe.text import c_comment, upper
+from fieldscribe.text import c_comment, c_string, upper
 
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 
@@ -39,6 +41,7 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "numbers": Version.of(device.version),
         "digest": device.digest[:16],
         "line": line_defines(device, scope),
+        "identities": list(identity_defines(device, scope)),
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
         "statuses": STATUSES,
@@ -51,6 +54,31 @@ def line_defines(device: Device, scope: HeaderScope) -> list[tuple[str, str, str
     """Return the times and settings of the line: name, macro and literal."""
     numbers = device.bus.line_numbers
     return [(name, f"{scope.upper}_{upper(name)}", f"{number}U") for name, number in numbers.items()]
+
+
+class IdentityDefine(NamedTuple):
+    """A macro that says what a point holds: its name in vectors, and the point and the variant that it is about."""
+
+    name: str
+    macro: str
+    literal: str
+    point: str
+    variant: Variant | None
+
+    @property
+    def is_text(self) -> bool:
+        """Return True if the point holds a text."""
+        return self.literal.startswith('"')
+
+
+def identity_defines(device: Device, scope: HeaderScope) -> Iterator[IdentityDefine]:
+    """Yield what identifies the device and its variants."""
+    for identity in device.identities:
+        variant = "" if identity.variant is None else f"{identity.variant.axis}_{identity.variant.value}_"
+        literals = [*map(signed, identity.raws), *map(c_string, identity.texts)]
+        for number, literal in enumerate(literals, 1):
+            name = f"identify_{variant}{identity.point}" + (f"_{number}" if len(literals) > 1 else "")
+            yield IdentityDefine(name, f"{scope.upper}_{upper(name)}", literal, identity.point, identity.variant)
 
 
 def telegrams_of(device: Device, scope: HeaderScope) -> list[str]:

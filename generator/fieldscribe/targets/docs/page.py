@@ -9,7 +9,7 @@ from typing import NamedTuple
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.model import Command, Device, Document, Erratum, Frame, Named, Point
+from fieldscribe.model import Command, Device, Document, Erratum, Frame, Identity, Named, Point
 from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import (
@@ -62,6 +62,7 @@ class PageView:
     note: str
     facts: str
     documents: str
+    identities: str
     numberings: tuple[str, ...]
     shares_words: bool
     has_telegrams: bool
@@ -91,6 +92,7 @@ def page_of(scope: DocsScope) -> PageView:
         note=paragraph(wording.title_text(device.note)) if device.note else "",
         facts=by_rows(("Fact", "Value"), _facts(device)),
         documents=_documents(device),
+        identities=_identities(scope),
         numberings=tuple(
             f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
             + (f" {_COMPUTED}" if key in computed else "")
@@ -133,6 +135,17 @@ def _documents(device: Device) -> str:
     return table(device.documents, columns)
 
 
+def _identities(scope: DocsScope) -> str:
+    columns: Columns[Identity] = {
+        "Of": lambda identity: cell(str(identity.variant or "the device")),
+        "Point": lambda identity: narrow_link("point", identity.point),
+        "Holds": lambda identity: _lines(
+            *(_meaning_of(scope.by_name[identity.point], raw) for raw in identity.raws), *map(code, identity.texts)
+        ),
+    }
+    return table(scope.device.identities, columns, always=columns)
+
+
 def _frames(scope: DocsScope) -> str:
     columns: Columns[Frame] = {
         "Frame": lambda frame: _lines(target("frame", frame.name), cell(wording.title_text(frame.title))),
@@ -155,10 +168,12 @@ def _lines(*texts: str) -> str:
 
 
 def _meaning(name: str, raw: int, by_name: Mapping[str, Point]) -> str:
-    point = by_name.get(name)
+    return f"{code(name)} = {_meaning_of(by_name.get(name), raw)}"
+
+
+def _meaning_of(point: Point | None, raw: int) -> str:
     meaning = wording.meaning_text(point, raw) if point else ""
-    remark = f" ({cell(meaning)})" if meaning else ""
-    return f"{code(name)} = {raw}{remark}"
+    return f"{raw} ({cell(meaning)})" if meaning else str(raw)
 
 
 def _errata(device: Device) -> str:

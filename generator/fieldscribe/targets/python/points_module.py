@@ -51,7 +51,11 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     readable = dict.fromkeys(
         [python_string(point.group) for point in device.points if point.generated and point.readable]
     )
-    profile, blocks = family.profile(device, scope), family.blocks(device, scope)
+    profile, blocks, identities = (
+        family.profile(device, scope),
+        family.blocks(device, scope),
+        _identities(device, scope),
+    )
     return {
         "imports": _imports(scope.used - {"enums"}, family),
         "open_points": list(_open_points(device)),
@@ -60,6 +64,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         "group_names": "" if not readable else laid_out(assigned("Group", Group("Literal[", tuple(readable), "]")), 0),
         "blocks": "" if blocks is None else laid_out(blocks, 4),
         "variants": laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
+        "identities": laid_out(assigned("IDENTITIES: ClassVar", identities), 4) if device.identities else "",
         "documented": laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         "groups": [(titles.get(group, comment(group)), "".join(texts)) for group, texts in groups.items() if texts],
         "commands": commands,
@@ -94,6 +99,17 @@ def _open_points(device: Device) -> Iterable[str]:
         yield from textwrap.wrap(
             python_doc(text), DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
         )
+
+
+def _identities(device: Device, scope: PackageScope) -> Group:
+    """Return what identifies the device and its variants."""
+    entries = []
+    for identity in device.identities:
+        values = Group("(", (*map(str, identity.raws), *map(python_string, identity.texts)))
+        variant = () if identity.variant is None else (identity.variant.axis, identity.variant.value)
+        axis = (Group("(", tuple(map(python_string, variant))),) if variant else ()
+        entries.append(call(scope.runtime("Identity"), (python_string(identity.point), values, *axis)))
+    return Group("(", tuple(entries))
 
 
 def _variants(device: Device) -> Group:

@@ -16,6 +16,7 @@ from .errors import (
     ExceptionReplyError,
     FieldscribeError,
     FrameError,
+    IdentityError,
     LineError,
     MissingRawError,
     NoCaseError,
@@ -34,6 +35,7 @@ from .errors import (
 )
 from .facts import (
     Documented,
+    Identity,
     Place,
     Telegram,
     coil,
@@ -121,6 +123,8 @@ __all__ = [
     "Flags",
     "Floating",
     "FrameError",
+    "Identity",
+    "IdentityError",
     "Integer",
     "Layout",
     "Limit",

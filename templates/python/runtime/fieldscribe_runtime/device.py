@@ -97,6 +97,13 @@ class AnyDevice(Session):
             finally:
                 steps.close()
 
+    def identify(self) -> dict[str, str]:
+        """Read what tells this device from others; return the value of each variant axis that what it holds fits.
+
+        An axis of which no value fits is left out. Raises IdentityError for another device.
+        """
+        return self._run(self._identify_steps())
+
     @overload
     def read_many(
         self: Grouped[G], what: G | Several | Iterator[str | Point], *, errors: Literal["raise"] = "raise"
@@ -167,6 +174,13 @@ class AnyAsyncDevice(Session):
                 return result
             finally:
                 steps.close()
+
+    async def identify(self) -> dict[str, str]:
+        """Read what tells this device from others; return the value of each variant axis that what it holds fits.
+
+        An axis of which no value fits is left out. Raises IdentityError for another device.
+        """
+        return await self._run(self._identify_steps())
 
     @overload
     async def read_many(

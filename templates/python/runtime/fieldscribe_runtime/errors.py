@@ -121,6 +121,12 @@ class AbsentError(AccessError, AttributeError):
     """
 
 
+class IdentityError(FieldscribeError):
+    """What answers is another device: a point holds something else than the description says."""
+
+    status = "other_device"
+
+
 class RequestError(FieldscribeError, ValueError):
     """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
 

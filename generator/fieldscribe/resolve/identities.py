@@ -1,0 +1,61 @@
+"""Resolves `identify`: what points hold in this device, or in one of its variants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.model import Identity, Point, Variant
+from fieldscribe.resolve.scope import Scope
+from fieldscribe.resolve.symbols import SymbolTable
+from fieldscribe.resolve.values import integer
+
+
+def identities_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, Point]) -> tuple[Identity, ...]:
+    """Return what identifies the device, then its variants, in the author's order; report what cannot be read."""
+    stated: list[tuple[Variant | None, Map | None]] = [(None, scope.header.get("identify"))]
+    stated += [
+        (Variant(axis, value), facts.get("identify"))
+        for axis, entry in scope.axes.items()
+        for value, facts in entry["values"].items()
+    ]
+    return tuple(
+        identity
+        for variant, node in stated
+        if node is not None
+        for identity in _identities(scope, symbols, points, variant, node)
+    )
+
+
+def _identities(
+    scope: Scope, symbols: SymbolTable, points: Mapping[str, Point], variant: Variant | None, node: Map
+) -> Iterator[Identity]:
+    for word, held in node.items():
+        facts = symbols.find(word)
+        if facts is None:
+            symbols.unknown(word, node.key_span(word))
+            continue
+        point = points[facts.item]
+        if facts.failed:
+            continue
+        if point.variant is not None or not point.readable or not point.generated or point.info.floating:
+            message = f"`{point.name}` cannot identify a device"
+            hint = "name a point that every variant has and that can be read: a whole number or a text"
+            scope.report.error("identify", message, node.key_span(word), hint)
+            continue
+        items = list(enumerate(held)) if isinstance(held, Seq) else [(None, held)]
+        if point.text is not None:
+            yield Identity(variant, point.name, (), tuple(str(item) for _, item in items))
+            continue
+        names = {} if point.enum is None else {entry.name: entry.raw for entry in point.enum.entries}
+        raws = [
+            names[str(item)]
+            if str(item) in names
+            else integer(item, node.span(word) if place is None else held.span(place), scope.report)
+            for place, item in items
+        ]
+        outside = next((raw for raw in raws if raw is not None and not point.held[0] <= raw <= point.held[1]), None)
+        if outside is not None:
+            message, hint = f"`{point.name}` cannot hold {outside}", f"write {point.held[0]}..{point.held[1]}"
+            scope.report.error("identify", message, node.span(word), hint)
+        yield Identity(variant, point.name, tuple(raw for raw in raws if raw is not None), ())
