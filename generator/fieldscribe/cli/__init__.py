@@ -108,6 +108,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
         return USAGE
+    gc.freeze()  # else the interpreter collects once more at its end
     return code
 
 

@@ -98,14 +98,15 @@ class Lowered:
 
 
 _kept: list[Lowered] = []
-"""The device that was lowered last: checks and targets of a run ask for the same device one after the other."""
+"""The devices that were lowered last: the one that is compiled, and its sample for the proof of distinct names."""
 
 
 def lower(device: Device) -> Lowered:
-    """Return the lowered model of a device, made once for all that ask for the same points and errata in a row."""
-    kept = _kept[0].device if _kept else None
-    if kept is None or kept.points is not device.points or kept.errata is not device.errata:
-        _kept[:] = [Lowered(device)]
+    """Return the lowered model of a device, made once for all that ask for the same points and errata."""
+    for lowered in _kept:
+        if lowered.device.points is device.points and lowered.device.errata is device.errata:
+            return lowered
+    _kept[:] = [Lowered(device), *_kept[:1]]
     return _kept[0]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from math import prod
 from operator import attrgetter
 
@@ -151,12 +151,13 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
     return RuleView(name, text)
 
 
-def name_shared(points: Iterable[Point], scope: HeaderScope) -> None:
+def name_shared(points: Sequence[Point], scope: HeaderScope) -> None:
     """Name tables of ranges and rules after the point with the lowest address, wherever it is described."""
-    for point in sorted(points, key=attrgetter("rank")):
+    by_rank = attrgetter("rank")
+    for point in sorted(filter(has_ranges_table, points), key=by_rank):
         ranges_table(point, scope)
-        if point.form == "scaled" and point.scale_arguments:
-            rule_view(point, scope)
+    for point in sorted([point for point in points if point.form == "scaled" and point.scale_arguments], key=by_rank):
+        rule_view(point, scope)
 
 
 def _rule_of(point: Point, scope: HeaderScope) -> str:

@@ -36,12 +36,21 @@ HAS_FACTS = True
 
 @dataclass(frozen=True, slots=True)
 class BlocksView:
-    """The reads that fetch the points of a group; a row is function, address and count, and what the block holds."""
+    """The reads that fetch the points of a group; `labels` name its points for people."""
 
     name: str
     array: str
-    rows: tuple[tuple[str, str, str, str], ...]
     values: StructView
+    blocks: Sequence[Block]
+    labels: Mapping[str, str]
+
+    @property
+    def rows(self) -> Iterator[tuple[str, str, str, str]]:
+        """The function, address and count of each block, and what it holds; made when the header is written."""
+        for block in self.blocks:
+            ends = dict.fromkeys(self.labels[name] for name in (block.points[0], block.points[-1]))
+            numbers = unsigned(block.function), hexadecimal(block.address), unsigned(block.count)
+            yield *numbers, c_comment("..".join(ends))
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,12 +179,6 @@ def _blocks(
     by_name: Mapping[str, Sequence[GeneratedPoint]],
     members: Members,
 ) -> BlocksView:
-    rows = []
-    for block in blocks:
-        ends = dict.fromkeys(labels[name] for name in (block.points[0], block.points[-1]))
-        holds = c_comment("..".join(ends))
-        rows.append((unsigned(block.function), hexadecimal(block.address), unsigned(block.count), holds))
-
     def parts() -> Iterator[Part]:
         for number, block in enumerate(blocks):
             placed = [
@@ -189,7 +192,7 @@ def _blocks(
             yield Part(unsigned(number), {declaration: fill for declaration, fill in placed if declaration})
 
     values = StructView(f"{members.scope.prefix}_{group}_group", parts)
-    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", tuple(rows), values)
+    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, labels)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
