@@ -56,10 +56,9 @@ def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Named]]:
 
 
 def _other_names(analysis: Analysis, facts: PointFacts, was: tuple[str, ...]) -> Iterator[tuple[str, Thing]]:
-    """Yield the plain name of a point that has a variant, and the former names of a point."""
-    if facts.variant is not None:
-        first = analysis.symbols.by_name[facts.name][0]
-        yield facts.name, Thing(f"the point `{facts.name}`", first.span())
+    """Yield the plain name of the first variant of a point, and the former names of a point."""
+    if facts.variant is not None and facts is analysis.symbols.by_name[facts.name][0]:
+        yield facts.name, Thing(f"the point `{facts.name}`", facts.span())
     for old in was:
         place = facts.span("was")
         if facts.variant is not None:

@@ -71,8 +71,7 @@ class SpecialCodes:
     def _specials_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
         codes = self._merged([self.held(node, kind, width) for _, node in levels])
         inherited = self._merged([self.held(node, kind, width) for label, node in levels if label])
-        places = {code.span for code in codes}
-        all_kept = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
+        all_kept = bool(inherited) and set(map(id, codes)).issuperset(map(id, inherited))
         labels = dict.fromkeys(label for label, _ in reversed(levels) if label not in ("", kind))
         private = {id(node) for label, node in levels if not label or not all_kept}
         specials = tuple(_special(code, shared=id(code.holder) not in private) for code in codes)

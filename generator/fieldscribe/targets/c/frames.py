@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
@@ -120,12 +121,12 @@ def _macros(defines: Iterable[Define]) -> str:
 class FramesHeader(NamedTuple):
     """The header of frames of a device: what its template calls `bus`, the frames of points, and all identifiers.
 
-    `sections` has the frames of points by the names of their texts in the template.
+    `sections` has the frames of points by the names of their texts in the template. Identifiers are made when read.
     """
 
     context: Mapping[str, object]
     sections: Mapping[str, Frames]
-    identifiers: tuple[Named, ...]
+    identifiers: Iterator[Named]
 
 
 def frames_header(
@@ -136,13 +137,13 @@ def frames_header(
     guard = f"{layouts.scope.upper}_{device.family.upper()}_H"
     aliases = tuple(alias for frames in sections.values() for alias in frames.aliases(layouts.scope))
     shared = {"guard": guard, "units": device.bus.units, "layouts": layouts.descriptors, "aliases": aliases, **sections}
-    names = (
-        (Owner("target", "what the header of frames needs"), (guard,)),
-        *identifiers,
-        *((Owner("exception", code.name), (name,)) for code, (name, _, _) in exceptions),
-        (Owner("target", "the layouts of points in words"), [layout.name for layout in layouts.descriptors]),
-        *(named for frames in sections.values() for named in frames.names(layouts.scope)),
-        *old_names_of(aliases),
+    names = chain(
+        [(Owner("target", "what the header of frames needs"), (guard,))],
+        identifiers,
+        ((Owner("exception", code.name), (name,)) for code, (name, _, _) in exceptions),
+        [(Owner("target", "the layouts of points in words"), [layout.name for layout in layouts.descriptors])],
+        (named for frames in sections.values() for named in frames.names(layouts.scope)),
+        old_names_of(aliases),
     )
     return FramesHeader({**shared, **context}, sections, names)
 

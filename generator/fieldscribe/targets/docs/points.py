@@ -216,10 +216,11 @@ class _Rows:
 
 def _limits(point: Point, by_code: RenamedPoints) -> tuple[str, str]:
     """The range without its unit, and the raw range where it says more; both call other points by their codes."""
-    raw = wording.raw_range_text(point, RenamedPoints({}, by_code.names) if point.allowed.moves else None)
     span = "" if point.flags else wording.range_text(point, by_code, unit=False)
-    says_more = point.scale is not None or point.allowed.moves or fixed_rule(point) is None
-    return narrow(cell(span)), narrow(cell(raw)) if says_more else ""
+    if point.scale is None and not point.allowed.moves and fixed_rule(point) is not None:
+        return narrow(cell(span)), ""
+    raw = wording.raw_range_text(point, RenamedPoints({}, by_code.names) if point.allowed.moves else None)
+    return narrow(cell(span)), narrow(cell(raw))
 
 
 def _with_default(point: Point, allowed: str) -> str:

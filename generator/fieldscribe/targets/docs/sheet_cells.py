@@ -99,7 +99,8 @@ def _line_of(point: Point) -> Line | None:
 
 def limits(point: Point, sheet: Sheet) -> tuple[str, ...]:
     """Return the least and the greatest raw number and value, and the rest of the rule as text."""
-    return *_ends_of(point), sheet.encode(_range_of(point, sheet.scope.by_name))
+    ends = _ends_of(point)
+    return *ends, sheet.encode(_range_of(point, ends[2:], sheet.scope.by_name))
 
 
 def _ends_of(point: Point) -> tuple[str, str, str, str]:
@@ -128,11 +129,11 @@ def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int
     return (low, high) if low <= high else None
 
 
-def _range_of(point: Point, points: Mapping[str, Point]) -> str:
-    """Return the limits as text if least and greatest are not all: other points, gaps, fractions."""
+def _range_of(point: Point, ends: tuple[str, str], points: Mapping[str, Point]) -> str:
+    """Return the limits as text if least and greatest value are not all: other points, gaps, fractions."""
     allowed, line = point.allowed, _line_of(point)
     parts = allowed.units or allowed.intervals
-    unsaid = line is not None and bool(parts) and "" in _ends_of(point)[2:]
+    unsaid = line is not None and bool(parts) and "" in ends
     if len(parts) <= 1 and not allowed.moves and not unsaid:
         return ""
     text = wording.range_text(point, points) if line is not None or allowed.units else ""
