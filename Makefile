@@ -20,7 +20,7 @@ test core newer: export PYTHONDONTWRITEBYTECODE =
 
 test:               ## run every test, with more random cases than `core`
 	@sh generator/setup.sh tests
-	FIELDSCRIBE_EXAMPLES=100 FIELDSCRIBE_MUTANTS=240 $(PYTHON) -m pytest -n auto --dist worksteal
+	FIELDSCRIBE_EXAMPLES=100 FIELDSCRIBE_MUTANTS=120 $(PYTHON) -m pytest -n auto --dist worksteal
 
 core:               ## run the quick tests only
 	@sh generator/setup.sh tests

@@ -108,11 +108,7 @@ def test_run_time_factors_are_multiplied(held: int, value: str, raw: int) -> Non
 
 @pytest.mark.parametrize(
     ("settings", "status"),
-    [
-        ({}, "missing"),
-        ({"base": 0, "exponent": 99}, "zero_factor"),
-        ({"base": 1, "exponent": 99}, "overflow"),
-    ],
+    [({}, "missing"), ({"base": 0, "exponent": 99}, "zero_factor"), ({"base": 1, "exponent": 99}, "overflow")],
 )
 def test_errors_name_their_status(settings: dict[str, int], status: str) -> None:
     with pytest.raises(CodecError) as refused:

@@ -106,11 +106,7 @@ def test_a_description_with_an_error_is_not_audited(
     ],
 )  # fmt: skip
 def test_a_changed_fact_is_named_with_its_place(
-    old: str,
-    new: str,
-    missing: list[tuple[str, str, str, int]],
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    old: str, new: str, missing: list[tuple[str, str, str, int]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert MANUAL.count(old) == 1
     code, found = audit(tmp_path, capsys, MANUAL.replace(old, new))

@@ -48,10 +48,7 @@ def found(folder: Path, points: str, text: str) -> list[str]:
     return [f"{one.fact} {one.wanted}" for one in outcome.missing] + [f"unused {one.number}" for one in outcome.unused]
 
 
-DEVICES = {
-    "inputs": (INPUT_LINES, LINES),
-    "pairs": (PAIRS_OF_BITS, PAIRS),
-}
+DEVICES = {"inputs": (INPUT_LINES, LINES), "pairs": (PAIRS_OF_BITS, PAIRS)}
 
 
 @pytest.mark.parametrize(
@@ -90,12 +87,7 @@ looked_through: [{lines: 1, numbers: ["4.1"], why: The section.}]
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "expected"),
-    [
-        ("", "", []),
-        ("H'FF", "H'FE", ["unused H'FE"]),
-        ("H'33F", "H'33E", ["can_id 831"]),
-    ],
+    ("old", "new", "expected"), [("", "", []), ("H'FF", "H'FE", ["unused H'FE"]), ("H'33F", "H'33E", ["can_id 831"])]
 )
 def test_a_changed_byte_of_a_message(old: str, new: str, expected: list[str], tmp_path: Path) -> None:
     assert not old or MESSAGE.count(old) == 1

@@ -97,13 +97,7 @@ class Bench:
             Row("10,000 unchanged", self._generate(alike, ALL, kept=True), self.many, 0.025),
             Row("five devices unchanged", self._generate(shipped, ALL, kept=True), self.many, 0.025),
             Row("a point edited among 10,000, to the cold run", self._edited(), cold, 0.6),
-            Row(
-                "time of a point, 10,000 to 1,000",
-                cold,
-                thousand,
-                1.0,
-                MANY / FEW,
-            ),
+            Row("time of a point, 10,000 to 1,000", cold, thousand, 1.0, MANY / FEW),
         ]
 
     def _cantools(self, count: int) -> Command:

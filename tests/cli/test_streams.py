@@ -135,10 +135,7 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
 ) -> None:
     text = log(200)
     told = decode("-", given=text)
-    for module, limit in (
-        (decode_state, "_MOST_ITEMS"),
-        (meanings, "_MOST_NUMBERS"),
-    ):
+    for module, limit in ((decode_state, "_MOST_ITEMS"), (meanings, "_MOST_NUMBERS")):
         monkeypatch.setattr(module, limit, 1)
     assert decode("-", given=text) == told
 
@@ -203,7 +200,7 @@ print(peak[1], time.process_time(), file=sys.stderr)
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the peak of the memory there")
 def test_a_stream_takes_no_more_memory_the_longer_it_lasts(tmp_path: Path) -> None:
     told = []
-    for count in (4_000, 20_000):
+    for count in (3_000, 12_000):
         file = tmp_path / "long.log"
         file.write_text(log(count))
         command = [sys.executable, "-c", MEASURED, str(file)]

@@ -123,11 +123,5 @@ def _refuses(kind: Any, transport: Script, vector: Vector, link: tuple[Any, ...]
     return False
 
 
-CHECKS: Mapping[str, Check] = {
-    "read": read,
-    "write": write,
-    "store": store,
-    "command": command,
-    "variant": variant,
-}
+CHECKS: Mapping[str, Check] = {"read": read, "write": write, "store": store, "command": command, "variant": variant}
 """The checks of this theme by the kind of vector."""

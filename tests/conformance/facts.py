@@ -27,11 +27,7 @@ def address(package: Package, vector: Vector) -> bool:
 def place(package: Package, vector: Vector) -> bool:
     """All addresses of a point."""
     at = package.point(vector).facts.at
-    return (list(at.addresses), at.index, at.telegram) == (
-        vector["addresses"],
-        vector["index"],
-        vector["telegram"],
-    )
+    return (list(at.addresses), at.index, at.telegram) == (vector["addresses"], vector["index"], vector["telegram"])
 
 
 def display(package: Package, vector: Vector) -> bool:

@@ -88,8 +88,5 @@ def _made(package: Package, vector: Vector, word: Any, flag: Any) -> bool:
     return bool(flag.number(made) == vector["number"])
 
 
-CHECKS: Mapping[str, Check] = {
-    "flag": flag,
-    "flag_name": flag_name,
-}
+CHECKS: Mapping[str, Check] = {"flag": flag, "flag_name": flag_name}
 """The checks of this theme by the kind of vector."""

@@ -33,10 +33,5 @@ def reply(package: Package, vector: Vector) -> bool:
     return status != "ok" or result == tuple(vector["values_out"])
 
 
-CHECKS: Mapping[str, Check] = {
-    "build": build,
-    "reply": reply,
-    "printed_build": build,
-    "printed_reply": reply,
-}
+CHECKS: Mapping[str, Check] = {"build": build, "reply": reply, "printed_build": build, "printed_reply": reply}
 """The checks of this theme by the kind of vector."""

@@ -39,9 +39,5 @@ def special_name(package: Package, vector: Vector) -> bool:
     return found == (vector["name"], vector["no_value"])
 
 
-CHECKS: Mapping[str, Check] = {
-    "name": name,
-    "special": special,
-    "special_name": special_name,
-}
+CHECKS: Mapping[str, Check] = {"name": name, "special": special, "special_name": special_name}
 """The checks of this theme by the kind of vector."""

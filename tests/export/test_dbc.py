@@ -264,13 +264,7 @@ def test_hostile_texts_stay_strings() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "string"),
-    [
-        ('say "x"', "\"say 'x'\""),
-        ("a\\", '"a/"'),
-        ("a\nb\u202e", '"a b"'),
-        ("°C π", '"°C ?"'),
-    ],
+    ("text", "string"), [('say "x"', "\"say 'x'\""), ("a\\", '"a/"'), ("a\nb\u202e", '"a b"'), ("°C π", '"°C ?"')]
 )
 def test_strings(text: str, string: str) -> None:
     assert dbc_string(text) == string

@@ -257,13 +257,7 @@ def test_computed_ends_as_expressions() -> None:
 
 @pytest.mark.parametrize(
     ("written", "values"),
-    [
-        ("0, 1, 2, 5", [0, 1, 2, 5]),
-        ("0, 1, b", None),
-        ("0, 1, 5..7", None),
-        ("0..7", None),
-        ("0 | 5..7", None),
-    ],
+    [("0, 1, 2, 5", [0, 1, 2, 5]), ("0, 1, b", None), ("0, 1, 5..7", None), ("0..7", None), ("0 | 5..7", None)],
 )
 def test_numbers_that_the_author_listed(written: str, values: list[int] | None, tmp_path: Path) -> None:
     """One by one, where they are numbers; else the intervals alone say them."""

@@ -29,7 +29,8 @@ from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import TARGETS, target
 from support.described import loaded, made
-from support.places import ROOT, TESTS
+from support.files import copy_compiler
+from support.places import TESTS
 
 DEVICES = TESTS / "devices"
 CODE = [name for name in TARGETS if not target(name).SEES_TITLES]
@@ -191,8 +192,7 @@ NEW_KEY = """    Fact(
 @pytest.mark.full
 def test_neither_a_new_key_nor_a_renamed_field_changes_generated_files(tmp_path: Path) -> None:
     """In a copy of the compiler, a key that no point uses is added, and a field of the model is renamed."""
-    package = tmp_path / "fieldscribe"
-    shutil.copytree(ROOT / "generator/fieldscribe", package, ignore=shutil.ignore_patterns("__pycache__"))
+    package = copy_compiler(tmp_path / "fieldscribe")
     shutil.copytree(templates_dir(), package / "shipped/templates")
     for file in (*package.rglob("*.py"), *package.rglob("*.j2")):
         text = file.read_text("utf-8")
@@ -235,13 +235,7 @@ EDITS = (
     ("kitchen_uss", "parameters.yaml", "when: model == mm440", "when: model in (mm440)", True),
     ("kitchen_uss", "parameters.yaml", "range: 0..3, when", "range: 0..4, when", True),
     ("kitchen_uss", "parameters.yaml", "name: quick_start", "name: quicker_start", True),
-    (
-        "kitchen_uss",
-        "parameters.yaml",
-        "name: quick_start,",
-        "name: quick_start, title: New, note: New,",
-        False,
-    ),
+    ("kitchen_uss", "parameters.yaml", "name: quick_start,", "name: quick_start, title: New, note: New,", False),
     ("kitchen_uss", "parameters.yaml", "name: quick_start,", "name: quick_start, since: firmware 7, line: 7,", True),
     ("kitchen_sink", "ranges.yaml", "since: firmware 2.0, until: firmware 3.1", "since: firmware 2.5", False),
     ("kitchen_sink", "device.yaml", "version: 2.3.4", "version: 2.3.5", True),

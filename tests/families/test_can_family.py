@@ -98,8 +98,7 @@ def taken(*frames: tuple[int, int, int, int]) -> Receiver:
 
 
 @pytest.mark.parametrize(
-    ("mux", "words"),
-    [(0, {0: 7, 1: 1, 2: 0x86A0}), (16, {48: 7, 49: 1, 50: 0x86A0}), (22, {66: 7, 67: 1, 68: 0x86A0})],
+    ("mux", "words"), [(0, {0: 7, 1: 1, 2: 0x86A0}), (16, {48: 7, 49: 1, 50: 0x86A0}), (22, {66: 7, 67: 1, 68: 0x86A0})]
 )
 def test_the_multiplexer_says_which_words_a_frame_brings(mux: int, words: dict[int, int]) -> None:
     """Three words each: multiplexer 16 brings the numbers 49 to 51 of the manual, which counts from 1."""

@@ -28,11 +28,7 @@ def test_a_request_is_open_until_the_answer_to_it() -> None:
     follow(requests, unit=3, exchange="b", request="second")
     follow(requests, unit=4, exchange="a", answers=True)
     follow(requests, unit=3, exchange="a", answers=False)
-    assert (requests.request(3, "a"), requests.request(3, "b"), requests.request(4, "a")) == (
-        "first",
-        "second",
-        None,
-    )
+    assert (requests.request(3, "a"), requests.request(3, "b"), requests.request(4, "a")) == ("first", "second", None)
     follow(requests, unit=3, exchange="a", answers=True)
     assert (requests.request(3, "a"), requests.request(3, "b")) == (None, "second")
 

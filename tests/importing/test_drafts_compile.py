@@ -106,11 +106,7 @@ NUMBERS = count()
 @given(st.lists(st.sampled_from(HEADINGS), max_size=6, unique=True), ROWS, st.sampled_from(OPTIONS))
 @example(["Register", "Range"], [["", ""], ["", "", "1-16", "65536 = x; 2 = y"]], ["--space", "coil"])
 def test_a_draft_compiles(
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    headings: list[str],
-    rows: list[list[str]],
-    options: list[str],
+    folder: Path, capsys: pytest.CaptureFixture[str], headings: list[str], rows: list[list[str]], options: list[str]
 ) -> None:
     text = io.StringIO()
     csv.writer(text).writerows([["Address", "Name", *headings], *rows])

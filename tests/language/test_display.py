@@ -54,7 +54,7 @@ def test_rounding_is_to_nearest_with_halves_away_from_zero() -> None:
             nearest = exact.quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP)
             assert rounded(number, 10**places, decimals) == f"{abs(nearest) if nearest == 0 else nearest:f}"
     assert [rounded(*one) for one in ((50, 1, 2), (1, 8, 2), (-1, 8, 2), (-1, 1000, 2), (5, 2, 0))] == [
-        *("50.00", "0.13", "-0.13", "0.00", "3"),
+        *("50.00", "0.13", "-0.13", "0.00", "3")
     ]
 
 

@@ -44,10 +44,7 @@ from support.models import (
 )
 from support.rust_crates import can_device, odd_device, rare_device, uss_device
 
-FIELDS = [
-    ("base_frequency", "BASE_FREQUENCY", "0x0010"),
-    ("jump_frequency", "JUMP_FREQUENCY", "0x0A3F"),
-]
+FIELDS = [("base_frequency", "BASE_FREQUENCY", "0x0010"), ("jump_frequency", "JUMP_FREQUENCY", "0x0A3F")]
 
 
 def laid_out(fields: tuple[str, ...]) -> str:

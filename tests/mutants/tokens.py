@@ -51,12 +51,7 @@ def tokens_of(language: str, text: str) -> list[Token]:
 def _python(text: str) -> Iterator[Token]:
     starts = line_starts(text)
     hidden = list(for_people(text, starts))
-    kinds = {
-        tokenize.NUMBER: "number",
-        tokenize.STRING: "string",
-        tokenize.NAME: "name",
-        tokenize.OP: "operator",
-    }
+    kinds = {tokenize.NUMBER: "number", tokenize.STRING: "string", tokenize.NAME: "name", tokenize.OP: "operator"}
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         start = starts[token.start[0] - 1] + token.start[1]
         if token.type in kinds and not any(low <= start < high for low, high in hidden):

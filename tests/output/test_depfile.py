@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from support.files import copy_compiler
 from support.places import ROOT
 from support.toolchains import run, succeed, tool
 
@@ -45,13 +46,17 @@ class Project:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        shutil.copytree(ROOT / "tests/devices/kitchen_can", folder / "device")
-        ignored = shutil.ignore_patterns("__pycache__")
-        shutil.copytree(ROOT / "generator/fieldscribe", folder / "generator/fieldscribe", ignore=ignored)
-        shutil.copytree(ROOT / "templates", folder / "templates", ignore=ignored)
+        copy_compiler(folder / "generator/fieldscribe")
+        shutil.copytree(ROOT / "templates", folder / "templates")
         (folder / "points.txt").write_text("*\n", "utf-8")
         text = 'targets = ["c"]\n[[devices]]\ndevice = "device"\nout = "drivers"\n'
         (folder / "fieldscribe.toml").write_text(text, "utf-8")
+
+    def begin(self) -> None:
+        """As if nothing was ever built."""
+        for name in ("device", "made", "drivers"):
+            shutil.rmtree(self.folder / name, ignore_errors=True)
+        shutil.copytree(ROOT / "tests/devices/kitchen_can", self.folder / "device")
 
     def say(self, command: str) -> str:
         """The command line of the compiler that lies here."""
@@ -68,12 +73,18 @@ class Project:
 
 
 COMMANDS = {
-    "generate": "generate device --target c,docs --out made",
+    "generate": "generate device --target c --out made",
     "vendor": "vendor c device --out drivers --points @points.txt",
     "project": "vendor",
 }
 LISTS = {"generate": "", "vendor": "points.txt", "project": "fieldscribe.toml"}
 """What each command reads beside descriptions and the compiler."""
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """One for all builders: the modules of its compiler become bytecode once."""
+    return Project(tmp_path_factory.mktemp("project"))
 
 
 def write_build(project: Project, builder: str, command: str) -> list[str]:
@@ -104,32 +115,29 @@ def builds(project: Project, words: list[str]) -> bool:
 
 @pytest.mark.parametrize(
     ("command", "builder"),
-    [
-        *(("generate", builder) for builder in ("make", "ninja", "Ninja")),
-        *(("vendor", "ninja"), ("project", "make")),
-    ],
+    [*(("generate", builder) for builder in ("make", "ninja", "Ninja")), *(("vendor", "ninja"), ("project", "make"))],
 )
-def test_a_change_is_built_once(command: str, builder: str, tmp_path: Path) -> None:
+def test_a_change_is_built_once(command: str, builder: str, project: Project) -> None:
     for name in ("make", "ninja", "cmake"):
         tool(name)
-    project = Project(tmp_path)
+    project.begin()
     words = write_build(project, builder, COMMANDS[command])
     assert builds(project, words)
     assert not builds(project, words)
     read = [path for path in INPUTS if path not in LISTS.values()]
-    for path in (LISTS[command],) if LISTS[command] else read if builder in ("make", "Ninja") else read[1::2]:
+    for path in (LISTS[command],) if LISTS[command] else read if builder == "make" else read[1::2]:
         project.touch(path)
         assert builds(project, words), path
         assert not builds(project, words), path
 
 
-def test_a_part_that_is_gone_stops_nobody(tmp_path: Path) -> None:
+def test_a_part_that_is_gone_stops_nobody(project: Project) -> None:
     """The rule of the last build still names it."""
     tool("make")
-    project = Project(tmp_path)
+    project.begin()
     words = write_build(project, "make", COMMANDS["generate"])
     assert builds(project, words)
-    device = tmp_path / "device"
+    device = project.folder / "device"
     text = (device / "words.yaml").read_text("utf-8")
     (device / "words.yaml").unlink()
     (device / "more_words.yaml").write_text(text, "utf-8")

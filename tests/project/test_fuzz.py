@@ -24,18 +24,18 @@ def test_the_same_seed_makes_the_same_cases() -> None:
 @pytest.mark.full(seconds=5)
 def test_descriptions_and_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Random words end in findings, never in a traceback; test_robust has more of the same mutants."""
-    found = run.table(run.everything(SEED, tmp_path, mutants=40, lines=100), SEED)
+    found = run.table(run.everything(SEED, tmp_path, mutants=4, lines=60), SEED)
     assert found == 0, capsys.readouterr().out
 
 
-@pytest.mark.full(seconds=20)
+@pytest.mark.full(seconds=12)
 def test_frames_in_all_languages(tmp_path: Path) -> None:
     """No sanitizer speaks up, and all languages say the same of the same frames."""
     for name in ("gcc", "clang", "cargo"):
         tool(name)
     languages.generate(tmp_path)
     for family in CASES:
-        for result in languages.fuzz_family(family, 20_000, SEED, tmp_path):
+        for result in languages.fuzz_family(family, 5_000, SEED, tmp_path):
             assert result.findings == (), result.what
 
 

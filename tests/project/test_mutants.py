@@ -142,11 +142,7 @@ def test_a_mutant_that_vectors_see_is_killed_and_one_that_they_do_not_survives(b
     judge = OfC(base, tmp_path / "work")
     verdicts = {
         change.after: judge.verdict(mutant_of(source, change)).outcome
-        for change in (
-            Change("number", 14, 15, "4"),
-            Change("number", 30, 31, "3"),
-            Change("number", 30, 31, "("),
-        )
+        for change in (Change("number", 14, 15, "4"), Change("number", 30, 31, "3"), Change("number", 30, 31, "("))
     }
     assert verdicts == {"4": KILLED, "3": SURVIVED, "(": LEFT_OUT}
     assert (tmp_path / "work/c/c/dev.h").read_text("utf-8") == source.text

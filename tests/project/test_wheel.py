@@ -19,22 +19,12 @@ def run(*command: object, folder: Path) -> str:
 
 @pytest.mark.full(seconds=10)
 def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
-    run(
-        sys.executable,
-        "-m",
-        "pip",
-        "wheel",
-        "--quiet",
-        "--no-deps",
-        "--wheel-dir",
-        tmp_path / "dist",
-        ROOT,
-        folder=tmp_path,
-    )
+    pip = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
+    run(*pip, "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", "dist", ROOT, folder=tmp_path)
     (wheel,) = (tmp_path / "dist").glob("fieldscribe-*.whl")
-    venv.create(tmp_path / "empty", with_pip=True)
+    venv.create(tmp_path / "empty")
     scripts = tmp_path / "empty" / "bin"
-    run(scripts / "python", "-m", "pip", "install", "--quiet", wheel, folder=tmp_path)
+    run(*pip, "--python", scripts / "python", "install", wheel, folder=tmp_path)
     project = tmp_path / "project"
     project.mkdir()
     run(scripts / "fieldscribe", "generate", "hitachi_l200", "--out", "bindings", folder=project)

@@ -75,10 +75,7 @@ def functions(family: str, runtime: Path = RUNTIME) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-_NAMES = {
-    "words": r"fieldscribe_((?:take|put|layout)_\w+)",
-    "cores": r"fieldscribe_(?!take_|put_|layout_)(\w+)",
-}
+_NAMES = {"words": r"fieldscribe_((?:take|put|layout)_\w+)", "cores": r"fieldscribe_(?!take_|put_|layout_)(\w+)"}
 """What the names of functions are in fieldscribe.h."""
 
 

@@ -10,11 +10,7 @@ UNIT = 5
 RIGHT = bytes((5, UNIT, 0x12, 0x34, 0, 0, 5 ^ 0x12, UNIT ^ 0x34))
 """A constant, the unit, one word, constants, and the two halves of a checksum."""
 
-WRONG = {
-    "wrong_constant": (0, 4, 5),
-    "wrong_unit": (1,),
-    "wrong_check": (2, 3, 6, 7),
-}
+WRONG = {"wrong_constant": (0, 4, 5), "wrong_unit": (1,), "wrong_check": (2, 3, 6, 7)}
 """The bytes that make a frame no heartbeat of the unit, by the reason."""
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from fieldscribe.resources import templates_dir
 from support.described import described, write
-from support.places import ROOT, TESTS
+from support.files import copy_compiler
+from support.places import TESTS
 
 TOY = TESTS / "toy_target"
 LAST_LINE = '    "vectors",\n'
@@ -23,8 +24,7 @@ class Compiler:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        package = folder / "fieldscribe"
-        shutil.copytree(ROOT / "generator" / "fieldscribe", package, ignore=shutil.ignore_patterns("__pycache__"))
+        package = copy_compiler(folder / "fieldscribe")
         shutil.copytree(templates_dir(), package / "shipped" / "templates")
         ours = shutil.ignore_patterns("__pycache__", "templates")
         shutil.copytree(TOY, package / "targets" / "toy", ignore=ours)
@@ -72,11 +72,7 @@ def test_it_is_named(compiler: Compiler) -> None:
     assert "vectors, toy" in " ".join(compiler.run("generate", "--help").stdout.split())
     compiler.describe()
     listed = compiler.run("generate", ".", "--out", "made", "--target", "toy", "--list-outputs").stdout.splitlines()
-    assert listed == [
-        "made/manifest/made_up.json",
-        "made/toy/made_up.csv",
-        "made/toy/spaces.csv",
-    ]
+    assert listed == ["made/manifest/made_up.json", "made/toy/made_up.csv", "made/toy/spaces.csv"]
 
 
 def test_its_names_are_checked(compiler: Compiler) -> None:

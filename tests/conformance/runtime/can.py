@@ -7,16 +7,7 @@ from typing import Any
 
 from conformance.package import Package
 from conformance.runtime.bench import devices, refusal, refuses
-from conformance.runtime.can_bus import (
-    Bus,
-    answers_of,
-    beat_of,
-    bus_frame,
-    kinds_of,
-    on_lines,
-    profile_of,
-    roles_of,
-)
+from conformance.runtime.can_bus import Bus, answers_of, beat_of, bus_frame, kinds_of, on_lines, profile_of, roles_of
 from conformance.scripts import now
 
 

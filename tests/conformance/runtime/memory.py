@@ -110,10 +110,7 @@ def check_groups(package: Package) -> None:
     assert (device.read_many("g"), memory.since()) == ({"by_never": 5.0, "by_rarely": 5.0}, [(3, 5, 2)])
     assert (device.read_many(["by_always"]), memory.since()) == ({"by_always": 5.0}, [(3, 3, 5)])
     memory.words[2] = 5
-    assert (device.read_many(["rarely", "by_rarely"]), memory.since()) == (
-        {"rarely": 5, "by_rarely": 2.0},
-        [(3, 2, 5)],
-    )
+    assert (device.read_many(["rarely", "by_rarely"]), memory.since()) == ({"rarely": 5, "by_rarely": 2.0}, [(3, 2, 5)])
 
 
 def check_places(package: Package) -> None:

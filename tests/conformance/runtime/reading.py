@@ -64,10 +64,7 @@ def check_what_errors_are_about(package: Package) -> None:
             None, "A1 speed, level", f"A1 speed, level: {silent} 03h",
         )  # fmt: skip
         assert refusal(device.read_many, [device.alone]).point == "A9 alone"
-        for function, more, needs in (
-            (device.needy.read, (), "A20 ratio"),
-            (device.limited.write, (5,), "A21 least"),
-        ):
+        for function, more, needs in ((device.needy.read, (), "A20 ratio"), (device.limited.write, (5,), "A21 least")):
             error = refusal(function, *more)
             assert error.needs == needs
             assert str(error) == f"{error.point}: needs {needs}: {silent} 03h"

@@ -41,12 +41,7 @@ CAN_TELEGRAM = program("can_telegram")
 
 USS_DIALOGUE = program("uss_dialogue")
 
-USES = {
-    "can": CAN_DIALOGUE,
-    "can_telegram": CAN_TELEGRAM,
-    "can_wrong_bytes": can_wrong_bytes(),
-    "uss": USS_DIALOGUE,
-}
+USES = {"can": CAN_DIALOGUE, "can_telegram": CAN_TELEGRAM, "can_wrong_bytes": can_wrong_bytes(), "uss": USS_DIALOGUE}
 
 
 @pytest.mark.full(seconds=0.5)
@@ -77,11 +72,7 @@ def test_any_bytes_are_safe_to_parse(noise: str, way: str, folder: Path, tmp_pat
 
 
 # what no generated table holds, and no request that can be sent
-STRANGE = {
-    "can": program("strange_can"),
-    "uss": program("strange_uss"),
-    "modbus": program("strange_modbus"),
-}
+STRANGE = {"can": program("strange_can"), "uss": program("strange_uss"), "modbus": program("strange_modbus")}
 
 
 @pytest.mark.parametrize("way", SANITIZING)
@@ -130,11 +121,7 @@ def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path:
 
 
 # words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
-TOO_FEW = {
-    "modbus": program("too_few_modbus"),
-    "uss": program("too_few_uss"),
-    "can": program("too_few_can"),
-}
+TOO_FEW = {"modbus": program("too_few_modbus"), "uss": program("too_few_uss"), "can": program("too_few_can")}
 
 
 @pytest.mark.parametrize("way", SANITIZING)

@@ -46,10 +46,7 @@ class Limited(NamedTuple):
 CODES = (("coded", ((0, 3), (9, 12), (20, 20), (65530, 65535))),)
 POINTS = {
     "tens": Limited(
-        "u16",
-        linear(3, 0, value_of("exponent", ten_to=True)),
-        (0, 60000),
-        {(2,): 300, (0,): 3, (4,): 30000, (-1,): 0},
+        "u16", linear(3, 0, value_of("exponent", ten_to=True)), (0, 60000), {(2,): 300, (0,): 3, (4,): 30000, (-1,): 0}
     ),
     "shares": Limited(
         "s16",
@@ -58,10 +55,7 @@ POINTS = {
         {(-4,): -250, (3,): 333, (6,): 167, (16,): 63, (1,): 500, (0,): None},
     ),
     "gained": Limited(
-        "u16",
-        linear(2500, 0, value_of("gain", -1)),
-        (0, 60000),
-        {(F32_2,): 1250, (F32_0_4,): 6250, (F32_0,): None},
+        "u16", linear(2500, 0, value_of("gain", -1)), (0, 60000), {(F32_2,): 1250, (F32_0_4,): 6250, (F32_0,): None}
     ),
     "thirds": Limited(
         "u16",

@@ -29,11 +29,7 @@ def recipe(family: str) -> str:
 # a line on which a byte of noise has come before each request, and another comes before the answer
 SERIAL_LINE = program("serial_line")
 
-RECIPES = {
-    "modbus": program("recipes_modbus"),
-    "uss": program("recipes_uss"),
-    "can": program("recipes_can"),
-}
+RECIPES = {"modbus": program("recipes_modbus"), "uss": program("recipes_uss"), "can": program("recipes_can")}
 
 
 @pytest.mark.parametrize("way", SANITIZING)
@@ -50,10 +46,7 @@ def test_the_recipe_of_a_runtime_works(family: str, way: str, tmp_path: Path) ->
     run_program(head + program, way, tmp_path / "c", tmp_path, *allowed)
 
 
-TOLD = {
-    "modbus": program("told_modbus"),
-    "uss": program("told_uss"),
-}
+TOLD = {"modbus": program("told_modbus"), "uss": program("told_uss")}
 
 WHOLE = {
     "modbus": """
@@ -97,11 +90,7 @@ def test_an_answer_does_not_need_the_words_that_were_written(way: str, folder: P
     run_program(GONE, way, folder, tmp_path)
 
 
-NOTHING = {
-    "modbus": program("nothing_modbus"),
-    "uss": program("nothing_uss"),
-    "can": program("nothing_can"),
-}
+NOTHING = {"modbus": program("nothing_modbus"), "uss": program("nothing_uss"), "can": program("nothing_can")}
 
 
 @pytest.mark.parametrize("way", SANITIZING)

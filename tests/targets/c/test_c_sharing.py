@@ -54,19 +54,12 @@ def test_points_with_the_same_content_share_it() -> None:
     ]
     assert re.findall(r"fieldscribe_range (\w+)\[", text) == ["sharing_listed_ranges"]
     called = [re.findall(rf"(\w+)_decode\([^{{]*{{[^}}]*{rule}\(", text) for rule, _ in rules]
-    assert called == [
-        ["sharing_first", "sharing_second"],
-        ["sharing_turned"],
-        ["sharing_by_rated", "sharing_by_other"],
-    ]
+    assert called == [["sharing_first", "sharing_second"], ["sharing_turned"], ["sharing_by_rated", "sharing_by_other"]]
 
 
 @pytest.mark.parametrize(
     ("names", "struct"),
-    [
-        (("b", "a"), "sharing_with_a_and_b"),
-        (("a" * 41, "b" * 42), f"sharing_with_{'a' * 41}_and_{'b' * 42}"),
-    ],
+    [(("b", "a"), "sharing_with_a_and_b"), (("a" * 41, "b" * 42), f"sharing_with_{'a' * 41}_and_{'b' * 42}")],
 )
 def test_a_struct_is_named_by_its_fields(names: tuple[str, str], struct: str) -> None:
     factors = [point(name, 30 + at) for at, name in enumerate(names)]

@@ -7,17 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from proofs.prove import (
-    FAMILIES,
-    RUNTIME,
-    SOURCES,
-    alarm_lines,
-    functions,
-    header_of,
-    prove,
-    prove_family,
-    unproven,
-)
+from proofs.prove import FAMILIES, RUNTIME, SOURCES, alarm_lines, functions, header_of, prove, prove_family, unproven
 from support.toolchains import tool
 
 PLANTED = {

@@ -11,19 +11,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.families import family
-from fieldscribe.model import (
-    Allowed,
-    Device,
-    Document,
-    Enum,
-    Fixed,
-    Flag,
-    Interval,
-    Limit,
-    Place,
-    Source,
-    Special,
-)
+from fieldscribe.model import Allowed, Device, Document, Enum, Fixed, Flag, Interval, Limit, Place, Source, Special
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import bus, outputs
 from fieldscribe.targets.docs.cells import anchor, link, narrow, target
@@ -168,10 +156,7 @@ def _flag(low: int, width: int, name: str, active: int = 1, values: tuple[str, .
 
 
 WORDS: list[tuple[dict[str, Any], list[str]]] = [
-    (
-        {"flags": (_flag(0, 1, "ready"), _flag(4, 2, "mode"))},
-        ["| 15..6 | 5..4 | 3..1 | 0 |", "|  | mode |  | ready |"],
-    ),
+    ({"flags": (_flag(0, 1, "ready"), _flag(4, 2, "mode"))}, ["| 15..6 | 5..4 | 3..1 | 0 |", "|  | mode |  | ready |"]),
     (
         {"flags": (_flag(0, 1, "run"), _flag(10, 1, "valid")), "fixed": Fixed(0xC400, 0x8400)},
         ["| 15..14 | 13..11 | 10 | 9..1 | 0 |", "| always 10 |  | valid<br>always 1 |  | run |"],
@@ -295,12 +280,7 @@ def test_a_factory_setting(facts: dict[str, Any], in_page: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "found"),
-    [
-        ("speed_2-a", "point-speed_2-a"),
-        ("Speed", "point-speed"),
-        ("Über .x", "point--ber--x"),
-        ("a.b", "point-a-b"),
-    ],
+    [("speed_2-a", "point-speed_2-a"), ("Speed", "point-speed"), ("Über .x", "point--ber--x"), ("a.b", "point-a-b")],
 )
 def test_an_anchor_has_only_what_every_reader_of_markdown_keeps(name: str, found: str) -> None:
     """GitHub and others change large letters and drop signs; link and target go through the same function."""

@@ -115,11 +115,7 @@ def test_a_scale(name: str, facts: tuple[str, str, str]) -> None:
         ("third", ("0", "30000", "0", "70000"), ""),
         ("float_setpoint", ("", "", "0", "650"), ""),
         ("double_actual", ("", "", "", ""), ""),
-        (
-            "upper_limit",
-            ("1", "4000", "0.1", "400"),
-            "only lower_limit..400 Hz; while lower_limit.raw is 0: from 0",
-        ),
+        ("upper_limit", ("1", "4000", "0.1", "400"), "only lower_limit..400 Hz; while lower_limit.raw is 0: from 0"),
         ("voltage_setpoint", ("0", "65535", "", ""), ""),
         ("dc_level_400v", ("660", "780", "660", "780"), ""),
     ],

@@ -60,12 +60,7 @@ def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
             ("missing_raw", "upper_limit: needs the raw number of lower_limit: pass raws={'lower_limit': ...}"),
         ),
         ("voltage_setpoint", 1.0, {"voltage_ratio": 0}, ("zero_factor", "voltage_setpoint: voltage_ratio is zero")),
-        (
-            "setpoint",
-            1.0,
-            {"unit_mode": 3},
-            ("no_case", "setpoint: no scale for these raw numbers of unit_mode"),
-        ),
+        ("setpoint", 1.0, {"unit_mode": 3}, ("no_case", "setpoint: no scale for these raw numbers of unit_mode")),
         ("float_setpoint", 650.5, {}, ("out_of_range", "float_setpoint: 650.5 Hz is outside 0..650 Hz")),
         ("float_setpoint", 10**39, {}, ("out_of_range", f"float_setpoint: {10**39} Hz is outside 0..650 Hz")),
     ],
@@ -193,10 +188,7 @@ def test_variants(package: Any, drive: Any, slave: Slave) -> None:
     assert status(drive.dc_level.encode, 350)[0] == "out_of_range"
     assert package.SampleDrive.dc_level_200v.encode(350) == 350
     assert package.SampleDrive.dc_level.points["400V"].encode(700) == 700
-    assert status(lambda: drive.dc_level_200v) == (
-        "no_access",
-        "b131 dc_level_200v exists only for voltage_class 200V",
-    )
+    assert status(lambda: drive.dc_level_200v) == ("no_access", "b131 dc_level_200v exists only for voltage_class 200V")
     unsaid = package.SampleDrive(slave, unit=1)
     assert status(lambda: unsaid.dc_level)[0] == "no_access"
     unsaid.dc_level_200v.write(350)

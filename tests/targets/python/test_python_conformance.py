@@ -97,9 +97,7 @@ def test_the_command_passes_what_is_right(folder: Path) -> None:
     lines = output.splitlines()
     counts["runtime"] = PROMISES
     assert sorted(lines[:-1]) == sorted(f"{kind} {count} passed, 0 failed" for kind, count in counts.items() if count)
-    assert lines[-1:] == [
-        f"total {sum(counts.values())} passed, 0 failed",
-    ]
+    assert lines[-1:] == [f"total {sum(counts.values())} passed, 0 failed"]
 
 
 @pytest.mark.parametrize(

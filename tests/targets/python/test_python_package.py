@@ -19,15 +19,7 @@ from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD
 from fieldscribe.targets.python.namespaces import LIBRARIES
 from support.models import STATUS_FLAGS, changed, doubts, plain_points, point, sample_device, titles
 from support.python_families import CanUnit, UssDrive
-from support.python_package import (
-    Awaited,
-    Slave,
-    assert_formatted,
-    error,
-    imported,
-    typed_findings,
-    write_package,
-)
+from support.python_package import Awaited, Slave, assert_formatted, error, imported, typed_findings, write_package
 
 
 def test_names_that_are_taken(tmp_path: Path) -> None:

@@ -60,13 +60,7 @@ def test_parameters(drive: Any, line: UssDrive) -> None:
     drive.command_source.write(5)
     drive.command_source.write_raw(4, keep=True)
     assert line.eeprom[700, 0] == (4,)
-    assert [frame[6:16] for frame in line.log] == [
-        "143a000000",
-        "343a000042",
-        "d43a000042",
-        "22bc000000",
-        "e2bc000000",
-    ]
+    assert [frame[6:16] for frame in line.log] == ["143a000000", "343a000042", "d43a000042", "22bc000000", "e2bc000000"]
     assert line.log[0] == bytes((2, 14, 3, 0x14, 0x3A, *[0] * 10, 0x21)).hex()
     assert all(frame[22:30] == "00000000" for frame in line.log)  # nothing is commanded meanwhile
 
@@ -124,10 +118,7 @@ def test_the_link_is_held_against_the_variant(tmp_path: Path) -> None:
         link = sys.modules["fieldscribe_runtime.uss"].Link
         assert package.Sizes.PROFILE.variant_pzd == {("model", "small"): (0, 2)}
         failure = error(package.Sizes, UssDrive(4, 4), 3, link(4, 4), model="small")
-        assert (failure.status, str(failure)) == (
-            "bad_link",
-            "model small takes 0..2 words of process data, not 4",
-        )
+        assert (failure.status, str(failure)) == ("bad_link", "model small takes 0..2 words of process data, not 4")
         assert package.Sizes(UssDrive(4, 2), 3, link(4, 2), model="small").status_word.read() == 0
         for model in ("large", None):
             assert package.Sizes(UssDrive(4, 4), 3, link(4, 4), model=model).status_word.read() == 0

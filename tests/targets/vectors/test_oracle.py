@@ -15,9 +15,7 @@ from fieldscribe.targets.vectors.samples import halves
 from hypothesis import given as property_of
 from hypothesis import strategies as st
 from support.described import described, loaded_in
-from support.models import (
-    linear,
-)
+from support.models import linear
 
 
 @property_of(st.integers(-(10**20), 10**20), st.integers(1, 10**9))

@@ -12,11 +12,7 @@ import pytest
 from fieldscribe.families.modbus.targets import vectors as modbus_vectors
 from fieldscribe.model import Device, Interval, Limit, Point, ScaleCase
 from fieldscribe.vendoring.selection import select
-from support.models import (
-    changed,
-    named,
-    units,
-)
+from support.models import changed, named, units
 from support.sample_vectors import SAMPLE, VECTORS, vectors
 from support.vector_file import Vector
 
