@@ -25,6 +25,7 @@ from support.vector_file import counts_of, spoil
 
 GENERATED = ROOT / "generated"
 RUNNER = TESTS / "conformance"
+QUICK = ("hitachi_l200", "siemens_mm4")
 PROMISES = 1 + len(CHECKS)
 """What the runner holds beside the vectors: the widths of flags, and what the runtime promises for any device."""
 
@@ -46,7 +47,7 @@ def with_enums(device: Device) -> Device:
 @pytest.mark.parametrize(
     "vectors_file",
     [
-        pytest.param(path, id=path.stem, marks=pytest.mark.full if path.stem == "woodward_mpu2s" else ())
+        pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.full)
         for path in sorted((GENERATED / "vectors").glob("*.txt"))
     ],
 )
