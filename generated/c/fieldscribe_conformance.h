@@ -1030,6 +1030,51 @@ static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const c
     return true;
 }
 
+/* How many steps a script has. */
+FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
+{
+    const char *at = fieldscribe_field(v, "script");
+    size_t count = 1U;
+    while ((at = strchr(at, ',')) != NULL) {
+        ++at;
+        ++count;
+    }
+    return count;
+}
+
+/*
+ * A point in one call: what its frames and its codec do. `decoded` stores what `raw` means in `number` and gives the
+ * status of that, `valued` stores it alone.
+ */
+#define FIELDSCRIBE_CALL_READ(device_type, call, type, raw_type, number, with, decoded)          \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        device_type device = {fieldscribe_called_unit(v)};                                       \
+        int converted = 0;                                                                       \
+        int status;                                                                              \
+        type read;                                                                               \
+        type number;                                                                             \
+        fieldscribe_fill(&read, sizeof read);                                                    \
+        fieldscribe_fill(&number, sizeof number);                                                \
+        status = (int)call(&device with, &read);                                                 \
+        if (fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {                          \
+            const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                           \
+            converted = decoded;                                                                 \
+        }                                                                                        \
+        fieldscribe_is_called(v, &device.unit, status, converted);                               \
+        fieldscribe_agree(v, memcmp(&read, &number, sizeof read) == 0);                          \
+    }
+
+#define FIELDSCRIBE_CALL_WRITE(kind, device_type, call, type, raw_type, number, with, valued)    \
+    if (fieldscribe_asks(v, kind)) {                                                             \
+        device_type device = {fieldscribe_called_unit(v)};                                       \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        type number = (type)0;                                                                   \
+        int status;                                                                              \
+        valued;                                                                                  \
+        status = (int)call(&device with, number);                                                \
+        fieldscribe_is_called(v, &device.unit, status, 0);                                       \
+    }
+
 /* Whether bytes are those of the step that are to be sent. */
 static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, const uint8_t *bytes, size_t length)
 {

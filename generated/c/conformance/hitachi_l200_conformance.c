@@ -59,6 +59,10 @@ static void point_run_command(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_command_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_command_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_run_command_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_command, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_run_command_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_command, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_run_command_decode(raw))
 }
 
 static void point_direction_command(fieldscribe_vector *v)
@@ -76,6 +80,10 @@ static void point_direction_command(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_direction_command_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_direction_command_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_direction_command_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_direction_command, bool, bool, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_direction_command_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_direction_command, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_direction_command_decode(raw))
 }
 
 static void point_external_trip(fieldscribe_vector *v)
@@ -93,6 +101,10 @@ static void point_external_trip(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_external_trip_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_external_trip_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_external_trip_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_external_trip, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_external_trip_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_external_trip, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_external_trip_decode(raw))
 }
 
 static void point_trip_reset(fieldscribe_vector *v)
@@ -109,6 +121,10 @@ static void point_trip_reset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_trip_reset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_reset_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_trip_reset_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_reset, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_trip_reset_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_trip_reset, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_trip_reset_decode(raw))
 }
 
 static void point_digital_input_1(fieldscribe_vector *v)
@@ -126,6 +142,10 @@ static void point_digital_input_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_digital_input_1_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_decode(raw))
 }
 
 static void point_digital_input_2(fieldscribe_vector *v)
@@ -143,6 +163,10 @@ static void point_digital_input_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_digital_input_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_decode(raw))
 }
 
 static void point_digital_input_3(fieldscribe_vector *v)
@@ -160,6 +184,10 @@ static void point_digital_input_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_digital_input_3_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_decode(raw))
 }
 
 static void point_digital_input_4(fieldscribe_vector *v)
@@ -177,6 +205,10 @@ static void point_digital_input_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_digital_input_4_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_decode(raw))
 }
 
 static void point_digital_input_5(fieldscribe_vector *v)
@@ -194,6 +226,10 @@ static void point_digital_input_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_digital_input_5_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5, bool, bool, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_decode(raw))
 }
 
 static void point_running(fieldscribe_vector *v)
@@ -207,6 +243,8 @@ static void point_running(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_running_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_running_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_running, bool, bool, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_running_decode(raw), 0))
 }
 
 static void point_direction_status(fieldscribe_vector *v)
@@ -220,6 +258,8 @@ static void point_direction_status(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_direction_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_direction_status_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_direction_status, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_direction_status_decode(raw), 0))
 }
 
 static void point_ready(fieldscribe_vector *v)
@@ -233,6 +273,8 @@ static void point_ready(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_ready_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ready_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ready, bool, bool, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_ready_decode(raw), 0))
 }
 
 static void point_alarm(fieldscribe_vector *v)
@@ -246,6 +288,8 @@ static void point_alarm(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_alarm_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_alarm_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_alarm, bool, bool, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_alarm_decode(raw), 0))
 }
 
 static void point_pid_deviation(fieldscribe_vector *v)
@@ -259,6 +303,8 @@ static void point_pid_deviation(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_pid_deviation_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_deviation_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_deviation, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_pid_deviation_decode(raw), 0))
 }
 
 static void point_overload(fieldscribe_vector *v)
@@ -272,6 +318,8 @@ static void point_overload(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_overload_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload, bool, bool, value, FIELDSCRIBE_ALONE, (value
+        = hitachi_l200_overload_decode(raw), 0))
 }
 
 static void point_frequency_arrival_in_acceleration(fieldscribe_vector *v)
@@ -286,6 +334,8 @@ static void point_frequency_arrival_in_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_arrival_in_acceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_in_acceleration_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_arrival_in_acceleration, bool, bool, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_arrival_in_acceleration_decode(raw), 0))
 }
 
 static void point_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
@@ -300,6 +350,8 @@ static void point_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_arrival_at_constant_speed_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_at_constant_speed_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_arrival_at_constant_speed, bool, bool, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_arrival_at_constant_speed_decode(raw), 0))
 }
 
 static void point_run_mode(fieldscribe_vector *v)
@@ -313,6 +365,8 @@ static void point_run_mode(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_run_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_mode_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_mode, bool, bool, value, FIELDSCRIBE_ALONE, (value
+        = hitachi_l200_run_mode_decode(raw), 0))
 }
 
 static void point_data_write(fieldscribe_vector *v)
@@ -326,6 +380,8 @@ static void point_data_write(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_data_write_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_data_write_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_data_write, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_data_write_decode(raw), 0))
 }
 
 static void point_crc_error(fieldscribe_vector *v)
@@ -339,6 +395,8 @@ static void point_crc_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_crc_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_crc_error_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_crc_error, bool, bool, value, FIELDSCRIBE_ALONE, (value
+        = hitachi_l200_crc_error_decode(raw), 0))
 }
 
 static void point_overrun_error(fieldscribe_vector *v)
@@ -352,6 +410,8 @@ static void point_overrun_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_overrun_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overrun_error_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overrun_error, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_overrun_error_decode(raw), 0))
 }
 
 static void point_framing_error(fieldscribe_vector *v)
@@ -365,6 +425,8 @@ static void point_framing_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_framing_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_framing_error_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_framing_error, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_framing_error_decode(raw), 0))
 }
 
 static void point_parity_error(fieldscribe_vector *v)
@@ -378,6 +440,8 @@ static void point_parity_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_parity_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_parity_error_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_parity_error, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_parity_error_decode(raw), 0))
 }
 
 static void point_checksum_error(fieldscribe_vector *v)
@@ -391,6 +455,8 @@ static void point_checksum_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_checksum_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_checksum_error_frame, bit, bool)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_checksum_error, bool, bool, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_checksum_error_decode(raw), 0))
 }
 
 static void point_network_frequency_setpoint(fieldscribe_vector *v)
@@ -409,6 +475,10 @@ static void point_network_frequency_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_frequency_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_frequency_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_frequency_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_frequency_setpoint, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_network_frequency_setpoint_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_frequency_setpoint, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_network_frequency_setpoint_decode_count(raw))
 }
 
 static void point_inverter_status(fieldscribe_vector *v)
@@ -434,6 +504,10 @@ static void point_inverter_status(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_inverter_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_inverter_status_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_inverter_status_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_inverter_status, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_inverter_status_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_inverter_status, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_inverter_status_decode(raw))
 }
 
 static void point_network_process_value(fieldscribe_vector *v)
@@ -451,6 +525,10 @@ static void point_network_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_process_value_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_process_value_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_process_value_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_process_value, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_network_process_value_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_process_value, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_network_process_value_decode_count(raw))
 }
 
 static void point_output_frequency(fieldscribe_vector *v)
@@ -464,6 +542,8 @@ static void point_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_output_frequency_decode_count(raw), 0))
 }
 
 static void point_motor_current(fieldscribe_vector *v)
@@ -477,6 +557,8 @@ static void point_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_current_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_current, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_current_decode_count(raw), 0))
 }
 
 static void point_rotation_direction(fieldscribe_vector *v)
@@ -492,6 +574,8 @@ static void point_rotation_direction(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_rotation_direction_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_rotation_direction_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_rotation_direction, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_rotation_direction_decode(raw), 0))
 }
 
 static void point_scaled_process_value(fieldscribe_vector *v)
@@ -505,6 +589,8 @@ static void point_scaled_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_scaled_process_value, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_scaled_process_value_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_scaled_process_value_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_scaled_process_value, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_scaled_process_value_decode_count(raw), 0))
 }
 
 static void point_digital_inputs(fieldscribe_vector *v)
@@ -516,6 +602,8 @@ static void point_digital_inputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_digital_inputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_inputs_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_inputs, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_inputs_decode(raw), 0))
     FIELDSCRIBE_TRUTH("input_1", (((uint16_t)fieldscribe_bits(v, "raw")) & HITACHI_L200_DIGITAL_INPUTS_INPUT_1_MASK) !=
         0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & HITACHI_L200_DIGITAL_INPUTS_INPUT_1_MASK) != 0U)
     FIELDSCRIBE_TRUTH("input_2", (((uint16_t)fieldscribe_bits(v, "raw")) & HITACHI_L200_DIGITAL_INPUTS_INPUT_2_MASK) !=
@@ -537,6 +625,8 @@ static void point_digital_outputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_digital_outputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_outputs_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_outputs, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_outputs_decode(raw), 0))
     FIELDSCRIBE_TRUTH("output_11", (((uint16_t)fieldscribe_bits(v, "raw")) &
         HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_11_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_11_MASK) != 0U)
@@ -558,6 +648,8 @@ static void point_output_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_output_voltage_decode_count(raw), 0))
 }
 
 static void point_run_time(fieldscribe_vector *v)
@@ -569,6 +661,8 @@ static void point_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_time, int64_t, uint32_t, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_run_time_decode(raw), 0))
 }
 
 static void point_power_on_time(fieldscribe_vector *v)
@@ -580,6 +674,8 @@ static void point_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_on_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_on_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_power_on_time_decode(raw), 0))
 }
 
 static void point_trip_count(fieldscribe_vector *v)
@@ -591,6 +687,8 @@ static void point_trip_count(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_count_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_count_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_count, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_count_decode(raw), 0))
 }
 
 static void point_trip_1_error(fieldscribe_vector *v)
@@ -606,6 +704,8 @@ static void point_trip_1_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_error_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_error, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_error_decode(raw), 0))
 }
 
 static void point_trip_1_output_frequency(fieldscribe_vector *v)
@@ -619,6 +719,8 @@ static void point_trip_1_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_output_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_output_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_output_frequency_decode_count(raw), 0))
 }
 
 static void point_trip_1_motor_current(fieldscribe_vector *v)
@@ -632,6 +734,8 @@ static void point_trip_1_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_motor_current_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_motor_current, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_motor_current_decode_count(raw), 0))
 }
 
 static void point_trip_1_dc_bus_voltage(fieldscribe_vector *v)
@@ -645,6 +749,8 @@ static void point_trip_1_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_dc_bus_voltage_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_dc_bus_voltage, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_dc_bus_voltage_decode_count(raw), 0))
 }
 
 static void point_trip_1_run_time(fieldscribe_vector *v)
@@ -656,6 +762,8 @@ static void point_trip_1_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_1_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_run_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_run_time_decode(raw), 0))
 }
 
 static void point_trip_1_power_on_time(fieldscribe_vector *v)
@@ -667,6 +775,8 @@ static void point_trip_1_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_1_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_power_on_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_power_on_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_power_on_time_decode(raw), 0))
 }
 
 static void point_trip_2_error(fieldscribe_vector *v)
@@ -682,6 +792,8 @@ static void point_trip_2_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_error_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_error, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_error_decode(raw), 0))
 }
 
 static void point_trip_2_output_frequency(fieldscribe_vector *v)
@@ -695,6 +807,8 @@ static void point_trip_2_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_output_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_output_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_output_frequency_decode_count(raw), 0))
 }
 
 static void point_trip_2_motor_current(fieldscribe_vector *v)
@@ -708,6 +822,8 @@ static void point_trip_2_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_motor_current_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_motor_current, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_motor_current_decode_count(raw), 0))
 }
 
 static void point_trip_2_dc_bus_voltage(fieldscribe_vector *v)
@@ -721,6 +837,8 @@ static void point_trip_2_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_dc_bus_voltage_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_dc_bus_voltage, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_dc_bus_voltage_decode_count(raw), 0))
 }
 
 static void point_trip_2_run_time(fieldscribe_vector *v)
@@ -732,6 +850,8 @@ static void point_trip_2_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_2_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_run_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_run_time_decode(raw), 0))
 }
 
 static void point_trip_2_power_on_time(fieldscribe_vector *v)
@@ -743,6 +863,8 @@ static void point_trip_2_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_2_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_power_on_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_power_on_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_power_on_time_decode(raw), 0))
 }
 
 static void point_trip_3_error(fieldscribe_vector *v)
@@ -758,6 +880,8 @@ static void point_trip_3_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_error_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_error, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_error_decode(raw), 0))
 }
 
 static void point_trip_3_output_frequency(fieldscribe_vector *v)
@@ -771,6 +895,8 @@ static void point_trip_3_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_output_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_output_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_output_frequency_decode_count(raw), 0))
 }
 
 static void point_trip_3_motor_current(fieldscribe_vector *v)
@@ -784,6 +910,8 @@ static void point_trip_3_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_motor_current_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_motor_current, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_motor_current_decode_count(raw), 0))
 }
 
 static void point_trip_3_dc_bus_voltage(fieldscribe_vector *v)
@@ -797,6 +925,8 @@ static void point_trip_3_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_dc_bus_voltage_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_dc_bus_voltage, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_dc_bus_voltage_decode_count(raw), 0))
 }
 
 static void point_trip_3_run_time(fieldscribe_vector *v)
@@ -808,6 +938,8 @@ static void point_trip_3_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_3_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_run_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_run_time_decode(raw), 0))
 }
 
 static void point_trip_3_power_on_time(fieldscribe_vector *v)
@@ -819,6 +951,8 @@ static void point_trip_3_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_3_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_power_on_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_power_on_time, int64_t, uint32_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_power_on_time_decode(raw), 0))
 }
 
 static void point_acceleration_time(fieldscribe_vector *v)
@@ -836,6 +970,10 @@ static void point_acceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_decode_count(raw))
 }
 
 static void point_acceleration_time_set_2(fieldscribe_vector *v)
@@ -853,6 +991,10 @@ static void point_acceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_set_2_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_set_2, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_set_2, int64_t, uint32_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_set_2_decode_count(raw))
 }
 
 static void point_deceleration_time(fieldscribe_vector *v)
@@ -870,6 +1012,10 @@ static void point_deceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_decode_count(raw))
 }
 
 static void point_deceleration_time_set_2(fieldscribe_vector *v)
@@ -887,6 +1033,10 @@ static void point_deceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_set_2_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_set_2, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_set_2, int64_t, uint32_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_set_2_decode_count(raw))
 }
 
 static void point_motor_direction(fieldscribe_vector *v)
@@ -904,6 +1054,10 @@ static void point_motor_direction(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_direction_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_direction_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_direction_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_direction, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_direction_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_direction, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_direction_decode(raw))
 }
 
 static void point_frequency_source(fieldscribe_vector *v)
@@ -924,6 +1078,10 @@ static void point_frequency_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_source_decode(raw))
 }
 
 static void point_frequency_source_set_2(fieldscribe_vector *v)
@@ -944,6 +1102,10 @@ static void point_frequency_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_source_set_2_decode(raw))
 }
 
 static void point_run_source(fieldscribe_vector *v)
@@ -962,6 +1124,10 @@ static void point_run_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_run_source_decode(raw))
 }
 
 static void point_run_source_set_2(fieldscribe_vector *v)
@@ -980,6 +1146,10 @@ static void point_run_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_run_source_set_2_decode(raw))
 }
 
 static void point_motor_rated_frequency(fieldscribe_vector *v)
@@ -996,6 +1166,10 @@ static void point_motor_rated_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_rated_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_rated_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency, int32_t, uint16_t,
+        value, FIELDSCRIBE_WITH("maximum_frequency", uint16_t), value = hitachi_l200_motor_rated_frequency_decode(raw))
 }
 
 static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
@@ -1013,6 +1187,11 @@ static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_rated_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_rated_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_WITH("maximum_frequency_set_2", uint16_t), value =
+        hitachi_l200_motor_rated_frequency_set_2_decode(raw))
 }
 
 static void point_maximum_frequency(fieldscribe_vector *v)
@@ -1029,6 +1208,10 @@ static void point_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency, int32_t, uint16_t, value,
+        FIELDSCRIBE_WITH("motor_rated_frequency", uint16_t), value = hitachi_l200_maximum_frequency_decode(raw))
 }
 
 static void point_maximum_frequency_set_2(fieldscribe_vector *v)
@@ -1045,6 +1228,11 @@ static void point_maximum_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_maximum_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_maximum_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_WITH("motor_rated_frequency_set_2", uint16_t), value =
+        hitachi_l200_maximum_frequency_set_2_decode(raw))
 }
 
 static void point_at_terminal_selection(fieldscribe_vector *v)
@@ -1064,6 +1252,10 @@ static void point_at_terminal_selection(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_at_terminal_selection_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_at_terminal_selection_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_at_terminal_selection_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_at_terminal_selection, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_at_terminal_selection_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_at_terminal_selection, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_at_terminal_selection_decode(raw))
 }
 
 static void point_input_o_minimum_frequency(fieldscribe_vector *v)
@@ -1081,6 +1273,10 @@ static void point_input_o_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_minimum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_minimum_frequency_decode_count(raw))
 }
 
 static void point_input_o_maximum_frequency(fieldscribe_vector *v)
@@ -1098,6 +1294,10 @@ static void point_input_o_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_maximum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_maximum_frequency_decode_count(raw))
 }
 
 static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
@@ -1112,6 +1312,10 @@ static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_setpoint, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_minimum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_setpoint, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_minimum_setpoint_decode(raw))
 }
 
 static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
@@ -1126,6 +1330,10 @@ static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_setpoint, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_maximum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_setpoint, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_maximum_setpoint_decode(raw))
 }
 
 static void point_input_o_start_condition(fieldscribe_vector *v)
@@ -1143,6 +1351,10 @@ static void point_input_o_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_start_condition_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_start_condition, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_start_condition_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_start_condition, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_start_condition_decode(raw))
 }
 
 static void point_analog_input_filter(fieldscribe_vector *v)
@@ -1159,6 +1371,10 @@ static void point_analog_input_filter(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_input_filter_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_input_filter_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_input_filter_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_input_filter, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_input_filter_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_input_filter, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_input_filter_decode(raw))
 }
 
 static void point_base_frequency(fieldscribe_vector *v)
@@ -1176,6 +1392,10 @@ static void point_base_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_base_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_base_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_base_frequency_decode_count(raw))
 }
 
 static void point_base_frequency_set_2(fieldscribe_vector *v)
@@ -1193,6 +1413,10 @@ static void point_base_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_base_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_base_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency_set_2, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_base_frequency_set_2_decode_count(raw))
 }
 
 static void point_fixed_frequency_1(fieldscribe_vector *v)
@@ -1210,6 +1434,10 @@ static void point_fixed_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_1_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_1, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_1_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_1, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_1_decode_count(raw))
 }
 
 static void point_fixed_frequency_2(fieldscribe_vector *v)
@@ -1227,6 +1455,10 @@ static void point_fixed_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_2_decode_count(raw))
 }
 
 static void point_fixed_frequency_3(fieldscribe_vector *v)
@@ -1244,6 +1476,10 @@ static void point_fixed_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_3_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_3, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_3_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_3, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_3_decode_count(raw))
 }
 
 static void point_fixed_frequency_4(fieldscribe_vector *v)
@@ -1261,6 +1497,10 @@ static void point_fixed_frequency_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_4_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_4_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_4, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_4_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_4, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_4_decode_count(raw))
 }
 
 static void point_fixed_frequency_5(fieldscribe_vector *v)
@@ -1278,6 +1518,10 @@ static void point_fixed_frequency_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_5_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_5_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_5, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_5_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_5, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_5_decode_count(raw))
 }
 
 static void point_fixed_frequency_6(fieldscribe_vector *v)
@@ -1295,6 +1539,10 @@ static void point_fixed_frequency_6(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_6_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_6_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_6_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_6, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_6_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_6, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_6_decode_count(raw))
 }
 
 static void point_fixed_frequency_7(fieldscribe_vector *v)
@@ -1312,6 +1560,10 @@ static void point_fixed_frequency_7(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_7_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_7_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_7_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_7, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_7_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_7, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_7_decode_count(raw))
 }
 
 static void point_fixed_frequency_8(fieldscribe_vector *v)
@@ -1329,6 +1581,10 @@ static void point_fixed_frequency_8(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_8_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_8_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_8_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_8, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_8_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_8, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_8_decode_count(raw))
 }
 
 static void point_fixed_frequency_9(fieldscribe_vector *v)
@@ -1346,6 +1602,10 @@ static void point_fixed_frequency_9(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_9_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_9_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_9_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_9, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_9_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_9, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_9_decode_count(raw))
 }
 
 static void point_fixed_frequency_10(fieldscribe_vector *v)
@@ -1363,6 +1623,10 @@ static void point_fixed_frequency_10(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_10_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_10_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_10_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_10, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_10_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_10, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_10_decode_count(raw))
 }
 
 static void point_fixed_frequency_11(fieldscribe_vector *v)
@@ -1380,6 +1644,10 @@ static void point_fixed_frequency_11(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_11_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_11_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_11_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_11, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_11_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_11, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_11_decode_count(raw))
 }
 
 static void point_fixed_frequency_12(fieldscribe_vector *v)
@@ -1397,6 +1665,10 @@ static void point_fixed_frequency_12(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_12_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_12_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_12_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_12, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_12_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_12, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_12_decode_count(raw))
 }
 
 static void point_fixed_frequency_13(fieldscribe_vector *v)
@@ -1414,6 +1686,10 @@ static void point_fixed_frequency_13(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_13_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_13_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_13_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_13, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_13_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_13, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_13_decode_count(raw))
 }
 
 static void point_fixed_frequency_14(fieldscribe_vector *v)
@@ -1431,6 +1707,10 @@ static void point_fixed_frequency_14(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_14_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_14_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_14_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_14, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_14_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_14, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_14_decode_count(raw))
 }
 
 static void point_fixed_frequency_15(fieldscribe_vector *v)
@@ -1448,6 +1728,10 @@ static void point_fixed_frequency_15(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_15_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_15_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_15_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_15, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_15_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_15, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_15_decode_count(raw))
 }
 
 static void point_jog_frequency(fieldscribe_vector *v)
@@ -1465,6 +1749,10 @@ static void point_jog_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jog_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jog_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jog_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_jog_frequency_decode_count(raw))
 }
 
 static void point_jog_stop_mode(fieldscribe_vector *v)
@@ -1483,6 +1771,10 @@ static void point_jog_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jog_stop_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jog_stop_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_stop_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_stop_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_jog_stop_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_stop_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_jog_stop_mode_decode(raw))
 }
 
 static void point_boost_mode(fieldscribe_vector *v)
@@ -1500,6 +1792,10 @@ static void point_boost_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_boost_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_boost_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_boost_mode_decode(raw))
 }
 
 static void point_boost_mode_set_2(fieldscribe_vector *v)
@@ -1517,6 +1813,10 @@ static void point_boost_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_boost_mode_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_boost_mode_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_boost_mode_set_2_decode(raw))
 }
 
 static void point_manual_boost(fieldscribe_vector *v)
@@ -1534,6 +1834,10 @@ static void point_manual_boost(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_decode_count(raw))
 }
 
 static void point_manual_boost_set_2(fieldscribe_vector *v)
@@ -1551,6 +1855,10 @@ static void point_manual_boost_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_set_2, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_set_2_decode_count(raw))
 }
 
 static void point_manual_boost_frequency(fieldscribe_vector *v)
@@ -1568,6 +1876,10 @@ static void point_manual_boost_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_frequency_decode_count(raw))
 }
 
 static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
@@ -1588,6 +1900,10 @@ static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw))
 }
 
 static void point_vf_characteristic(fieldscribe_vector *v)
@@ -1605,6 +1921,10 @@ static void point_vf_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_vf_characteristic_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_vf_characteristic_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_vf_characteristic_decode(raw))
 }
 
 static void point_vf_characteristic_set_2(fieldscribe_vector *v)
@@ -1622,6 +1942,10 @@ static void point_vf_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_vf_characteristic_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_vf_characteristic_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_vf_characteristic_set_2_decode(raw))
 }
 
 static void point_output_voltage_setting(fieldscribe_vector *v)
@@ -1636,6 +1960,10 @@ static void point_output_voltage_setting(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_setting_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_setting_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_output_voltage_setting_decode(raw))
 }
 
 static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
@@ -1651,6 +1979,10 @@ static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_setting_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_setting_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_output_voltage_setting_set_2_decode(raw))
 }
 
 static void point_dc_brake_enable(fieldscribe_vector *v)
@@ -1668,6 +2000,10 @@ static void point_dc_brake_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_enable_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_enable, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_enable_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_enable, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_enable_decode(raw))
 }
 
 static void point_dc_brake_frequency(fieldscribe_vector *v)
@@ -1687,6 +2023,10 @@ static void point_dc_brake_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_WITH("start_frequency", uint16_t), count = hitachi_l200_dc_brake_frequency_decode_count(raw))
 }
 
 static void point_dc_brake_delay(fieldscribe_vector *v)
@@ -1704,6 +2044,10 @@ static void point_dc_brake_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_dc_brake_delay_decode_count(raw))
 }
 
 static void point_dc_brake_torque(fieldscribe_vector *v)
@@ -1718,6 +2062,10 @@ static void point_dc_brake_torque(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_torque_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_torque_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_torque_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_torque, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_torque_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_torque, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_torque_decode(raw))
 }
 
 static void point_dc_brake_time(fieldscribe_vector *v)
@@ -1735,6 +2083,10 @@ static void point_dc_brake_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_time_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_dc_brake_time_decode_count(raw))
 }
 
 static void point_dc_brake_trigger(fieldscribe_vector *v)
@@ -1752,6 +2104,10 @@ static void point_dc_brake_trigger(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_trigger_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_trigger_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_trigger_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_trigger, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_trigger_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_trigger, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_trigger_decode(raw))
 }
 
 static void point_upper_frequency_limit(fieldscribe_vector *v)
@@ -1772,6 +2128,11 @@ static void point_upper_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_upper_frequency_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_upper_frequency_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_upper_frequency_limit_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit, int32_t, uint16_t,
+        count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit), fieldscribe_agree(v,
+        (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit, uint16_t)
@@ -1798,6 +2159,11 @@ static void point_upper_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_upper_frequency_limit_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_upper_frequency_limit_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_upper_frequency_limit_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2), fieldscribe_agree(v,
+        (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit_set_2, uint16_t)
@@ -1821,6 +2187,11 @@ static void point_lower_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_lower_frequency_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_lower_frequency_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_lower_frequency_limit_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit, int32_t, uint16_t,
+        count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit), fieldscribe_agree(v,
+        (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit, uint16_t)
@@ -1847,6 +2218,11 @@ static void point_lower_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_lower_frequency_limit_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_lower_frequency_limit_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_lower_frequency_limit_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2), fieldscribe_agree(v,
+        (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit_set_2, uint16_t)
@@ -1867,6 +2243,10 @@ static void point_jump_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_1_decode_count(raw))
 }
 
 static void point_jump_frequency_1_width(fieldscribe_vector *v)
@@ -1884,6 +2264,10 @@ static void point_jump_frequency_1_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_1_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_1_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_width_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1_width, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_width_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1_width, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_1_width_decode_count(raw))
 }
 
 static void point_jump_frequency_2(fieldscribe_vector *v)
@@ -1901,6 +2285,10 @@ static void point_jump_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_2_decode_count(raw))
 }
 
 static void point_jump_frequency_2_width(fieldscribe_vector *v)
@@ -1918,6 +2306,10 @@ static void point_jump_frequency_2_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_2_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_2_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_width_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2_width, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_width_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2_width, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_2_width_decode_count(raw))
 }
 
 static void point_jump_frequency_3(fieldscribe_vector *v)
@@ -1935,6 +2327,10 @@ static void point_jump_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_3_decode_count(raw))
 }
 
 static void point_jump_frequency_3_width(fieldscribe_vector *v)
@@ -1952,6 +2348,10 @@ static void point_jump_frequency_3_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_3_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_3_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_width_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3_width, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_width_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3_width, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_3_width_decode_count(raw))
 }
 
 static void point_pid_enable(fieldscribe_vector *v)
@@ -1969,6 +2369,10 @@ static void point_pid_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_enable_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_enable, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_enable_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_enable, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_pid_enable_decode(raw))
 }
 
 static void point_pid_proportional_gain(fieldscribe_vector *v)
@@ -1986,6 +2390,10 @@ static void point_pid_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_proportional_gain_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_proportional_gain_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_proportional_gain_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_proportional_gain, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_proportional_gain_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_proportional_gain, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_proportional_gain_decode_count(raw))
 }
 
 static void point_pid_integral_time(fieldscribe_vector *v)
@@ -2003,6 +2411,10 @@ static void point_pid_integral_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_integral_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_integral_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_integral_time_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_integral_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_integral_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_integral_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_pid_integral_time_decode_count(raw))
 }
 
 static void point_pid_derivative_time(fieldscribe_vector *v)
@@ -2020,6 +2432,10 @@ static void point_pid_derivative_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_derivative_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_derivative_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_derivative_time_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_derivative_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_derivative_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_derivative_time, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_derivative_time_decode_count(raw))
 }
 
 static void point_pid_display_factor(fieldscribe_vector *v)
@@ -2037,6 +2453,10 @@ static void point_pid_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_display_factor_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_display_factor_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_display_factor_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_display_factor, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_display_factor_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_display_factor, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_display_factor_decode_count(raw))
 }
 
 static void point_pid_process_value_source(fieldscribe_vector *v)
@@ -2056,6 +2476,10 @@ static void point_pid_process_value_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_source_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_process_value_source_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_source, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_pid_process_value_source_decode(raw))
 }
 
 static void point_pid_inversion(fieldscribe_vector *v)
@@ -2073,6 +2497,10 @@ static void point_pid_inversion(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_inversion_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_inversion_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_inversion_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_inversion, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_inversion_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_inversion, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_pid_inversion_decode(raw))
 }
 
 static void point_pid_output_limit(fieldscribe_vector *v)
@@ -2090,6 +2518,10 @@ static void point_pid_output_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_output_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_output_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_output_limit_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_output_limit, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_output_limit_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_output_limit, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_pid_output_limit_decode_count(raw))
 }
 
 static void point_avr_mode(fieldscribe_vector *v)
@@ -2108,6 +2540,10 @@ static void point_avr_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_avr_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_avr_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_avr_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_avr_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_avr_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_avr_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_avr_mode_decode(raw))
 }
 
 static void point_motor_voltage(fieldscribe_vector *v)
@@ -2122,6 +2558,10 @@ static void point_motor_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_voltage_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_voltage_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_voltage, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_voltage_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_voltage, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_voltage_decode(raw))
 }
 
 static void point_acceleration_time_2(fieldscribe_vector *v)
@@ -2139,6 +2579,10 @@ static void point_acceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_2_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_2, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_2, int64_t, uint32_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_2_decode_count(raw))
 }
 
 static void point_deceleration_time_2(fieldscribe_vector *v)
@@ -2156,6 +2600,10 @@ static void point_deceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2, int64_t, uint32_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_2_decode_count(raw))
 }
 
 static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
@@ -2174,6 +2622,10 @@ static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_2_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_2_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_set_2_frame, u32, uint32_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2_set_2, int64_t, uint32_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2_set_2, int64_t,
+        uint32_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw))
 }
 
 static void point_ramp_2_selection(fieldscribe_vector *v)
@@ -2191,6 +2643,10 @@ static void point_ramp_2_selection(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_ramp_2_selection_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ramp_2_selection_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_ramp_2_selection_decode(raw))
 }
 
 static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
@@ -2208,6 +2664,10 @@ static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_ramp_2_selection_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ramp_2_selection_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_ramp_2_selection_set_2_decode(raw))
 }
 
 static void point_acceleration_change_frequency(fieldscribe_vector *v)
@@ -2228,6 +2688,10 @@ static void point_acceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_change_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_change_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_change_frequency_decode_count(raw))
 }
 
 static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2250,6 +2714,11 @@ static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_change_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_change_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency_set_2, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency_set_2,
+        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, count =
+        hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw))
 }
 
 static void point_deceleration_change_frequency(fieldscribe_vector *v)
@@ -2270,6 +2739,10 @@ static void point_deceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_change_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_change_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_change_frequency_decode_count(raw))
 }
 
 static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2292,6 +2765,11 @@ static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_change_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_change_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency_set_2, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency_set_2,
+        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, count =
+        hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw))
 }
 
 static void point_acceleration_curve(fieldscribe_vector *v)
@@ -2309,6 +2787,10 @@ static void point_acceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_curve_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_curve_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_curve_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_curve, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_acceleration_curve_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_curve, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_acceleration_curve_decode(raw))
 }
 
 static void point_deceleration_curve(fieldscribe_vector *v)
@@ -2326,6 +2808,10 @@ static void point_deceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_curve_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_curve_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_curve_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_curve, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_deceleration_curve_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_curve, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_deceleration_curve_decode(raw))
 }
 
 static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
@@ -2344,6 +2830,10 @@ static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw))
 }
 
 static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
@@ -2362,6 +2852,10 @@ static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw))
 }
 
 static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
@@ -2376,6 +2870,10 @@ static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_setpoint, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_minimum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_setpoint, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_minimum_setpoint_decode(raw))
 }
 
 static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
@@ -2390,6 +2888,10 @@ static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_setpoint, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_maximum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_setpoint, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_maximum_setpoint_decode(raw))
 }
 
 static void point_input_oi_start_condition(fieldscribe_vector *v)
@@ -2407,6 +2909,10 @@ static void point_input_oi_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_start_condition_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_start_condition, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_start_condition_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_start_condition, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_start_condition_decode(raw))
 }
 
 static void point_calculation_input_a(fieldscribe_vector *v)
@@ -2427,6 +2933,10 @@ static void point_calculation_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_input_a_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_input_a_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_a_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_a, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_a_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_a, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_input_a_decode(raw))
 }
 
 static void point_calculation_input_b(fieldscribe_vector *v)
@@ -2447,6 +2957,10 @@ static void point_calculation_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_input_b_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_input_b_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_b_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_b, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_b_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_b, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_input_b_decode(raw))
 }
 
 static void point_calculation_operator(fieldscribe_vector *v)
@@ -2465,6 +2979,10 @@ static void point_calculation_operator(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_operator_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_operator_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_operator_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_operator, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_operator_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_operator, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_operator_decode(raw))
 }
 
 static void point_frequency_offset(fieldscribe_vector *v)
@@ -2482,6 +3000,10 @@ static void point_frequency_offset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_offset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_offset_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_offset_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_frequency_offset_decode_count(raw))
 }
 
 static void point_frequency_offset_sign(fieldscribe_vector *v)
@@ -2499,6 +3021,10 @@ static void point_frequency_offset_sign(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_offset_sign_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_offset_sign_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_sign_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset_sign, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_offset_sign_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset_sign, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_offset_sign_decode(raw))
 }
 
 static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
@@ -2521,6 +3047,10 @@ static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw))
 }
 
 static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
@@ -2543,6 +3073,10 @@ static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_frequency, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_frequency, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw))
 }
 
 static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
@@ -2558,6 +3092,10 @@ static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_setpoint, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_setpoint, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw))
 }
 
 static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
@@ -2573,6 +3111,10 @@ static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_setpoint, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_setpoint, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw))
 }
 
 static void point_potentiometer_start_condition(fieldscribe_vector *v)
@@ -2591,6 +3133,10 @@ static void point_potentiometer_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_start_condition_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_start_condition, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_start_condition_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_start_condition, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_start_condition_decode(raw))
 }
 
 static void point_restart_mode(fieldscribe_vector *v)
@@ -2610,6 +3156,10 @@ static void point_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_restart_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_restart_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_restart_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_restart_mode_decode(raw))
 }
 
 static void point_allowed_power_failure_time(fieldscribe_vector *v)
@@ -2628,6 +3178,10 @@ static void point_allowed_power_failure_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_allowed_power_failure_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_allowed_power_failure_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_allowed_power_failure_time_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_allowed_power_failure_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_allowed_power_failure_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_allowed_power_failure_time, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_allowed_power_failure_time_decode_count(raw))
 }
 
 static void point_restart_delay(fieldscribe_vector *v)
@@ -2645,6 +3199,10 @@ static void point_restart_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_restart_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_restart_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_restart_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_restart_delay_decode_count(raw))
 }
 
 static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
@@ -2663,6 +3221,10 @@ static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_power_failure_trip_at_standstill_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_failure_trip_at_standstill_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_trip_at_standstill_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_trip_at_standstill, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_trip_at_standstill_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_trip_at_standstill, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_power_failure_trip_at_standstill_decode(raw))
 }
 
 static void point_power_failure_restarts(fieldscribe_vector *v)
@@ -2680,6 +3242,10 @@ static void point_power_failure_restarts(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_power_failure_restarts_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_failure_restarts_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_restarts_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_restarts, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_restarts_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_restarts, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_power_failure_restarts_decode(raw))
 }
 
 static void point_motor_protection_level(fieldscribe_vector *v)
@@ -2697,6 +3263,10 @@ static void point_motor_protection_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_motor_protection_level_decode_count(raw))
 }
 
 static void point_motor_protection_level_set_2(fieldscribe_vector *v)
@@ -2717,6 +3287,10 @@ static void point_motor_protection_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_motor_protection_level_set_2_decode_count(raw))
 }
 
 static void point_motor_protection_characteristic(fieldscribe_vector *v)
@@ -2736,6 +3310,10 @@ static void point_motor_protection_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_characteristic_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_characteristic_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_motor_protection_characteristic_decode(raw))
 }
 
 static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
@@ -2757,6 +3335,11 @@ static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_characteristic_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_characteristic_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic_set_2,
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
+        hitachi_l200_motor_protection_characteristic_set_2_decode(raw))
 }
 
 static void point_current_limit_mode(fieldscribe_vector *v)
@@ -2775,6 +3358,10 @@ static void point_current_limit_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_mode_decode(raw))
 }
 
 static void point_current_limit_mode_set_2(fieldscribe_vector *v)
@@ -2793,6 +3380,10 @@ static void point_current_limit_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_mode_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_mode_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_mode_set_2_decode(raw))
 }
 
 static void point_current_limit_level(fieldscribe_vector *v)
@@ -2810,6 +3401,10 @@ static void point_current_limit_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_level_decode_count(raw))
 }
 
 static void point_current_limit_level_set_2(fieldscribe_vector *v)
@@ -2827,6 +3422,10 @@ static void point_current_limit_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_level_set_2_decode_count(raw))
 }
 
 static void point_current_limit_time(fieldscribe_vector *v)
@@ -2844,6 +3443,10 @@ static void point_current_limit_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_time_decode_count(raw))
 }
 
 static void point_current_limit_time_set_2(fieldscribe_vector *v)
@@ -2861,6 +3464,10 @@ static void point_current_limit_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_time_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time_set_2, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_time_set_2_decode_count(raw))
 }
 
 static void point_current_limit_source(fieldscribe_vector *v)
@@ -2878,6 +3485,10 @@ static void point_current_limit_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_source_decode(raw))
 }
 
 static void point_current_limit_source_set_2(fieldscribe_vector *v)
@@ -2896,6 +3507,10 @@ static void point_current_limit_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_source_set_2_decode(raw))
 }
 
 static void point_parameter_lock(fieldscribe_vector *v)
@@ -2915,6 +3530,10 @@ static void point_parameter_lock(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_parameter_lock_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_parameter_lock_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_parameter_lock_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_parameter_lock, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_parameter_lock_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_parameter_lock, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_parameter_lock_decode(raw))
 }
 
 static void point_analog_output_gain(fieldscribe_vector *v)
@@ -2929,6 +3548,10 @@ static void point_analog_output_gain(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_gain_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_gain_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_gain_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_gain, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_gain_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_gain, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_output_gain_decode(raw))
 }
 
 static void point_start_frequency(fieldscribe_vector *v)
@@ -2946,6 +3569,10 @@ static void point_start_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_start_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_start_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_start_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_start_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_start_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_start_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_start_frequency_decode_count(raw))
 }
 
 static void point_carrier_frequency(fieldscribe_vector *v)
@@ -2963,6 +3590,10 @@ static void point_carrier_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_carrier_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_carrier_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_carrier_frequency_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_carrier_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_carrier_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_carrier_frequency, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, count = hitachi_l200_carrier_frequency_decode_count(raw))
 }
 
 static void point_initialization_mode(fieldscribe_vector *v)
@@ -2982,6 +3613,10 @@ static void point_initialization_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_initialization_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_initialization_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_initialization_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_initialization_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_initialization_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_initialization_mode, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_initialization_mode_decode(raw))
 }
 
 static void point_frequency_display_factor(fieldscribe_vector *v)
@@ -2999,6 +3634,10 @@ static void point_frequency_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_display_factor_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_display_factor_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_display_factor_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_display_factor, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_display_factor_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_display_factor, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_frequency_display_factor_decode_count(raw))
 }
 
 static void point_stop_key_lock(fieldscribe_vector *v)
@@ -3016,6 +3655,10 @@ static void point_stop_key_lock(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stop_key_lock_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stop_key_lock_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_key_lock_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_key_lock, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_key_lock_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_key_lock, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_stop_key_lock_decode(raw))
 }
 
 static void point_coast_restart_mode(fieldscribe_vector *v)
@@ -3033,6 +3676,10 @@ static void point_coast_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_coast_restart_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_coast_restart_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_coast_restart_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_coast_restart_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_coast_restart_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_coast_restart_mode, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_coast_restart_mode_decode(raw))
 }
 
 static void point_network_display(fieldscribe_vector *v)
@@ -3055,6 +3702,10 @@ static void point_network_display(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_display_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_display_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_display_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_display, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_network_display_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_display, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_network_display_decode(raw))
 }
 
 static void point_stop_mode(fieldscribe_vector *v)
@@ -3072,6 +3723,10 @@ static void point_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stop_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stop_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = hitachi_l200_stop_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_stop_mode_decode(raw))
 }
 
 static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
@@ -3090,6 +3745,10 @@ static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_enable_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_enable, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_enable_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_enable, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_overvoltage_deceleration_enable_decode(raw))
 }
 
 static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
@@ -3107,6 +3766,11 @@ static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_level_200v_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_level_200v_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_200v_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_200v, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_200v_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_200v,
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
+        hitachi_l200_overvoltage_deceleration_level_200v_decode(raw))
 }
 
 static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
@@ -3124,6 +3788,11 @@ static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_level_400v_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_level_400v_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_400v_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_400v, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_400v_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_400v,
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
+        hitachi_l200_overvoltage_deceleration_level_400v_decode(raw))
 }
 
 static void point_digital_input_1_function(fieldscribe_vector *v)
@@ -3138,6 +3807,10 @@ static void point_digital_input_1_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_function_decode(raw))
 }
 
 static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
@@ -3153,6 +3826,10 @@ static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_function_set_2_decode(raw))
 }
 
 static void point_digital_input_2_function(fieldscribe_vector *v)
@@ -3167,6 +3844,10 @@ static void point_digital_input_2_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_function_decode(raw))
 }
 
 static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
@@ -3182,6 +3863,10 @@ static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_function_set_2_decode(raw))
 }
 
 static void point_digital_input_3_function(fieldscribe_vector *v)
@@ -3196,6 +3881,10 @@ static void point_digital_input_3_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_function_decode(raw))
 }
 
 static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
@@ -3211,6 +3900,10 @@ static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_function_set_2_decode(raw))
 }
 
 static void point_digital_input_4_function(fieldscribe_vector *v)
@@ -3225,6 +3918,10 @@ static void point_digital_input_4_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_function_decode(raw))
 }
 
 static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
@@ -3240,6 +3937,10 @@ static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_function_set_2_decode(raw))
 }
 
 static void point_digital_input_5_function(fieldscribe_vector *v)
@@ -3254,6 +3955,10 @@ static void point_digital_input_5_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_function_decode(raw))
 }
 
 static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
@@ -3269,6 +3974,10 @@ static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function_set_2, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_function_set_2_decode(raw))
 }
 
 static void point_digital_input_1_contact(fieldscribe_vector *v)
@@ -3286,6 +3995,10 @@ static void point_digital_input_1_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_contact_decode(raw))
 }
 
 static void point_digital_input_2_contact(fieldscribe_vector *v)
@@ -3303,6 +4016,10 @@ static void point_digital_input_2_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_contact_decode(raw))
 }
 
 static void point_digital_input_3_contact(fieldscribe_vector *v)
@@ -3320,6 +4037,10 @@ static void point_digital_input_3_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_contact_decode(raw))
 }
 
 static void point_digital_input_4_contact(fieldscribe_vector *v)
@@ -3337,6 +4058,10 @@ static void point_digital_input_4_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_contact_decode(raw))
 }
 
 static void point_digital_input_5_contact(fieldscribe_vector *v)
@@ -3354,6 +4079,10 @@ static void point_digital_input_5_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_contact_decode(raw))
 }
 
 static void point_digital_output_11_function(fieldscribe_vector *v)
@@ -3369,6 +4098,10 @@ static void point_digital_output_11_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_function, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_11_function_decode(raw))
 }
 
 static void point_digital_output_12_function(fieldscribe_vector *v)
@@ -3384,6 +4117,10 @@ static void point_digital_output_12_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_function, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_12_function_decode(raw))
 }
 
 static void point_relay_output_function(fieldscribe_vector *v)
@@ -3398,6 +4135,10 @@ static void point_relay_output_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_function_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_function, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_function_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_function, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_relay_output_function_decode(raw))
 }
 
 static void point_analog_output_source(fieldscribe_vector *v)
@@ -3415,6 +4156,10 @@ static void point_analog_output_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_source_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_source, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_source_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_source, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_output_source_decode(raw))
 }
 
 static void point_digital_output_11_contact(fieldscribe_vector *v)
@@ -3432,6 +4177,10 @@ static void point_digital_output_11_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_contact, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_11_contact_decode(raw))
 }
 
 static void point_digital_output_12_contact(fieldscribe_vector *v)
@@ -3449,6 +4198,10 @@ static void point_digital_output_12_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_contact, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_12_contact_decode(raw))
 }
 
 static void point_relay_output_contact(fieldscribe_vector *v)
@@ -3466,6 +4219,10 @@ static void point_relay_output_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_contact_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_contact, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_contact_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_contact, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_relay_output_contact_decode(raw))
 }
 
 static void point_overload_alarm_level(fieldscribe_vector *v)
@@ -3483,6 +4240,10 @@ static void point_overload_alarm_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overload_alarm_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_alarm_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_overload_alarm_level_decode_count(raw))
 }
 
 static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
@@ -3501,6 +4262,10 @@ static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overload_alarm_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_alarm_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level_set_2, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level_set_2, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw))
 }
 
 static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
@@ -3523,6 +4288,10 @@ static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_arrival_frequency_acceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_arrival_frequency_acceleration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_acceleration_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_acceleration, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_acceleration, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw))
 }
 
 static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
@@ -3545,6 +4314,10 @@ static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_arrival_frequency_deceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_arrival_frequency_deceleration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_deceleration_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_deceleration, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_deceleration, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw))
 }
 
 static void point_pid_deviation_level(fieldscribe_vector *v)
@@ -3562,6 +4335,10 @@ static void point_pid_deviation_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_deviation_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_deviation_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_deviation_level_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_deviation_level, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_deviation_level_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_deviation_level, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_deviation_level_decode_count(raw))
 }
 
 static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
@@ -3582,6 +4359,10 @@ static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_upper_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_upper_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_upper_limit_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_upper_limit, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_upper_limit, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw))
 }
 
 static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
@@ -3602,6 +4383,10 @@ static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_lower_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_lower_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_lower_limit_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_lower_limit, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_lower_limit, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw))
 }
 
 static void point_input_o_calibration(fieldscribe_vector *v)
@@ -3619,6 +4404,10 @@ static void point_input_o_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_calibration_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_calibration, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_calibration_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_calibration, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_calibration_decode_count(raw))
 }
 
 static void point_input_oi_calibration(fieldscribe_vector *v)
@@ -3636,6 +4425,10 @@ static void point_input_oi_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_calibration_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_calibration, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_calibration_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_calibration, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_calibration_decode_count(raw))
 }
 
 static void point_thermistor_input_calibration(fieldscribe_vector *v)
@@ -3656,6 +4449,10 @@ static void point_thermistor_input_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_thermistor_input_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_thermistor_input_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_thermistor_input_calibration_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_thermistor_input_calibration, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_thermistor_input_calibration_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_thermistor_input_calibration, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_thermistor_input_calibration_decode_count(raw))
 }
 
 static void point_analog_output_offset(fieldscribe_vector *v)
@@ -3673,6 +4470,10 @@ static void point_analog_output_offset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_offset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_offset_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_offset_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_offset, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_analog_output_offset_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_offset, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_analog_output_offset_decode_count(raw))
 }
 
 static void point_motor_potentiometer_memory(fieldscribe_vector *v)
@@ -3691,6 +4492,10 @@ static void point_motor_potentiometer_memory(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_potentiometer_memory_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_potentiometer_memory_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_potentiometer_memory_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_potentiometer_memory, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_potentiometer_memory_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_potentiometer_memory, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_motor_potentiometer_memory_decode(raw))
 }
 
 static void point_reset_mode(fieldscribe_vector *v)
@@ -3709,6 +4514,10 @@ static void point_reset_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_reset_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_reset_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_reset_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_reset_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_reset_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_reset_mode, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_reset_mode_decode(raw))
 }
 
 static void point_logic_input_a(fieldscribe_vector *v)
@@ -3723,6 +4532,10 @@ static void point_logic_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_input_a_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_input_a_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_a_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_a, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_a_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_a, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_input_a_decode(raw))
 }
 
 static void point_logic_input_b(fieldscribe_vector *v)
@@ -3737,6 +4550,10 @@ static void point_logic_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_input_b_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_input_b_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_b_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_b, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_b_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_b, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_input_b_decode(raw))
 }
 
 static void point_logic_operator(fieldscribe_vector *v)
@@ -3755,6 +4572,10 @@ static void point_logic_operator(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_operator_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_operator_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_operator_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_operator, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_operator_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_operator, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_operator_decode(raw))
 }
 
 static void point_digital_output_11_on_delay(fieldscribe_vector *v)
@@ -3773,6 +4594,10 @@ static void point_digital_output_11_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_on_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_on_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_on_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_on_delay, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_11_on_delay_decode_count(raw))
 }
 
 static void point_digital_output_11_off_delay(fieldscribe_vector *v)
@@ -3793,6 +4618,10 @@ static void point_digital_output_11_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_off_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_off_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_off_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_off_delay, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_11_off_delay_decode_count(raw))
 }
 
 static void point_digital_output_12_on_delay(fieldscribe_vector *v)
@@ -3811,6 +4640,10 @@ static void point_digital_output_12_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_on_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_on_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_on_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_on_delay, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_12_on_delay_decode_count(raw))
 }
 
 static void point_digital_output_12_off_delay(fieldscribe_vector *v)
@@ -3831,6 +4664,10 @@ static void point_digital_output_12_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_off_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_off_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_off_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_off_delay, int32_t,
+        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_12_off_delay_decode_count(raw))
 }
 
 static void point_relay_output_on_delay(fieldscribe_vector *v)
@@ -3848,6 +4685,10 @@ static void point_relay_output_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_on_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_on_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_on_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_on_delay, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_relay_output_on_delay_decode_count(raw))
 }
 
 static void point_relay_output_off_delay(fieldscribe_vector *v)
@@ -3865,6 +4706,10 @@ static void point_relay_output_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_off_delay_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_off_delay, int32_t, uint16_t, count,
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_off_delay_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_off_delay, int32_t, uint16_t,
+        count, FIELDSCRIBE_ALONE, count = hitachi_l200_relay_output_off_delay_decode_count(raw))
 }
 
 static void point_motor_power(fieldscribe_vector *v)
@@ -3893,6 +4738,10 @@ static void point_motor_power(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_power_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_power_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_power_decode(raw))
 }
 
 static void point_motor_power_set_2(fieldscribe_vector *v)
@@ -3921,6 +4770,10 @@ static void point_motor_power_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_power_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_power_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_power_set_2_decode(raw))
 }
 
 static void point_motor_poles(fieldscribe_vector *v)
@@ -3940,6 +4793,10 @@ static void point_motor_poles(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_poles_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_poles_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_poles_decode(raw))
 }
 
 static void point_motor_poles_set_2(fieldscribe_vector *v)
@@ -3959,6 +4816,10 @@ static void point_motor_poles_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_poles_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_poles_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_poles_set_2_decode(raw))
 }
 
 static void point_stabilization_constant(fieldscribe_vector *v)
@@ -3973,6 +4834,10 @@ static void point_stabilization_constant(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stabilization_constant_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stabilization_constant_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stabilization_constant_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant, int32_t, uint16_t,
+        value, FIELDSCRIBE_ALONE, value = hitachi_l200_stabilization_constant_decode(raw))
 }
 
 static void point_stabilization_constant_set_2(fieldscribe_vector *v)
@@ -3988,6 +4853,10 @@ static void point_stabilization_constant_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stabilization_constant_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stabilization_constant_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stabilization_constant_set_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant_set_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_set_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant_set_2, int32_t,
+        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_stabilization_constant_set_2_decode(raw))
 }
 
 static const fieldscribe_status_name statuses[] = {
@@ -4258,9 +5127,477 @@ static const fieldscribe_blocks blocks[] = {
     {NULL, NULL, 0U}
 };
 
+static void members_of_coils(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_coils_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_coils_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_coils_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
+            hitachi_l200_coils_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("run_command", run_command_raw, bool, )
+            FIELDSCRIBE_MEMBER("direction_command", direction_command_raw, bool, )
+            FIELDSCRIBE_MEMBER("external_trip", external_trip_raw, bool, )
+            FIELDSCRIBE_MEMBER("trip_reset", trip_reset_raw, bool, )
+            FIELDSCRIBE_MEMBER("digital_input_1", digital_input_1_raw, bool, )
+            FIELDSCRIBE_MEMBER("digital_input_2", digital_input_2_raw, bool, )
+            FIELDSCRIBE_MEMBER("digital_input_3", digital_input_3_raw, bool, )
+            FIELDSCRIBE_MEMBER("digital_input_4", digital_input_4_raw, bool, )
+            FIELDSCRIBE_MEMBER("digital_input_5", digital_input_5_raw, bool, )
+            FIELDSCRIBE_MEMBER("running", running_raw, bool, )
+            FIELDSCRIBE_MEMBER("direction_status", direction_status_raw, bool, )
+            FIELDSCRIBE_MEMBER("ready", ready_raw, bool, )
+            FIELDSCRIBE_MEMBER("alarm", alarm_raw, bool, )
+            FIELDSCRIBE_MEMBER("pid_deviation", pid_deviation_raw, bool, )
+            FIELDSCRIBE_MEMBER("overload", overload_raw, bool, )
+            FIELDSCRIBE_MEMBER("frequency_arrival_in_acceleration", frequency_arrival_in_acceleration_raw, bool, )
+            FIELDSCRIBE_MEMBER("frequency_arrival_at_constant_speed", frequency_arrival_at_constant_speed_raw, bool, )
+            FIELDSCRIBE_MEMBER("run_mode", run_mode_raw, bool, )
+            FIELDSCRIBE_MEMBER("data_write", data_write_raw, bool, )
+            FIELDSCRIBE_MEMBER("crc_error", crc_error_raw, bool, )
+            FIELDSCRIBE_MEMBER("overrun_error", overrun_error_raw, bool, )
+            FIELDSCRIBE_MEMBER("framing_error", framing_error_raw, bool, )
+            FIELDSCRIBE_MEMBER("parity_error", parity_error_raw, bool, )
+            FIELDSCRIBE_MEMBER("checksum_error", checksum_error_raw, bool, )
+        }
+    }
+}
+
+static void members_of_status(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_status_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_status_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_status_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
+            hitachi_l200_status_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("network_frequency_setpoint", network_frequency_setpoint_count, uint16_t,
+                hitachi_l200_network_frequency_setpoint_decode_count)
+            FIELDSCRIBE_MEMBER("inverter_status", inverter_status_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("network_process_value", network_process_value_count, uint16_t,
+                hitachi_l200_network_process_value_decode_count)
+        }
+    }
+}
+
+static void members_of_monitor_d(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_monitor_d_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_monitor_d_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_monitor_d_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5))
+            {
+            hitachi_l200_monitor_d_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("trip_count", trip_count_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("trip_1_error", trip_1_error_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("trip_1_output_frequency", trip_1_output_frequency_count, uint16_t,
+                hitachi_l200_trip_1_output_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("trip_1_motor_current", trip_1_motor_current_count, uint16_t,
+                hitachi_l200_trip_1_motor_current_decode_count)
+            FIELDSCRIBE_MEMBER("trip_1_dc_bus_voltage", trip_1_dc_bus_voltage_count, uint16_t,
+                hitachi_l200_trip_1_dc_bus_voltage_decode_count)
+            FIELDSCRIBE_MEMBER("trip_1_run_time", trip_1_run_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("trip_1_power_on_time", trip_1_power_on_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("trip_2_error", trip_2_error_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("trip_2_output_frequency", trip_2_output_frequency_count, uint16_t,
+                hitachi_l200_trip_2_output_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("trip_2_motor_current", trip_2_motor_current_count, uint16_t,
+                hitachi_l200_trip_2_motor_current_decode_count)
+            FIELDSCRIBE_MEMBER("trip_2_dc_bus_voltage", trip_2_dc_bus_voltage_count, uint16_t,
+                hitachi_l200_trip_2_dc_bus_voltage_decode_count)
+            FIELDSCRIBE_MEMBER("trip_2_run_time", trip_2_run_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("trip_2_power_on_time", trip_2_power_on_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("trip_3_error", trip_3_error_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("trip_3_output_frequency", trip_3_output_frequency_count, uint16_t,
+                hitachi_l200_trip_3_output_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("trip_3_motor_current", trip_3_motor_current_count, uint16_t,
+                hitachi_l200_trip_3_motor_current_decode_count)
+            FIELDSCRIBE_MEMBER("trip_3_dc_bus_voltage", trip_3_dc_bus_voltage_count, uint16_t,
+                hitachi_l200_trip_3_dc_bus_voltage_decode_count)
+            FIELDSCRIBE_MEMBER("trip_3_run_time", trip_3_run_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("trip_3_power_on_time", trip_3_power_on_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("output_frequency", output_frequency_count, uint16_t,
+                hitachi_l200_output_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("motor_current", motor_current_count, uint16_t, hitachi_l200_motor_current_decode_count)
+            FIELDSCRIBE_MEMBER("rotation_direction", rotation_direction_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("scaled_process_value", scaled_process_value_count, uint32_t,
+                hitachi_l200_scaled_process_value_decode_count)
+            FIELDSCRIBE_MEMBER("digital_inputs", digital_inputs_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_outputs", digital_outputs_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("output_voltage", output_voltage_count, uint16_t,
+                hitachi_l200_output_voltage_decode_count)
+            FIELDSCRIBE_MEMBER("run_time", run_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER("power_on_time", power_on_time_raw, uint32_t, )
+        }
+    }
+}
+
+static void members_of_basic_f(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_basic_f_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_basic_f_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_basic_f_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
+            hitachi_l200_basic_f_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("acceleration_time", acceleration_time_count, uint32_t,
+                hitachi_l200_acceleration_time_decode_count)
+            FIELDSCRIBE_MEMBER("deceleration_time", deceleration_time_count, uint32_t,
+                hitachi_l200_deceleration_time_decode_count)
+            FIELDSCRIBE_MEMBER("motor_direction", motor_direction_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("acceleration_time_set_2", acceleration_time_set_2_count, uint32_t,
+                hitachi_l200_acceleration_time_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("deceleration_time_set_2", deceleration_time_set_2_count, uint32_t,
+                hitachi_l200_deceleration_time_set_2_decode_count)
+        }
+    }
+}
+
+static void members_of_standard_a(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_standard_a_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_standard_a_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_standard_a_blocks[block], what, words, at % 2U == 0U ? 0x00 :
+            0xA5)) {
+            hitachi_l200_standard_a_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("frequency_source", frequency_source_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("run_source", run_source_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_rated_frequency", motor_rated_frequency_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("maximum_frequency", maximum_frequency_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("at_terminal_selection", at_terminal_selection_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_o_minimum_frequency", input_o_minimum_frequency_count, uint16_t,
+                hitachi_l200_input_o_minimum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("input_o_maximum_frequency", input_o_maximum_frequency_count, uint16_t,
+                hitachi_l200_input_o_maximum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("input_o_minimum_setpoint", input_o_minimum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_o_maximum_setpoint", input_o_maximum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_o_start_condition", input_o_start_condition_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("analog_input_filter", analog_input_filter_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("base_frequency", base_frequency_count, uint16_t,
+                hitachi_l200_base_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_1", fixed_frequency_1_count, uint16_t,
+                hitachi_l200_fixed_frequency_1_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_2", fixed_frequency_2_count, uint16_t,
+                hitachi_l200_fixed_frequency_2_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_3", fixed_frequency_3_count, uint16_t,
+                hitachi_l200_fixed_frequency_3_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_4", fixed_frequency_4_count, uint16_t,
+                hitachi_l200_fixed_frequency_4_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_5", fixed_frequency_5_count, uint16_t,
+                hitachi_l200_fixed_frequency_5_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_6", fixed_frequency_6_count, uint16_t,
+                hitachi_l200_fixed_frequency_6_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_7", fixed_frequency_7_count, uint16_t,
+                hitachi_l200_fixed_frequency_7_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_8", fixed_frequency_8_count, uint16_t,
+                hitachi_l200_fixed_frequency_8_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_9", fixed_frequency_9_count, uint16_t,
+                hitachi_l200_fixed_frequency_9_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_10", fixed_frequency_10_count, uint16_t,
+                hitachi_l200_fixed_frequency_10_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_11", fixed_frequency_11_count, uint16_t,
+                hitachi_l200_fixed_frequency_11_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_12", fixed_frequency_12_count, uint16_t,
+                hitachi_l200_fixed_frequency_12_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_13", fixed_frequency_13_count, uint16_t,
+                hitachi_l200_fixed_frequency_13_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_14", fixed_frequency_14_count, uint16_t,
+                hitachi_l200_fixed_frequency_14_decode_count)
+            FIELDSCRIBE_MEMBER("fixed_frequency_15", fixed_frequency_15_count, uint16_t,
+                hitachi_l200_fixed_frequency_15_decode_count)
+            FIELDSCRIBE_MEMBER("jog_frequency", jog_frequency_count, uint16_t, hitachi_l200_jog_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("jog_stop_mode", jog_stop_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("boost_mode", boost_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("manual_boost", manual_boost_count, uint16_t, hitachi_l200_manual_boost_decode_count)
+            FIELDSCRIBE_MEMBER("manual_boost_frequency", manual_boost_frequency_count, uint16_t,
+                hitachi_l200_manual_boost_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("vf_characteristic", vf_characteristic_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("output_voltage_setting", output_voltage_setting_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("dc_brake_enable", dc_brake_enable_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("dc_brake_frequency", dc_brake_frequency_count, uint16_t,
+                hitachi_l200_dc_brake_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("dc_brake_delay", dc_brake_delay_count, uint16_t,
+                hitachi_l200_dc_brake_delay_decode_count)
+            FIELDSCRIBE_MEMBER("dc_brake_torque", dc_brake_torque_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("dc_brake_time", dc_brake_time_count, uint16_t, hitachi_l200_dc_brake_time_decode_count)
+            FIELDSCRIBE_MEMBER("dc_brake_trigger", dc_brake_trigger_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("upper_frequency_limit", upper_frequency_limit_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("lower_frequency_limit", lower_frequency_limit_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("jump_frequency_1", jump_frequency_1_count, uint16_t,
+                hitachi_l200_jump_frequency_1_decode_count)
+            FIELDSCRIBE_MEMBER("jump_frequency_1_width", jump_frequency_1_width_count, uint16_t,
+                hitachi_l200_jump_frequency_1_width_decode_count)
+            FIELDSCRIBE_MEMBER("jump_frequency_2", jump_frequency_2_count, uint16_t,
+                hitachi_l200_jump_frequency_2_decode_count)
+            FIELDSCRIBE_MEMBER("jump_frequency_2_width", jump_frequency_2_width_count, uint16_t,
+                hitachi_l200_jump_frequency_2_width_decode_count)
+            FIELDSCRIBE_MEMBER("jump_frequency_3", jump_frequency_3_count, uint16_t,
+                hitachi_l200_jump_frequency_3_decode_count)
+            FIELDSCRIBE_MEMBER("jump_frequency_3_width", jump_frequency_3_width_count, uint16_t,
+                hitachi_l200_jump_frequency_3_width_decode_count)
+            FIELDSCRIBE_MEMBER("pid_enable", pid_enable_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("pid_proportional_gain", pid_proportional_gain_count, uint16_t,
+                hitachi_l200_pid_proportional_gain_decode_count)
+            FIELDSCRIBE_MEMBER("pid_integral_time", pid_integral_time_count, uint16_t,
+                hitachi_l200_pid_integral_time_decode_count)
+            FIELDSCRIBE_MEMBER("pid_derivative_time", pid_derivative_time_count, uint16_t,
+                hitachi_l200_pid_derivative_time_decode_count)
+            FIELDSCRIBE_MEMBER("pid_display_factor", pid_display_factor_count, uint16_t,
+                hitachi_l200_pid_display_factor_decode_count)
+            FIELDSCRIBE_MEMBER("pid_process_value_source", pid_process_value_source_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("pid_inversion", pid_inversion_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("pid_output_limit", pid_output_limit_count, uint16_t,
+                hitachi_l200_pid_output_limit_decode_count)
+            FIELDSCRIBE_MEMBER("avr_mode", avr_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_voltage", motor_voltage_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("acceleration_time_2", acceleration_time_2_count, uint32_t,
+                hitachi_l200_acceleration_time_2_decode_count)
+            FIELDSCRIBE_MEMBER("deceleration_time_2", deceleration_time_2_count, uint32_t,
+                hitachi_l200_deceleration_time_2_decode_count)
+            FIELDSCRIBE_MEMBER("ramp_2_selection", ramp_2_selection_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("acceleration_change_frequency", acceleration_change_frequency_count, uint16_t,
+                hitachi_l200_acceleration_change_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("deceleration_change_frequency", deceleration_change_frequency_count, uint16_t,
+                hitachi_l200_deceleration_change_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("acceleration_curve", acceleration_curve_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("deceleration_curve", deceleration_curve_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_oi_minimum_frequency", input_oi_minimum_frequency_count, uint16_t,
+                hitachi_l200_input_oi_minimum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("input_oi_maximum_frequency", input_oi_maximum_frequency_count, uint16_t,
+                hitachi_l200_input_oi_maximum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("input_oi_minimum_setpoint", input_oi_minimum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_oi_maximum_setpoint", input_oi_maximum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("input_oi_start_condition", input_oi_start_condition_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("calculation_input_a", calculation_input_a_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("calculation_input_b", calculation_input_b_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("calculation_operator", calculation_operator_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("frequency_offset", frequency_offset_count, uint16_t,
+                hitachi_l200_frequency_offset_decode_count)
+            FIELDSCRIBE_MEMBER("frequency_offset_sign", frequency_offset_sign_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("potentiometer_minimum_frequency", potentiometer_minimum_frequency_count, uint16_t,
+                hitachi_l200_potentiometer_minimum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("potentiometer_maximum_frequency", potentiometer_maximum_frequency_count, uint16_t,
+                hitachi_l200_potentiometer_maximum_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("potentiometer_minimum_setpoint", potentiometer_minimum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("potentiometer_maximum_setpoint", potentiometer_maximum_setpoint_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("potentiometer_start_condition", potentiometer_start_condition_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("frequency_source_set_2", frequency_source_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("run_source_set_2", run_source_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_rated_frequency_set_2", motor_rated_frequency_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("maximum_frequency_set_2", maximum_frequency_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("base_frequency_set_2", base_frequency_set_2_count, uint16_t,
+                hitachi_l200_base_frequency_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("boost_mode_set_2", boost_mode_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("manual_boost_set_2", manual_boost_set_2_count, uint16_t,
+                hitachi_l200_manual_boost_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("manual_boost_frequency_set_2", manual_boost_frequency_set_2_count, uint16_t,
+                hitachi_l200_manual_boost_frequency_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("vf_characteristic_set_2", vf_characteristic_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("output_voltage_setting_set_2", output_voltage_setting_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("upper_frequency_limit_set_2", upper_frequency_limit_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("lower_frequency_limit_set_2", lower_frequency_limit_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("deceleration_time_2_set_2", deceleration_time_2_set_2_count, uint32_t,
+                hitachi_l200_deceleration_time_2_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("ramp_2_selection_set_2", ramp_2_selection_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("acceleration_change_frequency_set_2", acceleration_change_frequency_set_2_count,
+                uint16_t, hitachi_l200_acceleration_change_frequency_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("deceleration_change_frequency_set_2", deceleration_change_frequency_set_2_count,
+                uint16_t, hitachi_l200_deceleration_change_frequency_set_2_decode_count)
+        }
+    }
+}
+
+static void members_of_fine_tuning_b(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_fine_tuning_b_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_fine_tuning_b_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_fine_tuning_b_blocks[block], what, words, at % 2U == 0U ? 0x00 :
+            0xA5)) {
+            hitachi_l200_fine_tuning_b_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("restart_mode", restart_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("allowed_power_failure_time", allowed_power_failure_time_count, uint16_t,
+                hitachi_l200_allowed_power_failure_time_decode_count)
+            FIELDSCRIBE_MEMBER("restart_delay", restart_delay_count, uint16_t, hitachi_l200_restart_delay_decode_count)
+            FIELDSCRIBE_MEMBER("power_failure_trip_at_standstill", power_failure_trip_at_standstill_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("power_failure_restarts", power_failure_restarts_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_protection_level", motor_protection_level_count, uint16_t,
+                hitachi_l200_motor_protection_level_decode_count)
+            FIELDSCRIBE_MEMBER("motor_protection_characteristic", motor_protection_characteristic_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("current_limit_mode", current_limit_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("current_limit_level", current_limit_level_count, uint16_t,
+                hitachi_l200_current_limit_level_decode_count)
+            FIELDSCRIBE_MEMBER("current_limit_time", current_limit_time_count, uint16_t,
+                hitachi_l200_current_limit_time_decode_count)
+            FIELDSCRIBE_MEMBER("current_limit_source", current_limit_source_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("parameter_lock", parameter_lock_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("analog_output_gain", analog_output_gain_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("start_frequency", start_frequency_count, uint16_t,
+                hitachi_l200_start_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("carrier_frequency", carrier_frequency_count, uint16_t,
+                hitachi_l200_carrier_frequency_decode_count)
+            FIELDSCRIBE_MEMBER("initialization_mode", initialization_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("frequency_display_factor", frequency_display_factor_count, uint16_t,
+                hitachi_l200_frequency_display_factor_decode_count)
+            FIELDSCRIBE_MEMBER("stop_key_lock", stop_key_lock_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("coast_restart_mode", coast_restart_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("network_display", network_display_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("stop_mode", stop_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("overvoltage_deceleration_enable", overvoltage_deceleration_enable_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("overvoltage_deceleration_level_200v", overvoltage_deceleration_level_200v_raw, uint16_t,
+                )
+            FIELDSCRIBE_MEMBER("overvoltage_deceleration_level_400v", overvoltage_deceleration_level_400v_raw, uint16_t,
+                )
+            FIELDSCRIBE_MEMBER("motor_protection_level_set_2", motor_protection_level_set_2_count, uint16_t,
+                hitachi_l200_motor_protection_level_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("motor_protection_characteristic_set_2", motor_protection_characteristic_set_2_raw,
+                uint16_t, )
+            FIELDSCRIBE_MEMBER("current_limit_mode_set_2", current_limit_mode_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("current_limit_level_set_2", current_limit_level_set_2_count, uint16_t,
+                hitachi_l200_current_limit_level_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("current_limit_time_set_2", current_limit_time_set_2_count, uint16_t,
+                hitachi_l200_current_limit_time_set_2_decode_count)
+            FIELDSCRIBE_MEMBER("current_limit_source_set_2", current_limit_source_set_2_raw, uint16_t, )
+        }
+    }
+}
+
+static void members_of_control_c(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_control_c_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_control_c_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_control_c_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5))
+            {
+            hitachi_l200_control_c_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("digital_input_1_function", digital_input_1_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_2_function", digital_input_2_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_3_function", digital_input_3_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_4_function", digital_input_4_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_5_function", digital_input_5_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_1_contact", digital_input_1_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_2_contact", digital_input_2_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_3_contact", digital_input_3_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_4_contact", digital_input_4_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_5_contact", digital_input_5_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_output_11_function", digital_output_11_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_output_12_function", digital_output_12_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("relay_output_function", relay_output_function_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("analog_output_source", analog_output_source_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_output_11_contact", digital_output_11_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_output_12_contact", digital_output_12_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("relay_output_contact", relay_output_contact_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("overload_alarm_level", overload_alarm_level_count, uint16_t,
+                hitachi_l200_overload_alarm_level_decode_count)
+            FIELDSCRIBE_MEMBER("arrival_frequency_acceleration", arrival_frequency_acceleration_count, uint16_t,
+                hitachi_l200_arrival_frequency_acceleration_decode_count)
+            FIELDSCRIBE_MEMBER("arrival_frequency_deceleration", arrival_frequency_deceleration_count, uint16_t,
+                hitachi_l200_arrival_frequency_deceleration_decode_count)
+            FIELDSCRIBE_MEMBER("pid_deviation_level", pid_deviation_level_count, uint16_t,
+                hitachi_l200_pid_deviation_level_decode_count)
+            FIELDSCRIBE_MEMBER("pid_process_value_upper_limit", pid_process_value_upper_limit_count, uint16_t,
+                hitachi_l200_pid_process_value_upper_limit_decode_count)
+            FIELDSCRIBE_MEMBER("pid_process_value_lower_limit", pid_process_value_lower_limit_count, uint16_t,
+                hitachi_l200_pid_process_value_lower_limit_decode_count)
+            FIELDSCRIBE_MEMBER("input_o_calibration", input_o_calibration_count, uint16_t,
+                hitachi_l200_input_o_calibration_decode_count)
+            FIELDSCRIBE_MEMBER("input_oi_calibration", input_oi_calibration_count, uint16_t,
+                hitachi_l200_input_oi_calibration_decode_count)
+            FIELDSCRIBE_MEMBER("thermistor_input_calibration", thermistor_input_calibration_count, uint16_t,
+                hitachi_l200_thermistor_input_calibration_decode_count)
+            FIELDSCRIBE_MEMBER("analog_output_offset", analog_output_offset_count, uint16_t,
+                hitachi_l200_analog_output_offset_decode_count)
+            FIELDSCRIBE_MEMBER("motor_potentiometer_memory", motor_potentiometer_memory_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("reset_mode", reset_mode_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("logic_input_a", logic_input_a_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("logic_input_b", logic_input_b_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("logic_operator", logic_operator_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_output_11_on_delay", digital_output_11_on_delay_count, uint16_t,
+                hitachi_l200_digital_output_11_on_delay_decode_count)
+            FIELDSCRIBE_MEMBER("digital_output_11_off_delay", digital_output_11_off_delay_count, uint16_t,
+                hitachi_l200_digital_output_11_off_delay_decode_count)
+            FIELDSCRIBE_MEMBER("digital_output_12_on_delay", digital_output_12_on_delay_count, uint16_t,
+                hitachi_l200_digital_output_12_on_delay_decode_count)
+            FIELDSCRIBE_MEMBER("digital_output_12_off_delay", digital_output_12_off_delay_count, uint16_t,
+                hitachi_l200_digital_output_12_off_delay_decode_count)
+            FIELDSCRIBE_MEMBER("relay_output_on_delay", relay_output_on_delay_count, uint16_t,
+                hitachi_l200_relay_output_on_delay_decode_count)
+            FIELDSCRIBE_MEMBER("relay_output_off_delay", relay_output_off_delay_count, uint16_t,
+                hitachi_l200_relay_output_off_delay_decode_count)
+            FIELDSCRIBE_MEMBER("digital_input_1_function_set_2", digital_input_1_function_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_2_function_set_2", digital_input_2_function_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_3_function_set_2", digital_input_3_function_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_4_function_set_2", digital_input_4_function_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("digital_input_5_function_set_2", digital_input_5_function_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("overload_alarm_level_set_2", overload_alarm_level_set_2_count, uint16_t,
+                hitachi_l200_overload_alarm_level_set_2_decode_count)
+        }
+    }
+}
+
+static void members_of_motor_h(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    hitachi_l200_motor_h_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_motor_h_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &hitachi_l200_motor_h_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
+            hitachi_l200_motor_h_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("motor_power", motor_power_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_poles", motor_poles_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("stabilization_constant", stabilization_constant_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_power_set_2", motor_power_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("motor_poles_set_2", motor_poles_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("stabilization_constant_set_2", stabilization_constant_set_2_raw, uint16_t, )
+        }
+    }
+}
+
+static const fieldscribe_members members[] = {
+    &members_of_coils,
+    &members_of_status,
+    &members_of_monitor_d,
+    &members_of_basic_f,
+    &members_of_standard_a,
+    &members_of_fine_tuning_b,
+    &members_of_control_c,
+    &members_of_motor_h,
+    NULL
+};
+
 static const fieldscribe_tables tables = {
     &hitachi_l200_modbus_profile,
     blocks,
+    members,
     HITACHI_L200_BLOCK_MOST
 };
 

@@ -21,6 +21,10 @@ static void point_control_word(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_control_word_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_control_word_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_control_word_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_control_word, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_control_word_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_control_word, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_control_word_decode(raw))
     FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
         NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U)
@@ -83,6 +87,10 @@ static void point_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_1, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_setpoint_1_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_1, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_1_decode(raw))
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
@@ -97,6 +105,10 @@ static void point_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_2, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_setpoint_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_2_decode(raw))
 }
 
 static void point_setpoint_3(fieldscribe_vector *v)
@@ -111,6 +123,10 @@ static void point_setpoint_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_3, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_setpoint_3_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_3, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_3_decode(raw))
 }
 
 static void point_setpoint_4(fieldscribe_vector *v)
@@ -125,6 +141,10 @@ static void point_setpoint_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_4, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_setpoint_4_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_4, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_4_decode(raw))
 }
 
 static void point_setpoint_5(fieldscribe_vector *v)
@@ -139,6 +159,10 @@ static void point_setpoint_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_5, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_setpoint_5_decode(raw), 0))
+    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_5, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_5_decode(raw))
 }
 
 static void point_status_word(fieldscribe_vector *v)
@@ -150,6 +174,8 @@ static void point_status_word(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_status_word_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_status_word, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
+        (value = nord_sk5xxe_status_word_decode(raw), 0))
     FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
         NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
@@ -209,6 +235,8 @@ static void point_actual_value_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_1_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_1, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_1_decode(raw), 0))
 }
 
 static void point_actual_value_2(fieldscribe_vector *v)
@@ -220,6 +248,8 @@ static void point_actual_value_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_2_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_2, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_2_decode(raw), 0))
 }
 
 static void point_actual_value_3(fieldscribe_vector *v)
@@ -231,6 +261,8 @@ static void point_actual_value_3(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_3_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_3, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_3_decode(raw), 0))
 }
 
 static void point_actual_value_4(fieldscribe_vector *v)
@@ -242,6 +274,8 @@ static void point_actual_value_4(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_4_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_4, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_4_decode(raw), 0))
 }
 
 static void point_actual_value_5(fieldscribe_vector *v)
@@ -253,6 +287,8 @@ static void point_actual_value_5(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_5_frame, u16, uint16_t)
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_5, int32_t, uint16_t, value,
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_5_decode(raw), 0))
 }
 
 static const fieldscribe_status_name statuses[] = {
@@ -292,9 +328,43 @@ static const fieldscribe_blocks blocks[] = {
     {NULL, NULL, 0U}
 };
 
+static void members_of_process_data(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    uint16_t all[FIELDSCRIBE_VALUES_MOST];
+    nord_sk5xxe_process_data_group group;
+    size_t at;
+    fieldscribe_fill(&group, sizeof group);
+    for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(nord_sk5xxe_process_data_blocks); ++at) {
+        const size_t block = at / 2U;
+        if (fieldscribe_is_placed(all, &nord_sk5xxe_process_data_blocks[block], what, words, at % 2U == 0U ? 0x00 :
+            0xA5)) {
+            nord_sk5xxe_process_data_group_decode(block, all, &group);
+            FIELDSCRIBE_MEMBER("control_word", control_word_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("setpoint_1", setpoint_1_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("setpoint_2", setpoint_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("setpoint_3", setpoint_3_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("setpoint_4", setpoint_4_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("setpoint_5", setpoint_5_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("status_word", status_word_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("actual_value_1", actual_value_1_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("actual_value_2", actual_value_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("actual_value_3", actual_value_3_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("actual_value_4", actual_value_4_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER("actual_value_5", actual_value_5_raw, uint16_t, )
+        }
+    }
+}
+
+static const fieldscribe_members members[] = {
+    &members_of_process_data,
+    NULL
+};
+
 static const fieldscribe_tables tables = {
     &nord_sk5xxe_modbus_profile,
     blocks,
+    members,
     NORD_SK5XXE_BLOCK_MOST
 };
 

@@ -15,10 +15,15 @@ typedef struct fieldscribe_blocks {
     size_t count;
 } fieldscribe_blocks;
 
+/* Holds the members of a group that come from the words of a reading against the vector. */
+typedef void (*fieldscribe_members)(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words);
+
 /* The tables of a device. */
 typedef struct fieldscribe_tables {
     const fieldscribe_modbus_profile *profile;
     const fieldscribe_blocks *blocks;
+    const fieldscribe_members *members; /* of each group, up to NULL */
     uint16_t most; /* the items of the largest block */
 } fieldscribe_tables;
 
@@ -117,20 +122,19 @@ static inline void fieldscribe_is_awaited(fieldscribe_vector *v, fieldscribe_mod
     }
 }
 
-/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
-FIELDSCRIBE_ONCE bool fieldscribe_exchange(
-    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
+/* Sends a request of the script and parses what comes back; the status is that of the answer. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
     const fieldscribe_modbus_framing framing = fieldscribe_framing(v);
     uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
     fieldscribe_modbus_request numbered = *request;
-    fieldscribe_modbus_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_ROOM);
     fieldscribe_modbus_status status;
     const char *sent = NULL;
     const char *received = NULL;
     size_t length = 0U;
     if (!fieldscribe_step(v, place, &sent, &received)) {
-        return false;
+        return FIELDSCRIBE_MODBUS_NOISE;
     }
     fieldscribe_agree(v, request->transaction == 0U);
     numbered.transaction = framing == FIELDSCRIBE_MODBUS_TCP ? (uint16_t)(place + 1U) : 0U;
@@ -140,10 +144,57 @@ FIELDSCRIBE_ONCE bool fieldscribe_exchange(
     fieldscribe_sends(v, sent, bytes, length);
     numbered.values = NULL; /* an answer is held against the request alone */
     length = fieldscribe_hex(received, bytes, sizeof bytes);
-    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, &reply);
+    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, reply);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
     fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
-    return status == FIELDSCRIBE_MODBUS_OK;
+    return status;
+}
+
+/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
+FIELDSCRIBE_ONCE bool fieldscribe_exchange(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
+{
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_ROOM);
+    return fieldscribe_ask(v, place, request, &reply) == FIELDSCRIBE_MODBUS_OK;
+}
+
+/* The vector whose exchange a call does, and how many of its steps were done. */
+static fieldscribe_vector *fieldscribe_called;
+static uint16_t fieldscribe_done;
+
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_script(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    fieldscribe_modbus_request plain = *request;
+    const uint16_t place = fieldscribe_done++;
+    fieldscribe_agree(fieldscribe_called, line == NULL && request->transaction == place && !request->late);
+    plain.transaction = 0U;
+    return fieldscribe_ask(fieldscribe_called, place, &plain, reply);
+}
+
+/* The unit of a handle whose exchange is the script. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vector *v)
+{
+    const fieldscribe_modbus_unit unit = {
+        NULL, &fieldscribe_ask_script, (uint8_t)fieldscribe_bits(v, "unit"), 0x7FU, 0U, false};
+    fieldscribe_called = v;
+    fieldscribe_done = 0U;
+    return unit;
+}
+
+/* A call does the whole script, says what its exchange or its conversion says, and whether an answer is still due. */
+FIELDSCRIBE_ONCE void fieldscribe_is_called(
+    fieldscribe_vector *v, const fieldscribe_modbus_unit *unit, int status, int converted)
+{
+    const fieldscribe_modbus_status exchanged =
+        converted == 0 ? (fieldscribe_modbus_status)status : FIELDSCRIBE_MODBUS_OK;
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(exchanged));
+    fieldscribe_agree(v, converted == 0 || converted == status);
+    fieldscribe_agree(v, fieldscribe_done == fieldscribe_steps(v) && unit->transaction == fieldscribe_done);
+    fieldscribe_agree(v, (unit->exception != 0U) == (exchanged == FIELDSCRIBE_MODBUS_EXCEPTION));
+    fieldscribe_agree(v, unit->late == (exchanged == FIELDSCRIBE_MODBUS_SHORT_FRAME ||
+        exchanged == FIELDSCRIBE_MODBUS_NOISE || exchanged == FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT ||
+        exchanged == FIELDSCRIBE_MODBUS_ECHO_MISMATCH));
 }
 
 /* Writes words, which nobody looks at any more when the answer comes. */
@@ -154,6 +205,54 @@ FIELDSCRIBE_ONCE void fieldscribe_writes(
     const fieldscribe_modbus_request request =
         fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), what, words, count);
     (void)fieldscribe_exchange(v, place, &request, echoed);
+}
+
+/* Fills the words of a block with those of a reading and all others with a byte; whether the block has them. */
+FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_modbus_reading *block,
+    const fieldscribe_modbus_reading *what, const uint16_t *words, int byte)
+{
+    const size_t place = (size_t)what->address - block->address;
+    if (block->function != what->function || what->address < block->address || place + what->count > block->count) {
+        return false;
+    }
+    memset(all, byte, (size_t)block->count * sizeof all[0]);
+    memcpy(all + place, words, (size_t)what->count * sizeof words[0]);
+    return true;
+}
+
+#define FIELDSCRIBE_MEMBER(point, member, raw_type, decode)                                      \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), point)) {                              \
+        fieldscribe_agree(v, group.member == decode((raw_type)fieldscribe_bits(v, "raw")));      \
+    }
+
+#define FIELDSCRIBE_MEMBER_TEXT(point, member)                                                   \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), point)) {                              \
+        fieldscribe_agree(v, fieldscribe_is_text_of(group.member, words, what->count));          \
+    }
+
+/* Whether a text is that of these words, two characters each, without the spaces at its end. */
+FIELDSCRIBE_ONCE bool fieldscribe_is_text_of(const char *text, const uint16_t *words, size_t count)
+{
+    size_t at;
+    size_t length = 2U * count;
+    while (length > 0U && ((words[(length - 1U) / 2U] >> (length % 2U == 0U ? 0 : 8)) & 0xFFU) == 0x20U) {
+        --length;
+    }
+    for (at = 0U; at < length; ++at) {
+        if ((uint8_t)text[at] != ((words[at / 2U] >> (at % 2U == 0U ? 8 : 0)) & 0xFFU)) {
+            return false;
+        }
+    }
+    return text[length] == '\0';
+}
+
+FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
+    fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
+{
+    const fieldscribe_members *members = fieldscribe_tables_of(v)->members;
+    for (; *members != NULL; ++members) {
+        (*members)(v, what, words);
+    }
 }
 
 #define FIELDSCRIBE_COMMAND(command, constant, number)                                           \
@@ -175,6 +274,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes(
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
             fieldscribe_agree(v, fieldscribe_is_in_blocks(&(frame).read));                       \
+            fieldscribe_fills_groups(v, &(frame).read, words);                                   \
         }                                                                                        \
     }
 
@@ -188,6 +288,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes(
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_is_words(v, "words", words, request.count);                              \
             fieldscribe_agree(v, request.count == (total) && fieldscribe_reads_text(&(frame).text, words)); \
+            fieldscribe_fills_groups(v, &(frame).read, words);                                   \
         }                                                                                        \
     }
 

@@ -63,29 +63,76 @@ static inline void fieldscribe_receives(
     }
 }
 
-/* Sends a request of the script with process data, and reads what comes back into `words`; whether it is an answer. */
-FIELDSCRIBE_ONCE bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
-    uint16_t *words, fieldscribe_uss_reply *reply)
+/* Sends a request of the script with process data and parses what comes back; the status is that of the answer. */
+FIELDSCRIBE_ONCE fieldscribe_uss_status fieldscribe_ask(fieldscribe_vector *v, size_t place,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply)
 {
     const fieldscribe_uss_link link = fieldscribe_read_link(v);
-    const fieldscribe_uss_words process = {words, link.pzd};
     uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
     const char *sent = NULL;
     const char *received = NULL;
     fieldscribe_uss_status status;
     size_t length = 0U;
     if (!fieldscribe_step(v, place, &sent, &received)) {
-        return false;
+        return FIELDSCRIBE_USS_NOISE;
     }
-    *reply = fieldscribe_reply_into(words, 256U);
     status = fieldscribe_uss_build(
-        fieldscribe_tables_of(v)->profile, &link, request, &process, bytes, sizeof bytes, &length);
+        fieldscribe_tables_of(v)->profile, &link, request, process, bytes, sizeof bytes, &length);
     fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK);
     fieldscribe_sends(v, sent, bytes, length);
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_uss_parse(fieldscribe_tables_of(v)->profile, &link, request, bytes, length, reply);
     fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    return status == FIELDSCRIBE_USS_OK;
+    return status;
+}
+
+/* The same with words that are sent and replaced by those that come back; whether it is an answer. */
+FIELDSCRIBE_ONCE bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
+    uint16_t *words, fieldscribe_uss_reply *reply)
+{
+    const fieldscribe_uss_words process = {words, fieldscribe_read_link(v).pzd};
+    *reply = fieldscribe_reply_into(words, 256U);
+    return fieldscribe_ask(v, place, request, &process, reply) == FIELDSCRIBE_USS_OK;
+}
+
+/* The vector whose exchange a call does, its line, and how many of its steps were done. */
+static fieldscribe_vector *fieldscribe_called;
+static fieldscribe_uss_link fieldscribe_called_link;
+static fieldscribe_uss_line fieldscribe_called_line;
+static size_t fieldscribe_done;
+
+FIELDSCRIBE_ONCE fieldscribe_uss_status fieldscribe_ask_script(const fieldscribe_uss_line *line,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply)
+{
+    const size_t count = line->link->pzd;
+    fieldscribe_agree(fieldscribe_called, line == &fieldscribe_called_line && process->count == count &&
+        reply->room == count && reply->process != NULL);
+    return fieldscribe_ask(fieldscribe_called, fieldscribe_done++, request, process, reply);
+}
+
+/* The unit of a handle whose exchange is the script. */
+FIELDSCRIBE_ONCE fieldscribe_uss_unit fieldscribe_called_unit(fieldscribe_vector *v)
+{
+    static const uint16_t sent[256];
+    static uint16_t heard[256];
+    const fieldscribe_uss_unit unit = {&fieldscribe_called_line, &fieldscribe_ask_script, sent, heard,
+        (uint8_t)fieldscribe_bits(v, "unit"), 0x7FU};
+    fieldscribe_called = v;
+    fieldscribe_called_link = fieldscribe_read_link(v);
+    fieldscribe_called_line.link = &fieldscribe_called_link;
+    fieldscribe_done = 0U;
+    return unit;
+}
+
+/* A call does the whole script, and says what its exchange or its conversion says. */
+FIELDSCRIBE_ONCE void fieldscribe_is_called(
+    fieldscribe_vector *v, const fieldscribe_uss_unit *unit, int status, int converted)
+{
+    const fieldscribe_uss_status exchanged = converted == 0 ? (fieldscribe_uss_status)status : FIELDSCRIBE_USS_OK;
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(exchanged));
+    fieldscribe_agree(v, converted == 0 || converted == status);
+    fieldscribe_agree(v, fieldscribe_done == fieldscribe_steps(v));
+    fieldscribe_agree(v, unit->error != 0x7FU && (unit->error == 0U || exchanged == FIELDSCRIBE_USS_REFUSED));
 }
 
 /* The words of a value; a value of another width, and of none, brings none. */

@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.model import Device
 from fieldscribe.targets.c.literals import raw_type, wire_kind
 from support.c_device import SANITIZING, program, run_program, write_headers
-from support.described import made, shipped
+from support.described import made
 from support.python_families import uss_device
 
 HANDLES = {
@@ -68,9 +68,3 @@ def check(device: Device, way: str, out: Path) -> None:
 @pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_codes", "sample_uss"])
 def test_a_call_does_what_codec_and_frames_do(device: str, way: str, tmp_path: Path) -> None:
     check(uss_device() if device == "sample_uss" else made(device), way, tmp_path)
-
-
-@pytest.mark.full(seconds=5)
-@pytest.mark.parametrize("device", ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4"])
-def test_calls_of_shipped_devices(device: str, tmp_path: Path) -> None:
-    check(shipped(device), "quick", tmp_path)

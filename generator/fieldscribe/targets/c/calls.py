@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from fieldscribe.targets.c.conversions import value_type
@@ -50,6 +50,35 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
             encoded = _encoding(view, kind, value, tail, scope.passed(names))
             body = called(f"{start}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
             yield function(f"{start}CALL", f"{scope.prefix}_{verb}_{view.fields.item}", parameters, body)
+
+
+def call_cases(
+    view: PointView, transfer: Transfer, scope: HeaderScope, arguments: Callable[[tuple[str, ...]], str]
+) -> Iterator[str]:
+    """Yield the macros of the conformance program that call these functions; `arguments` passes other points' numbers.
+
+    A value to write is what the raw number decodes to. It is not written where a point is only written and not raw, or
+    has counts of a floating-point number, which not every pattern is.
+    """
+    if view.shape == "text":
+        return
+    point, device, (value, kind, tail) = view.point, f"{scope.prefix}_device", _value(view)
+    scale = point.scale_arguments if view.shape == "ruled" and tail else ()
+    decoded = called(f"{view.function}_decode{tail}", f"raw {arguments(scale)}".rstrip(), f"&{value}")
+    fails = tail is not None and _decoding(view, value, tail, ())[0] == "DECODE"
+    if not fails:
+        decoded = f"{value} = " + (f"({kind})raw" if tail is None else called(f"{view.function}_decode{tail}", "raw"))
+    types = f"{kind}, {view.raw_type}"
+    if transfer.read:
+        result = f"(int){decoded}" if fails else f"({decoded}, 0)"
+        item = f"{scope.prefix}_read_{view.fields.item}"
+        yield f"CALL_READ({device}, {item}, {types}, {value}, {arguments(scale)}, {result})"
+    for verb, to in (("write", transfer.write), ("store", transfer.store)):
+        if to and (tail is None or (point.readable and not point.info.floating)):
+            names = point.arguments if tail is not None else point.limit_arguments
+            result = f"fieldscribe_agree(v, (int){decoded} == 0)" if fails else decoded
+            item = f"{scope.prefix}_{verb}_{view.fields.item}"
+            yield f'CALL_WRITE("{verb}", {device}, {item}, {types}, {value}, {arguments(names)}, {result})'
 
 
 def _several(view: PointView) -> str:

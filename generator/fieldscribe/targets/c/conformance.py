@@ -8,6 +8,7 @@ from fieldscribe.families import family
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
+from fieldscribe.targets.c.calls import call_cases
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
 from fieldscribe.targets.c.frames import Frames, frames_of
@@ -64,9 +65,15 @@ def adapters_text(
 
 
 def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:
-    of_family = [case for frames in sections for case in frames.cases(view)]
+    of_family = [case for frames in sections for case in _exchanges(view, frames, scope)]
     cases = [*_cases(view, scope), *of_family, *_flag_cases(view, scope), *_special_code_cases(view, scope)]
     return folded(render("c/adapter.c.j2", {"item": view.fields.item, "cases": cases}))
+
+
+def _exchanges(view: PointView, frames: Frames, scope: HeaderScope) -> Iterator[str]:
+    """Yield the macros for the exchanges of a point, with its frames and in one call."""
+    yield from frames.cases(view)
+    yield from call_cases(view, frames.transfer(view), scope, lambda names: _arguments_of(view.point, names, scope))
 
 
 def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:

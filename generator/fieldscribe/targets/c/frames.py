@@ -65,6 +65,10 @@ class Frames:
         """Return the macros of the conformance program for the frames of a point."""
         return self._made[view].cases if view in self._made else ()
 
+    def transfer(self, view: PointView) -> Transfer:
+        """Return what the functions that read and write a point do."""
+        return self._made[view].transfer if view in self._made else Transfer("")
+
     def text(self, render: Render, scope: HeaderScope | None) -> str:
         """Return the descriptors of all points, and with a scope the functions that read and write one."""
         return "".join(texts_of(self._points, lambda view: self._constants(view, render, scope)))

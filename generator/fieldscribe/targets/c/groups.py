@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import NamedTuple
@@ -25,11 +25,12 @@ _INDENT = 2 * "    "
 class Part(NamedTuple):
     """What one request or frame fills: the declarations of members with the statements that fill them.
 
-    `label` is the number of the request or frame in the function.
+    `label` is the number of the request or frame in the function, `points` are those that have members.
     """
 
     label: str
     members: dict[str, str]
+    points: Sequence[GeneratedPoint] = ()
 
 
 @dataclass(frozen=True)
@@ -100,6 +101,18 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
             statement = f"group->{target} = {_raw(point, name, word)};"
         remark = f" /* {c_comment(comment)} */" if comment else ""
         yield f"    {kind} {target}{ending};{remark}", "\n".join(wrapped(statement, _INDENT))
+
+
+def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
+    """Yield the macros of the conformance program that hold members against the raw numbers of their points."""
+    for point, view, _ in (each for part in values.parts for each in part.points):
+        item, kind = point.item, raw_type(point)
+        if point.text is not None:
+            yield f'MEMBER_TEXT("{item}", {item}_text)'
+        elif _is_plainly_counted(point, view):
+            yield f'MEMBER("{item}", {item}_count, {kind}, {scope.prefix}_{item}_decode_count)'
+        else:
+            yield f'MEMBER("{item}", {item}_raw, {kind}, )'
 
 
 def _raw(point: Point, name: str, word: str) -> str:

@@ -19,7 +19,7 @@ from fieldscribe.targets.c.frames import (
     frames_header,
     lies,
 )
-from fieldscribe.targets.c.groups import Members, Part, StructView
+from fieldscribe.targets.c.groups import Members, Part, StructView, member_cases
 from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -43,6 +43,7 @@ class BlocksView:
     values: StructView
     blocks: Sequence[Block]
     labels: Mapping[str, str]
+    scope: HeaderScope
 
     @property
     def rows(self) -> Iterator[tuple[str, str, str, str]]:
@@ -51,6 +52,11 @@ class BlocksView:
             ends = dict.fromkeys(self.labels[name] for name in (block.points[0], block.points[-1]))
             numbers = unsigned(block.function), hexadecimal(block.address), unsigned(block.count)
             yield *numbers, c_comment("..".join(ends))
+
+    @property
+    def cases(self) -> Iterator[str]:
+        """The macros of the conformance program for the members."""
+        return member_cases(self.values, self.scope)
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,17 +188,18 @@ def _blocks(
     def parts() -> Iterator[Part]:
         for number, block in enumerate(blocks):
             placed = [
-                members.of(each, at)
+                (each, *members.of(each, at))
                 for name in block.points
                 for each in by_name[name]
                 if (at := min(each.point.place.addresses, default=-1) - block.address) >= 0
                 and at <= block.count - each.point.words
                 and each.point.space == block.space
             ]
-            yield Part(unsigned(number), {declaration: fill for declaration, fill in placed if declaration})
+            filled = {declaration: fill for _, declaration, fill in placed if declaration}
+            yield Part(unsigned(number), filled, [each for each, declaration, _ in placed if declaration])
 
     values = StructView(f"{members.scope.prefix}_{group}_group", parts)
-    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, labels)
+    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, labels, members.scope)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
