@@ -43,8 +43,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def _numbers(path: Path) -> dict[str, bool]:
-    columns = tables.MEANINGS if path.stem.endswith("_meanings") else sheet.COLUMNS
-    return {column.name: column.is_number for column in columns}
+    columns = tables.MEANINGS if path.stem.endswith("_meanings") else (*sheet.COLUMNS, *sheet.FURTHER)
+    used = path.read_text("utf-8-sig").partition("\n")[0].split(",")
+    return {column.name: column.is_number for column in columns if column.name in used or column in sheet.COLUMNS}
 
 
 def _opened(folder: Path, pattern: str, *options: str) -> Path:

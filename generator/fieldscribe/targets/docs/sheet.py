@@ -86,7 +86,7 @@ COLUMNS = (
     _of_fact("reason"),
 )
 """The columns that every device has."""
-_FURTHER = tuple(_of_fact(key) for key in _FACTS if key not in {column.name for column in COLUMNS})
+FURTHER = tuple(_of_fact(key) for key in _FACTS if key not in {column.name for column in COLUMNS})
 """The columns of all other facts; a device has those that some point of it fills."""
 
 
@@ -140,7 +140,7 @@ def points_table(scope: DocsScope) -> Table:
 
 def _filled(scope: DocsScope) -> Iterator[Column]:
     """The further columns that some point fills."""
-    for column in _FURTHER:
+    for column in FURTHER:
         if any(_FACTS[column.name].cell_of(point, scope.context) for point in scope.device.points):
             yield column
 
