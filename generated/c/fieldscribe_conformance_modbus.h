@@ -211,8 +211,8 @@ FIELDSCRIBE_ONCE void fieldscribe_writes(
 FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_modbus_reading *block,
     const fieldscribe_modbus_reading *what, const uint16_t *words, int byte)
 {
-    const size_t place = (size_t)what->address - block->address;
-    if (block->function != what->function || what->address < block->address || place + what->count > block->count) {
+    const size_t place = what->address < block->address ? block->count : (size_t)what->address - block->address;
+    if (block->function != what->function || place + what->count > block->count) {
         return false;
     }
     memset(all, byte, (size_t)block->count * sizeof all[0]);
@@ -230,20 +230,25 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
         fieldscribe_agree(v, fieldscribe_is_text_of(group.member, words, what->count));          \
     }
 
-/* Whether a text is that of these words, two characters each, without the spaces at its end. */
+/* A character of words that hold two each, the first in the high byte. */
+static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)
+{
+    const unsigned both = words[at / 2U];
+    return (uint8_t)(at % 2U == 0U ? both >> 8 : both & 0xFFU);
+}
+
+/* Whether a text is that of these words, without the spaces at its end. */
 FIELDSCRIBE_ONCE bool fieldscribe_is_text_of(const char *text, const uint16_t *words, size_t count)
 {
-    size_t at;
     size_t length = 2U * count;
-    while (length > 0U && ((words[(length - 1U) / 2U] >> (length % 2U == 0U ? 0 : 8)) & 0xFFU) == 0x20U) {
+    size_t at = 0U;
+    while (length > 0U && fieldscribe_character(words, length - 1U) == 0x20U) {
         --length;
     }
-    for (at = 0U; at < length; ++at) {
-        if ((uint8_t)text[at] != ((words[at / 2U] >> (at % 2U == 0U ? 8 : 0)) & 0xFFU)) {
-            return false;
-        }
+    while (at < length && (uint8_t)text[at] == fieldscribe_character(words, at)) {
+        ++at;
     }
-    return text[length] == '\0';
+    return at == length && text[length] == '\0';
 }
 
 FIELDSCRIBE_ONCE void fieldscribe_fills_groups(

@@ -113,7 +113,7 @@ FIELDSCRIBE_ONCE fieldscribe_uss_status fieldscribe_ask_script(const fieldscribe
 /* The unit of a handle whose exchange is the script. */
 FIELDSCRIBE_ONCE fieldscribe_uss_unit fieldscribe_called_unit(fieldscribe_vector *v)
 {
-    static const uint16_t sent[256];
+    static const uint16_t sent[256] = {0U};
     static uint16_t heard[256];
     const fieldscribe_uss_unit unit = {&fieldscribe_called_line, &fieldscribe_ask_script, sent, heard,
         (uint8_t)fieldscribe_bits(v, "unit"), 0x7FU};

@@ -62,7 +62,7 @@ static void point_run_command(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_command, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_run_command_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_command, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_run_command_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_command_decode(raw), true))
 }
 
 static void point_direction_command(fieldscribe_vector *v)
@@ -83,7 +83,7 @@ static void point_direction_command(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_direction_command, bool, bool, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_direction_command_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_direction_command, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_direction_command_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_direction_command_decode(raw), true))
 }
 
 static void point_external_trip(fieldscribe_vector *v)
@@ -104,7 +104,7 @@ static void point_external_trip(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_external_trip, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_external_trip_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_external_trip, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_external_trip_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_external_trip_decode(raw), true))
 }
 
 static void point_trip_reset(fieldscribe_vector *v)
@@ -124,7 +124,7 @@ static void point_trip_reset(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_reset, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_trip_reset_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_trip_reset, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_trip_reset_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_reset_decode(raw), true))
 }
 
 static void point_digital_input_1(fieldscribe_vector *v)
@@ -145,7 +145,7 @@ static void point_digital_input_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_digital_input_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_decode(raw), true))
 }
 
 static void point_digital_input_2(fieldscribe_vector *v)
@@ -166,7 +166,7 @@ static void point_digital_input_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_digital_input_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_decode(raw), true))
 }
 
 static void point_digital_input_3(fieldscribe_vector *v)
@@ -187,7 +187,7 @@ static void point_digital_input_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_digital_input_3_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_decode(raw), true))
 }
 
 static void point_digital_input_4(fieldscribe_vector *v)
@@ -208,7 +208,7 @@ static void point_digital_input_4(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_digital_input_4_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_decode(raw), true))
 }
 
 static void point_digital_input_5(fieldscribe_vector *v)
@@ -229,7 +229,7 @@ static void point_digital_input_5(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5, bool, bool, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_digital_input_5_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5, bool, bool, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_decode(raw), true))
 }
 
 static void point_running(fieldscribe_vector *v)
@@ -478,7 +478,8 @@ static void point_network_frequency_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_frequency_setpoint, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_network_frequency_setpoint_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_frequency_setpoint, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_network_frequency_setpoint_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_network_frequency_setpoint_decode_count(raw), true) &&
+        (int)hitachi_l200_network_frequency_setpoint_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_inverter_status(fieldscribe_vector *v)
@@ -507,7 +508,7 @@ static void point_inverter_status(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_inverter_status, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_inverter_status_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_inverter_status, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_inverter_status_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_inverter_status_decode(raw), true))
 }
 
 static void point_network_process_value(fieldscribe_vector *v)
@@ -528,7 +529,8 @@ static void point_network_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_process_value, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_network_process_value_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_process_value, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_network_process_value_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_network_process_value_decode_count(raw), true) &&
+        (int)hitachi_l200_network_process_value_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_output_frequency(fieldscribe_vector *v)
@@ -973,7 +975,8 @@ static void point_acceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_decode_count(raw), true) &&
+        (int)hitachi_l200_acceleration_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_acceleration_time_set_2(fieldscribe_vector *v)
@@ -994,7 +997,8 @@ static void point_acceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_set_2, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_set_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_set_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_acceleration_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_deceleration_time(fieldscribe_vector *v)
@@ -1015,7 +1019,8 @@ static void point_deceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_decode_count(raw), true) &&
+        (int)hitachi_l200_deceleration_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_deceleration_time_set_2(fieldscribe_vector *v)
@@ -1036,7 +1041,8 @@ static void point_deceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_set_2, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_set_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_set_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_deceleration_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_motor_direction(fieldscribe_vector *v)
@@ -1057,7 +1063,7 @@ static void point_motor_direction(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_direction, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_direction_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_direction, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_direction_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_direction_decode(raw), true))
 }
 
 static void point_frequency_source(fieldscribe_vector *v)
@@ -1081,7 +1087,7 @@ static void point_frequency_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_decode(raw), true))
 }
 
 static void point_frequency_source_set_2(fieldscribe_vector *v)
@@ -1105,7 +1111,7 @@ static void point_frequency_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_source_set_2_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_set_2_decode(raw), true))
 }
 
 static void point_run_source(fieldscribe_vector *v)
@@ -1127,7 +1133,7 @@ static void point_run_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_run_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_decode(raw), true))
 }
 
 static void point_run_source_set_2(fieldscribe_vector *v)
@@ -1149,7 +1155,7 @@ static void point_run_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_run_source_set_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_set_2_decode(raw), true))
 }
 
 static void point_motor_rated_frequency(fieldscribe_vector *v)
@@ -1169,7 +1175,8 @@ static void point_motor_rated_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency, int32_t, uint16_t,
-        value, FIELDSCRIBE_WITH("maximum_frequency", uint16_t), value = hitachi_l200_motor_rated_frequency_decode(raw))
+        value, FIELDSCRIBE_WITH("maximum_frequency", uint16_t), (value = hitachi_l200_motor_rated_frequency_decode(raw),
+        true))
 }
 
 static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
@@ -1190,8 +1197,8 @@ static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_WITH("maximum_frequency_set_2", uint16_t), value =
-        hitachi_l200_motor_rated_frequency_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_WITH("maximum_frequency_set_2", uint16_t), (value =
+        hitachi_l200_motor_rated_frequency_set_2_decode(raw), true))
 }
 
 static void point_maximum_frequency(fieldscribe_vector *v)
@@ -1211,7 +1218,7 @@ static void point_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency, int32_t, uint16_t, value,
-        FIELDSCRIBE_WITH("motor_rated_frequency", uint16_t), value = hitachi_l200_maximum_frequency_decode(raw))
+        FIELDSCRIBE_WITH("motor_rated_frequency", uint16_t), (value = hitachi_l200_maximum_frequency_decode(raw), true))
 }
 
 static void point_maximum_frequency_set_2(fieldscribe_vector *v)
@@ -1231,8 +1238,8 @@ static void point_maximum_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_WITH("motor_rated_frequency_set_2", uint16_t), value =
-        hitachi_l200_maximum_frequency_set_2_decode(raw))
+        value, FIELDSCRIBE_WITH("motor_rated_frequency_set_2", uint16_t), (value =
+        hitachi_l200_maximum_frequency_set_2_decode(raw), true))
 }
 
 static void point_at_terminal_selection(fieldscribe_vector *v)
@@ -1255,7 +1262,7 @@ static void point_at_terminal_selection(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_at_terminal_selection, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_at_terminal_selection_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_at_terminal_selection, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_at_terminal_selection_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_at_terminal_selection_decode(raw), true))
 }
 
 static void point_input_o_minimum_frequency(fieldscribe_vector *v)
@@ -1276,7 +1283,8 @@ static void point_input_o_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_minimum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_minimum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_minimum_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_input_o_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_input_o_maximum_frequency(fieldscribe_vector *v)
@@ -1297,7 +1305,8 @@ static void point_input_o_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_maximum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_maximum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_maximum_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_input_o_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
@@ -1315,7 +1324,7 @@ static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_setpoint, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_minimum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_minimum_setpoint_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_minimum_setpoint_decode(raw), true))
 }
 
 static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
@@ -1333,7 +1342,7 @@ static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_setpoint, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_maximum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_maximum_setpoint_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_maximum_setpoint_decode(raw), true))
 }
 
 static void point_input_o_start_condition(fieldscribe_vector *v)
@@ -1354,7 +1363,7 @@ static void point_input_o_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_start_condition, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_start_condition_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_start_condition, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_o_start_condition_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_start_condition_decode(raw), true))
 }
 
 static void point_analog_input_filter(fieldscribe_vector *v)
@@ -1374,7 +1383,7 @@ static void point_analog_input_filter(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_input_filter, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_input_filter_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_input_filter, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_input_filter_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_input_filter_decode(raw), true))
 }
 
 static void point_base_frequency(fieldscribe_vector *v)
@@ -1395,7 +1404,8 @@ static void point_base_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_base_frequency_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_base_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_base_frequency_set_2(fieldscribe_vector *v)
@@ -1416,7 +1426,8 @@ static void point_base_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_base_frequency_set_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_base_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_1(fieldscribe_vector *v)
@@ -1437,7 +1448,8 @@ static void point_fixed_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_1, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_1_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_1_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_1_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_1_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_2(fieldscribe_vector *v)
@@ -1458,7 +1470,8 @@ static void point_fixed_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_2_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_2_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_3(fieldscribe_vector *v)
@@ -1479,7 +1492,8 @@ static void point_fixed_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_3, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_3_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_3_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_3_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_3_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_4(fieldscribe_vector *v)
@@ -1500,7 +1514,8 @@ static void point_fixed_frequency_4(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_4, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_4_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_4, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_4_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_4_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_4_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_5(fieldscribe_vector *v)
@@ -1521,7 +1536,8 @@ static void point_fixed_frequency_5(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_5, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_5_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_5, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_5_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_5_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_5_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_6(fieldscribe_vector *v)
@@ -1542,7 +1558,8 @@ static void point_fixed_frequency_6(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_6, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_6_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_6, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_6_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_6_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_6_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_7(fieldscribe_vector *v)
@@ -1563,7 +1580,8 @@ static void point_fixed_frequency_7(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_7, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_7_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_7, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_7_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_7_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_7_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_8(fieldscribe_vector *v)
@@ -1584,7 +1602,8 @@ static void point_fixed_frequency_8(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_8, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_8_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_8, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_8_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_8_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_8_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_9(fieldscribe_vector *v)
@@ -1605,7 +1624,8 @@ static void point_fixed_frequency_9(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_9, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_9_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_9, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_9_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_9_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_9_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_10(fieldscribe_vector *v)
@@ -1626,7 +1646,8 @@ static void point_fixed_frequency_10(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_10, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_10_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_10, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_10_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_10_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_10_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_11(fieldscribe_vector *v)
@@ -1647,7 +1668,8 @@ static void point_fixed_frequency_11(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_11, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_11_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_11, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_11_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_11_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_11_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_12(fieldscribe_vector *v)
@@ -1668,7 +1690,8 @@ static void point_fixed_frequency_12(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_12, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_12_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_12, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_12_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_12_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_12_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_13(fieldscribe_vector *v)
@@ -1689,7 +1712,8 @@ static void point_fixed_frequency_13(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_13, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_13_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_13, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_13_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_13_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_13_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_14(fieldscribe_vector *v)
@@ -1710,7 +1734,8 @@ static void point_fixed_frequency_14(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_14, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_14_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_14, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_14_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_14_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_14_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_fixed_frequency_15(fieldscribe_vector *v)
@@ -1731,7 +1756,8 @@ static void point_fixed_frequency_15(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_15, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_15_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_15, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_fixed_frequency_15_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_15_decode_count(raw), true) &&
+        (int)hitachi_l200_fixed_frequency_15_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jog_frequency(fieldscribe_vector *v)
@@ -1752,7 +1778,8 @@ static void point_jog_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jog_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_jog_frequency_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jog_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_jog_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jog_stop_mode(fieldscribe_vector *v)
@@ -1774,7 +1801,7 @@ static void point_jog_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_stop_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_jog_stop_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_stop_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_jog_stop_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_jog_stop_mode_decode(raw), true))
 }
 
 static void point_boost_mode(fieldscribe_vector *v)
@@ -1795,7 +1822,7 @@ static void point_boost_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_boost_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_decode(raw), true))
 }
 
 static void point_boost_mode_set_2(fieldscribe_vector *v)
@@ -1816,7 +1843,7 @@ static void point_boost_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_boost_mode_set_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_set_2_decode(raw), true))
 }
 
 static void point_manual_boost(fieldscribe_vector *v)
@@ -1837,7 +1864,8 @@ static void point_manual_boost(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_decode_count(raw), true) &&
+        (int)hitachi_l200_manual_boost_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_manual_boost_set_2(fieldscribe_vector *v)
@@ -1858,7 +1886,8 @@ static void point_manual_boost_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_set_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_manual_boost_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_manual_boost_frequency(fieldscribe_vector *v)
@@ -1879,7 +1908,8 @@ static void point_manual_boost_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_frequency_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_manual_boost_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
@@ -1903,7 +1933,9 @@ static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw), true)
+        && (int)hitachi_l200_manual_boost_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
+        raw)
 }
 
 static void point_vf_characteristic(fieldscribe_vector *v)
@@ -1924,7 +1956,7 @@ static void point_vf_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_vf_characteristic_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_decode(raw), true))
 }
 
 static void point_vf_characteristic_set_2(fieldscribe_vector *v)
@@ -1945,7 +1977,7 @@ static void point_vf_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_vf_characteristic_set_2_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_set_2_decode(raw), true))
 }
 
 static void point_output_voltage_setting(fieldscribe_vector *v)
@@ -1963,7 +1995,7 @@ static void point_output_voltage_setting(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_output_voltage_setting_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_decode(raw), true))
 }
 
 static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
@@ -1982,7 +2014,7 @@ static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_output_voltage_setting_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_set_2_decode(raw), true))
 }
 
 static void point_dc_brake_enable(fieldscribe_vector *v)
@@ -2003,7 +2035,7 @@ static void point_dc_brake_enable(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_enable, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_enable_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_enable_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_enable_decode(raw), true))
 }
 
 static void point_dc_brake_frequency(fieldscribe_vector *v)
@@ -2026,7 +2058,10 @@ static void point_dc_brake_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_WITH("start_frequency", uint16_t), count = hitachi_l200_dc_brake_frequency_decode_count(raw))
+        count, FIELDSCRIBE_WITH("start_frequency", uint16_t), (count =
+        hitachi_l200_dc_brake_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_dc_brake_frequency_encode_count(count FIELDSCRIBE_WITH("start_frequency", uint16_t), &again)
+        == 0 && again == raw)
 }
 
 static void point_dc_brake_delay(fieldscribe_vector *v)
@@ -2047,7 +2082,8 @@ static void point_dc_brake_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_dc_brake_delay_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_dc_brake_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_dc_brake_torque(fieldscribe_vector *v)
@@ -2065,7 +2101,7 @@ static void point_dc_brake_torque(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_torque, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_torque_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_torque, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_torque_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_torque_decode(raw), true))
 }
 
 static void point_dc_brake_time(fieldscribe_vector *v)
@@ -2086,7 +2122,8 @@ static void point_dc_brake_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_time, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_dc_brake_time_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_time_decode_count(raw), true) &&
+        (int)hitachi_l200_dc_brake_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_dc_brake_trigger(fieldscribe_vector *v)
@@ -2107,7 +2144,7 @@ static void point_dc_brake_trigger(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_trigger, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_trigger_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_trigger, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_dc_brake_trigger_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_trigger_decode(raw), true))
 }
 
 static void point_upper_frequency_limit(fieldscribe_vector *v)
@@ -2131,8 +2168,10 @@ static void point_upper_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit), fieldscribe_agree(v,
-        (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
+        count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit),
+        (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
+        (int)hitachi_l200_upper_frequency_limit_encode_count(count FIELDSCRIBE_TOGETHER(with_upper_frequency_limit),
+        &again) == 0 && again == raw)
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit, uint16_t)
@@ -2162,8 +2201,10 @@ static void point_upper_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2), fieldscribe_agree(v,
-        (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
+        uint16_t, count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2),
+        (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
+        (int)hitachi_l200_upper_frequency_limit_set_2_encode_count(count
+        FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2), &again) == 0 && again == raw)
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit_set_2, uint16_t)
@@ -2190,8 +2231,10 @@ static void point_lower_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit), fieldscribe_agree(v,
-        (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
+        count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit),
+        (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
+        (int)hitachi_l200_lower_frequency_limit_encode_count(count FIELDSCRIBE_TOGETHER(with_lower_frequency_limit),
+        &again) == 0 && again == raw)
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit, uint16_t)
@@ -2221,8 +2264,10 @@ static void point_lower_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2), fieldscribe_agree(v,
-        (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0))
+        uint16_t, count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2),
+        (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
+        (int)hitachi_l200_lower_frequency_limit_set_2_encode_count(count
+        FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2), &again) == 0 && again == raw)
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit_set_2, uint16_t)
@@ -2246,7 +2291,8 @@ static void point_jump_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_1_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_1_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jump_frequency_1_width(fieldscribe_vector *v)
@@ -2267,7 +2313,8 @@ static void point_jump_frequency_1_width(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1_width, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_width_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_1_width_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_width_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_1_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jump_frequency_2(fieldscribe_vector *v)
@@ -2288,7 +2335,8 @@ static void point_jump_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_2_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jump_frequency_2_width(fieldscribe_vector *v)
@@ -2309,7 +2357,8 @@ static void point_jump_frequency_2_width(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2_width, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_width_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_2_width_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_width_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_2_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jump_frequency_3(fieldscribe_vector *v)
@@ -2330,7 +2379,8 @@ static void point_jump_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_3_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_3_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_jump_frequency_3_width(fieldscribe_vector *v)
@@ -2351,7 +2401,8 @@ static void point_jump_frequency_3_width(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3_width, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_width_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_jump_frequency_3_width_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_width_decode_count(raw), true) &&
+        (int)hitachi_l200_jump_frequency_3_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_enable(fieldscribe_vector *v)
@@ -2372,7 +2423,7 @@ static void point_pid_enable(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_enable, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_enable_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_pid_enable_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_enable_decode(raw), true))
 }
 
 static void point_pid_proportional_gain(fieldscribe_vector *v)
@@ -2393,7 +2444,8 @@ static void point_pid_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_proportional_gain, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_proportional_gain_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_proportional_gain, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_proportional_gain_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_proportional_gain_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_proportional_gain_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_integral_time(fieldscribe_vector *v)
@@ -2414,7 +2466,8 @@ static void point_pid_integral_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_integral_time, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_integral_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_integral_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_pid_integral_time_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_integral_time_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_integral_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_derivative_time(fieldscribe_vector *v)
@@ -2435,7 +2488,8 @@ static void point_pid_derivative_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_derivative_time, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_derivative_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_derivative_time, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_derivative_time_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_derivative_time_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_derivative_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_display_factor(fieldscribe_vector *v)
@@ -2456,7 +2510,8 @@ static void point_pid_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_display_factor, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_display_factor_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_display_factor, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_display_factor_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_display_factor_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_display_factor_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_process_value_source(fieldscribe_vector *v)
@@ -2479,7 +2534,7 @@ static void point_pid_process_value_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_process_value_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_pid_process_value_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_process_value_source_decode(raw), true))
 }
 
 static void point_pid_inversion(fieldscribe_vector *v)
@@ -2500,7 +2555,7 @@ static void point_pid_inversion(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_inversion, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_inversion_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_inversion, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_pid_inversion_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_inversion_decode(raw), true))
 }
 
 static void point_pid_output_limit(fieldscribe_vector *v)
@@ -2521,7 +2576,8 @@ static void point_pid_output_limit(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_output_limit, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_output_limit_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_output_limit, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_pid_output_limit_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_output_limit_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_output_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_avr_mode(fieldscribe_vector *v)
@@ -2543,7 +2599,7 @@ static void point_avr_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_avr_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_avr_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_avr_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_avr_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_avr_mode_decode(raw), true))
 }
 
 static void point_motor_voltage(fieldscribe_vector *v)
@@ -2561,7 +2617,7 @@ static void point_motor_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_voltage, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_voltage_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_voltage, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_voltage_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_voltage_decode(raw), true))
 }
 
 static void point_acceleration_time_2(fieldscribe_vector *v)
@@ -2582,7 +2638,8 @@ static void point_acceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_2, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_time_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_2_decode_count(raw), true) &&
+        (int)hitachi_l200_acceleration_time_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_deceleration_time_2(fieldscribe_vector *v)
@@ -2603,7 +2660,8 @@ static void point_deceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_decode_count(raw), true) &&
+        (int)hitachi_l200_deceleration_time_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
@@ -2625,7 +2683,8 @@ static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2_set_2, int64_t, uint32_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2_set_2, int64_t,
-        uint32_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw))
+        uint32_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_deceleration_time_2_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_ramp_2_selection(fieldscribe_vector *v)
@@ -2646,7 +2705,7 @@ static void point_ramp_2_selection(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_ramp_2_selection_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_decode(raw), true))
 }
 
 static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
@@ -2667,7 +2726,7 @@ static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_ramp_2_selection_set_2_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_set_2_decode(raw), true))
 }
 
 static void point_acceleration_change_frequency(fieldscribe_vector *v)
@@ -2691,7 +2750,9 @@ static void point_acceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_acceleration_change_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_decode_count(raw), true)
+        && (int)hitachi_l200_acceleration_change_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
+        == raw)
 }
 
 static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2717,8 +2778,10 @@ static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency_set_2, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency_set_2,
-        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, count =
-        hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw))
+        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, (count =
+        hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_acceleration_change_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_deceleration_change_frequency(fieldscribe_vector *v)
@@ -2742,7 +2805,9 @@ static void point_deceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_deceleration_change_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_decode_count(raw), true)
+        && (int)hitachi_l200_deceleration_change_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
+        == raw)
 }
 
 static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2768,8 +2833,10 @@ static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency_set_2, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency_set_2,
-        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, count =
-        hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw))
+        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, (count =
+        hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_deceleration_change_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_acceleration_curve(fieldscribe_vector *v)
@@ -2790,7 +2857,7 @@ static void point_acceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_curve, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_acceleration_curve_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_curve, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_acceleration_curve_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_acceleration_curve_decode(raw), true))
 }
 
 static void point_deceleration_curve(fieldscribe_vector *v)
@@ -2811,7 +2878,7 @@ static void point_deceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_curve, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_deceleration_curve_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_curve, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_deceleration_curve_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_deceleration_curve_decode(raw), true))
 }
 
 static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
@@ -2833,7 +2900,8 @@ static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_input_oi_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
@@ -2855,7 +2923,8 @@ static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_input_oi_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
@@ -2873,7 +2942,7 @@ static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_setpoint, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_minimum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_minimum_setpoint_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_minimum_setpoint_decode(raw), true))
 }
 
 static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
@@ -2891,7 +2960,7 @@ static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_setpoint, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_maximum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_maximum_setpoint_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_maximum_setpoint_decode(raw), true))
 }
 
 static void point_input_oi_start_condition(fieldscribe_vector *v)
@@ -2912,7 +2981,7 @@ static void point_input_oi_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_start_condition, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_start_condition_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_start_condition, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_input_oi_start_condition_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_start_condition_decode(raw), true))
 }
 
 static void point_calculation_input_a(fieldscribe_vector *v)
@@ -2936,7 +3005,7 @@ static void point_calculation_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_a, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_a_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_a, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_input_a_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_a_decode(raw), true))
 }
 
 static void point_calculation_input_b(fieldscribe_vector *v)
@@ -2960,7 +3029,7 @@ static void point_calculation_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_b, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_b_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_b, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_input_b_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_b_decode(raw), true))
 }
 
 static void point_calculation_operator(fieldscribe_vector *v)
@@ -2982,7 +3051,7 @@ static void point_calculation_operator(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_operator, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_operator_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_operator, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_calculation_operator_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_operator_decode(raw), true))
 }
 
 static void point_frequency_offset(fieldscribe_vector *v)
@@ -3003,7 +3072,8 @@ static void point_frequency_offset(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_offset_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_frequency_offset_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_offset_decode_count(raw), true) &&
+        (int)hitachi_l200_frequency_offset_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_frequency_offset_sign(fieldscribe_vector *v)
@@ -3024,7 +3094,7 @@ static void point_frequency_offset_sign(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset_sign, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_offset_sign_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset_sign, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_frequency_offset_sign_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_offset_sign_decode(raw), true))
 }
 
 static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
@@ -3050,7 +3120,9 @@ static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_frequency, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw),
+        true) && (int)hitachi_l200_potentiometer_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
@@ -3076,7 +3148,9 @@ static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_frequency, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw),
+        true) && (int)hitachi_l200_potentiometer_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
@@ -3095,7 +3169,7 @@ static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_setpoint, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw), true))
 }
 
 static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
@@ -3114,7 +3188,7 @@ static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_setpoint, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw), true))
 }
 
 static void point_potentiometer_start_condition(fieldscribe_vector *v)
@@ -3136,7 +3210,7 @@ static void point_potentiometer_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_start_condition, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_start_condition_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_start_condition, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_potentiometer_start_condition_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_start_condition_decode(raw), true))
 }
 
 static void point_restart_mode(fieldscribe_vector *v)
@@ -3159,7 +3233,7 @@ static void point_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_restart_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_restart_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_restart_mode_decode(raw), true))
 }
 
 static void point_allowed_power_failure_time(fieldscribe_vector *v)
@@ -3181,7 +3255,8 @@ static void point_allowed_power_failure_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_allowed_power_failure_time, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_allowed_power_failure_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_allowed_power_failure_time, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_allowed_power_failure_time_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_allowed_power_failure_time_decode_count(raw), true) &&
+        (int)hitachi_l200_allowed_power_failure_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_restart_delay(fieldscribe_vector *v)
@@ -3202,7 +3277,8 @@ static void point_restart_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_restart_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_restart_delay_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_restart_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_restart_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
@@ -3224,7 +3300,7 @@ static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_trip_at_standstill, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_trip_at_standstill_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_trip_at_standstill, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_power_failure_trip_at_standstill_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_trip_at_standstill_decode(raw), true))
 }
 
 static void point_power_failure_restarts(fieldscribe_vector *v)
@@ -3245,7 +3321,7 @@ static void point_power_failure_restarts(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_restarts, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_restarts_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_restarts, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_power_failure_restarts_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_restarts_decode(raw), true))
 }
 
 static void point_motor_protection_level(fieldscribe_vector *v)
@@ -3266,7 +3342,8 @@ static void point_motor_protection_level(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_motor_protection_level_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_decode_count(raw), true) &&
+        (int)hitachi_l200_motor_protection_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_motor_protection_level_set_2(fieldscribe_vector *v)
@@ -3290,7 +3367,9 @@ static void point_motor_protection_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_motor_protection_level_set_2_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_set_2_decode_count(raw), true)
+        && (int)hitachi_l200_motor_protection_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
+        raw)
 }
 
 static void point_motor_protection_characteristic(fieldscribe_vector *v)
@@ -3313,7 +3392,7 @@ static void point_motor_protection_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_motor_protection_characteristic_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_decode(raw), true))
 }
 
 static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
@@ -3338,8 +3417,8 @@ static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic_set_2, int32_t,
         uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic_set_2,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
-        hitachi_l200_motor_protection_characteristic_set_2_decode(raw))
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_motor_protection_characteristic_set_2_decode(raw), true))
 }
 
 static void point_current_limit_mode(fieldscribe_vector *v)
@@ -3361,7 +3440,7 @@ static void point_current_limit_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_mode_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_decode(raw), true))
 }
 
 static void point_current_limit_mode_set_2(fieldscribe_vector *v)
@@ -3383,7 +3462,7 @@ static void point_current_limit_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_mode_set_2_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_set_2_decode(raw), true))
 }
 
 static void point_current_limit_level(fieldscribe_vector *v)
@@ -3404,7 +3483,8 @@ static void point_current_limit_level(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_level_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_decode_count(raw), true) &&
+        (int)hitachi_l200_current_limit_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_current_limit_level_set_2(fieldscribe_vector *v)
@@ -3425,7 +3505,8 @@ static void point_current_limit_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_level_set_2_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_current_limit_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_current_limit_time(fieldscribe_vector *v)
@@ -3446,7 +3527,8 @@ static void point_current_limit_time(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_time_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_decode_count(raw), true) &&
+        (int)hitachi_l200_current_limit_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_current_limit_time_set_2(fieldscribe_vector *v)
@@ -3467,7 +3549,8 @@ static void point_current_limit_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_current_limit_time_set_2_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_current_limit_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_current_limit_source(fieldscribe_vector *v)
@@ -3488,7 +3571,7 @@ static void point_current_limit_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_decode(raw), true))
 }
 
 static void point_current_limit_source_set_2(fieldscribe_vector *v)
@@ -3510,7 +3593,7 @@ static void point_current_limit_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_current_limit_source_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_set_2_decode(raw), true))
 }
 
 static void point_parameter_lock(fieldscribe_vector *v)
@@ -3533,7 +3616,7 @@ static void point_parameter_lock(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_parameter_lock, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_parameter_lock_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_parameter_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_parameter_lock_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_parameter_lock_decode(raw), true))
 }
 
 static void point_analog_output_gain(fieldscribe_vector *v)
@@ -3551,7 +3634,7 @@ static void point_analog_output_gain(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_gain, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_gain_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_gain, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_output_gain_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_gain_decode(raw), true))
 }
 
 static void point_start_frequency(fieldscribe_vector *v)
@@ -3572,7 +3655,8 @@ static void point_start_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_start_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_start_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_start_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_start_frequency_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_start_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_start_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_carrier_frequency(fieldscribe_vector *v)
@@ -3593,7 +3677,8 @@ static void point_carrier_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_carrier_frequency, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_carrier_frequency_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_carrier_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, count = hitachi_l200_carrier_frequency_decode_count(raw))
+        FIELDSCRIBE_ALONE, (count = hitachi_l200_carrier_frequency_decode_count(raw), true) &&
+        (int)hitachi_l200_carrier_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_initialization_mode(fieldscribe_vector *v)
@@ -3616,7 +3701,7 @@ static void point_initialization_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_initialization_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_initialization_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_initialization_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_initialization_mode_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_initialization_mode_decode(raw), true))
 }
 
 static void point_frequency_display_factor(fieldscribe_vector *v)
@@ -3637,7 +3722,8 @@ static void point_frequency_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_display_factor, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_display_factor_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_display_factor, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_frequency_display_factor_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_display_factor_decode_count(raw), true) &&
+        (int)hitachi_l200_frequency_display_factor_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_stop_key_lock(fieldscribe_vector *v)
@@ -3658,7 +3744,7 @@ static void point_stop_key_lock(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_key_lock, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_key_lock_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_key_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_stop_key_lock_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_key_lock_decode(raw), true))
 }
 
 static void point_coast_restart_mode(fieldscribe_vector *v)
@@ -3679,7 +3765,7 @@ static void point_coast_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_coast_restart_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_coast_restart_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_coast_restart_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_coast_restart_mode_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_coast_restart_mode_decode(raw), true))
 }
 
 static void point_network_display(fieldscribe_vector *v)
@@ -3705,7 +3791,7 @@ static void point_network_display(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_display, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_network_display_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_display, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_network_display_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_network_display_decode(raw), true))
 }
 
 static void point_stop_mode(fieldscribe_vector *v)
@@ -3726,7 +3812,7 @@ static void point_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = hitachi_l200_stop_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_stop_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_mode_decode(raw), true))
 }
 
 static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
@@ -3748,7 +3834,7 @@ static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_enable, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_enable_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_enable, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_overvoltage_deceleration_enable_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_enable_decode(raw), true))
 }
 
 static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
@@ -3769,8 +3855,8 @@ static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_200v, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_200v_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_200v,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
-        hitachi_l200_overvoltage_deceleration_level_200v_decode(raw))
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_overvoltage_deceleration_level_200v_decode(raw), true))
 }
 
 static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
@@ -3791,8 +3877,8 @@ static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_400v, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_400v_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_400v,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, value =
-        hitachi_l200_overvoltage_deceleration_level_400v_decode(raw))
+        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
+        hitachi_l200_overvoltage_deceleration_level_400v_decode(raw), true))
 }
 
 static void point_digital_input_1_function(fieldscribe_vector *v)
@@ -3810,7 +3896,7 @@ static void point_digital_input_1_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_decode(raw), true))
 }
 
 static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
@@ -3829,7 +3915,7 @@ static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function_set_2, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_function_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_set_2_decode(raw), true))
 }
 
 static void point_digital_input_2_function(fieldscribe_vector *v)
@@ -3847,7 +3933,7 @@ static void point_digital_input_2_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_decode(raw), true))
 }
 
 static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
@@ -3866,7 +3952,7 @@ static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function_set_2, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_function_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_set_2_decode(raw), true))
 }
 
 static void point_digital_input_3_function(fieldscribe_vector *v)
@@ -3884,7 +3970,7 @@ static void point_digital_input_3_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_decode(raw), true))
 }
 
 static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
@@ -3903,7 +3989,7 @@ static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function_set_2, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_function_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_set_2_decode(raw), true))
 }
 
 static void point_digital_input_4_function(fieldscribe_vector *v)
@@ -3921,7 +4007,7 @@ static void point_digital_input_4_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_decode(raw), true))
 }
 
 static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
@@ -3940,7 +4026,7 @@ static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function_set_2, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_function_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_set_2_decode(raw), true))
 }
 
 static void point_digital_input_5_function(fieldscribe_vector *v)
@@ -3958,7 +4044,7 @@ static void point_digital_input_5_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_decode(raw), true))
 }
 
 static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
@@ -3977,7 +4063,7 @@ static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function_set_2, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_function_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_set_2_decode(raw), true))
 }
 
 static void point_digital_input_1_contact(fieldscribe_vector *v)
@@ -3998,7 +4084,7 @@ static void point_digital_input_1_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_1_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_contact_decode(raw), true))
 }
 
 static void point_digital_input_2_contact(fieldscribe_vector *v)
@@ -4019,7 +4105,7 @@ static void point_digital_input_2_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_2_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_contact_decode(raw), true))
 }
 
 static void point_digital_input_3_contact(fieldscribe_vector *v)
@@ -4040,7 +4126,7 @@ static void point_digital_input_3_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_3_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_contact_decode(raw), true))
 }
 
 static void point_digital_input_4_contact(fieldscribe_vector *v)
@@ -4061,7 +4147,7 @@ static void point_digital_input_4_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_4_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_contact_decode(raw), true))
 }
 
 static void point_digital_input_5_contact(fieldscribe_vector *v)
@@ -4082,7 +4168,7 @@ static void point_digital_input_5_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_input_5_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_contact_decode(raw), true))
 }
 
 static void point_digital_output_11_function(fieldscribe_vector *v)
@@ -4101,7 +4187,7 @@ static void point_digital_output_11_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_function, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_11_function_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_function_decode(raw), true))
 }
 
 static void point_digital_output_12_function(fieldscribe_vector *v)
@@ -4120,7 +4206,7 @@ static void point_digital_output_12_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_function, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_12_function_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_function_decode(raw), true))
 }
 
 static void point_relay_output_function(fieldscribe_vector *v)
@@ -4138,7 +4224,7 @@ static void point_relay_output_function(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_function, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_function_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_relay_output_function_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_function_decode(raw), true))
 }
 
 static void point_analog_output_source(fieldscribe_vector *v)
@@ -4159,7 +4245,7 @@ static void point_analog_output_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_analog_output_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_source_decode(raw), true))
 }
 
 static void point_digital_output_11_contact(fieldscribe_vector *v)
@@ -4180,7 +4266,7 @@ static void point_digital_output_11_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_contact, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_11_contact_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_contact_decode(raw), true))
 }
 
 static void point_digital_output_12_contact(fieldscribe_vector *v)
@@ -4201,7 +4287,7 @@ static void point_digital_output_12_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_contact, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_digital_output_12_contact_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_contact_decode(raw), true))
 }
 
 static void point_relay_output_contact(fieldscribe_vector *v)
@@ -4222,7 +4308,7 @@ static void point_relay_output_contact(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_contact, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_contact_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_relay_output_contact_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_contact_decode(raw), true))
 }
 
 static void point_overload_alarm_level(fieldscribe_vector *v)
@@ -4243,7 +4329,8 @@ static void point_overload_alarm_level(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_overload_alarm_level_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_decode_count(raw), true) &&
+        (int)hitachi_l200_overload_alarm_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
@@ -4265,7 +4352,8 @@ static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level_set_2, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw), true) &&
+        (int)hitachi_l200_overload_alarm_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
@@ -4291,7 +4379,9 @@ static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_acceleration, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_acceleration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw),
+        true) && (int)hitachi_l200_arrival_frequency_acceleration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
@@ -4317,7 +4407,9 @@ static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_deceleration, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_deceleration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw),
+        true) && (int)hitachi_l200_arrival_frequency_deceleration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
+        again == raw)
 }
 
 static void point_pid_deviation_level(fieldscribe_vector *v)
@@ -4338,7 +4430,8 @@ static void point_pid_deviation_level(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_deviation_level, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_deviation_level_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_deviation_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_deviation_level_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_deviation_level_decode_count(raw), true) &&
+        (int)hitachi_l200_pid_deviation_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
@@ -4362,7 +4455,9 @@ static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_upper_limit, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_upper_limit, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw), true)
+        && (int)hitachi_l200_pid_process_value_upper_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
+        == raw)
 }
 
 static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
@@ -4386,7 +4481,9 @@ static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_lower_limit, int32_t, uint16_t,
         count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_lower_limit, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw), true)
+        && (int)hitachi_l200_pid_process_value_lower_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
+        == raw)
 }
 
 static void point_input_o_calibration(fieldscribe_vector *v)
@@ -4407,7 +4504,8 @@ static void point_input_o_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_calibration, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_calibration_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_calibration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_o_calibration_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_calibration_decode_count(raw), true) &&
+        (int)hitachi_l200_input_o_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_input_oi_calibration(fieldscribe_vector *v)
@@ -4428,7 +4526,8 @@ static void point_input_oi_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_calibration, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_calibration_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_calibration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_input_oi_calibration_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_calibration_decode_count(raw), true) &&
+        (int)hitachi_l200_input_oi_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_thermistor_input_calibration(fieldscribe_vector *v)
@@ -4452,7 +4551,9 @@ static void point_thermistor_input_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_thermistor_input_calibration, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_thermistor_input_calibration_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_thermistor_input_calibration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_thermistor_input_calibration_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_thermistor_input_calibration_decode_count(raw), true)
+        && (int)hitachi_l200_thermistor_input_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
+        raw)
 }
 
 static void point_analog_output_offset(fieldscribe_vector *v)
@@ -4473,7 +4574,8 @@ static void point_analog_output_offset(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_offset, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_analog_output_offset_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_offset, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_analog_output_offset_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_analog_output_offset_decode_count(raw), true) &&
+        (int)hitachi_l200_analog_output_offset_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_motor_potentiometer_memory(fieldscribe_vector *v)
@@ -4495,7 +4597,7 @@ static void point_motor_potentiometer_memory(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_potentiometer_memory, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_potentiometer_memory_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_potentiometer_memory, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_motor_potentiometer_memory_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_potentiometer_memory_decode(raw), true))
 }
 
 static void point_reset_mode(fieldscribe_vector *v)
@@ -4517,7 +4619,7 @@ static void point_reset_mode(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_reset_mode, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_reset_mode_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_reset_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_reset_mode_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_reset_mode_decode(raw), true))
 }
 
 static void point_logic_input_a(fieldscribe_vector *v)
@@ -4535,7 +4637,7 @@ static void point_logic_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_a, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_a_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_a, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_input_a_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_a_decode(raw), true))
 }
 
 static void point_logic_input_b(fieldscribe_vector *v)
@@ -4553,7 +4655,7 @@ static void point_logic_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_b, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_b_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_b, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_input_b_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_b_decode(raw), true))
 }
 
 static void point_logic_operator(fieldscribe_vector *v)
@@ -4575,7 +4677,7 @@ static void point_logic_operator(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_operator, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_operator_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_operator, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_logic_operator_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_operator_decode(raw), true))
 }
 
 static void point_digital_output_11_on_delay(fieldscribe_vector *v)
@@ -4597,7 +4699,8 @@ static void point_digital_output_11_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_on_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_on_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_on_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_11_on_delay_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_on_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_digital_output_11_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_digital_output_11_off_delay(fieldscribe_vector *v)
@@ -4621,7 +4724,9 @@ static void point_digital_output_11_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_off_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_off_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_off_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_11_off_delay_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_off_delay_decode_count(raw), true)
+        && (int)hitachi_l200_digital_output_11_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
+        raw)
 }
 
 static void point_digital_output_12_on_delay(fieldscribe_vector *v)
@@ -4643,7 +4748,8 @@ static void point_digital_output_12_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_on_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_on_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_on_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_12_on_delay_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_on_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_digital_output_12_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_digital_output_12_off_delay(fieldscribe_vector *v)
@@ -4667,7 +4773,9 @@ static void point_digital_output_12_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_off_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_off_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_off_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, count = hitachi_l200_digital_output_12_off_delay_decode_count(raw))
+        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_off_delay_decode_count(raw), true)
+        && (int)hitachi_l200_digital_output_12_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
+        raw)
 }
 
 static void point_relay_output_on_delay(fieldscribe_vector *v)
@@ -4688,7 +4796,8 @@ static void point_relay_output_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_on_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_on_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_on_delay, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_relay_output_on_delay_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_on_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_relay_output_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_relay_output_off_delay(fieldscribe_vector *v)
@@ -4709,7 +4818,8 @@ static void point_relay_output_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_off_delay, int32_t, uint16_t, count,
         FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_off_delay_decode_count(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_off_delay, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, count = hitachi_l200_relay_output_off_delay_decode_count(raw))
+        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_off_delay_decode_count(raw), true) &&
+        (int)hitachi_l200_relay_output_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
 }
 
 static void point_motor_power(fieldscribe_vector *v)
@@ -4741,7 +4851,7 @@ static void point_motor_power(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_power_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_decode(raw), true))
 }
 
 static void point_motor_power_set_2(fieldscribe_vector *v)
@@ -4773,7 +4883,7 @@ static void point_motor_power_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_power_set_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_set_2_decode(raw), true))
 }
 
 static void point_motor_poles(fieldscribe_vector *v)
@@ -4796,7 +4906,7 @@ static void point_motor_poles(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_poles_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_decode(raw), true))
 }
 
 static void point_motor_poles_set_2(fieldscribe_vector *v)
@@ -4819,7 +4929,7 @@ static void point_motor_poles_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = hitachi_l200_motor_poles_set_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_set_2_decode(raw), true))
 }
 
 static void point_stabilization_constant(fieldscribe_vector *v)
@@ -4837,7 +4947,7 @@ static void point_stabilization_constant(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = hitachi_l200_stabilization_constant_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_decode(raw), true))
 }
 
 static void point_stabilization_constant_set_2(fieldscribe_vector *v)
@@ -4856,7 +4966,7 @@ static void point_stabilization_constant_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant_set_2, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_set_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = hitachi_l200_stabilization_constant_set_2_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_set_2_decode(raw), true))
 }
 
 static const fieldscribe_status_name statuses[] = {

@@ -193,7 +193,7 @@ static void point_binary_output_control(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_binary_output_control, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = jumo_controller_binary_output_control_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_binary_output_control, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = jumo_controller_binary_output_control_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_binary_output_control_decode(raw), true))
     FIELDSCRIBE_TRUTH("output_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U)
@@ -406,7 +406,7 @@ static void point_program_controller_commands(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_program_controller_commands, int32_t, uint16_t,
         value, FIELDSCRIBE_ALONE, (value = jumo_controller_program_controller_commands_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_program_controller_commands, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = jumo_controller_program_controller_commands_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_program_controller_commands_decode(raw), true))
     FIELDSCRIBE_TRUTH("hold_program", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
         & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U)
@@ -435,7 +435,7 @@ static void point_controller_commands(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_controller_commands, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = jumo_controller_controller_commands_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_controller_commands, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = jumo_controller_controller_commands_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_controller_commands_decode(raw), true))
     FIELDSCRIBE_TRUTH("hold_ramp", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U)
@@ -473,7 +473,7 @@ static void point_operation_commands(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_operation_commands, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = jumo_controller_operation_commands_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_operation_commands, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = jumo_controller_operation_commands_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = jumo_controller_operation_commands_decode(raw), true))
     FIELDSCRIBE_TRUTH("displays_off", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U)
@@ -499,7 +499,7 @@ static void point_timer_commands(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_commands, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = jumo_controller_timer_commands_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_timer_commands, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = jumo_controller_timer_commands_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = jumo_controller_timer_commands_decode(raw), true))
     FIELDSCRIBE_TRUTH("hold_timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U)

@@ -24,7 +24,7 @@ static void point_control_word(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_control_word, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = nord_sk5xxe_control_word_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_control_word, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_control_word_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_control_word_decode(raw), true))
     FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
         NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U)
@@ -90,7 +90,7 @@ static void point_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_1, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = nord_sk5xxe_setpoint_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_1_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_1_decode(raw), true))
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
@@ -108,7 +108,7 @@ static void point_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_2, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = nord_sk5xxe_setpoint_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_2_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_2_decode(raw), true))
 }
 
 static void point_setpoint_3(fieldscribe_vector *v)
@@ -126,7 +126,7 @@ static void point_setpoint_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_3, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = nord_sk5xxe_setpoint_3_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_3, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_3_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_3_decode(raw), true))
 }
 
 static void point_setpoint_4(fieldscribe_vector *v)
@@ -144,7 +144,7 @@ static void point_setpoint_4(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_4, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = nord_sk5xxe_setpoint_4_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_4, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_4_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_4_decode(raw), true))
 }
 
 static void point_setpoint_5(fieldscribe_vector *v)
@@ -162,7 +162,7 @@ static void point_setpoint_5(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_5, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
         (value = nord_sk5xxe_setpoint_5_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_5, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = nord_sk5xxe_setpoint_5_decode(raw))
+        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_5_decode(raw), true))
 }
 
 static void point_status_word(fieldscribe_vector *v)

@@ -47,9 +47,9 @@ static void point_user_access_level(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_user_access_level, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_user_access_level, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_user_access_level_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_user_access_level, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_user_access_level_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), true))
 }
 
 static void point_inverter_status_word(fieldscribe_vector *v)
@@ -140,9 +140,9 @@ static void point_command_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_command_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_command_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_command_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_command_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_command_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), true))
 }
 
 static void point_p0731_source(fieldscribe_vector *v)
@@ -162,9 +162,9 @@ static void point_p0731_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_p0731_source, int64_t, uint32_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_p0731_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_p0731_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_p0731_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_p0731_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_p0731_source_source_parameter((uint32_t)fieldscribe_bits(v,
         "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
     FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_p0731_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
@@ -191,9 +191,9 @@ static void point_main_setpoint_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_main_setpoint_source, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_main_setpoint_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_main_setpoint_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_main_setpoint_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_main_setpoint_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), true))
 }
 
 static void point_maximum_frequency(fieldscribe_vector *v)
@@ -230,9 +230,9 @@ static void point_jog_time_selection_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_jog_time_selection_source, int64_t, uint32_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_jog_time_selection_source, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_jog_time_selection_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_jog_time_selection_source, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_jog_time_selection_source_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_jog_time_selection_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER)
@@ -257,9 +257,9 @@ static void point_dc_braking_source(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_dc_braking_source, int64_t, uint32_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_dc_braking_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_dc_braking_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_dc_braking_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, value = siemens_mm4_dc_braking_source_decode(raw))
+        FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_dc_braking_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER)
@@ -286,9 +286,9 @@ static void point_output_phase_sequence(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_output_phase_sequence, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_output_phase_sequence, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_output_phase_sequence_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_output_phase_sequence, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_output_phase_sequence_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), true))
 }
 
 static void point_reference_frequency(fieldscribe_vector *v)
@@ -330,9 +330,9 @@ static void point_uss_normalisation_rs485(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_normalisation_rs485, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_normalisation_rs485, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_normalisation_rs485_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_normalisation_rs485, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_normalisation_rs485_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), true))
 }
 
 static void point_uss_normalisation_rs232(fieldscribe_vector *v)
@@ -357,9 +357,9 @@ static void point_uss_normalisation_rs232(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_normalisation_rs232, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_normalisation_rs232, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_normalisation_rs232_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_normalisation_rs232, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_normalisation_rs232_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), true))
 }
 
 static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
@@ -381,9 +381,9 @@ static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_baud_rate_index_0, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_baud_rate_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_baud_rate_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_baud_rate_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_baud_rate_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), true))
 }
 
 static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
@@ -405,9 +405,9 @@ static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_baud_rate_index_1, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_baud_rate_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_baud_rate_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_baud_rate_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_baud_rate_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), true))
 }
 
 static void point_uss_slave_address_index_0(fieldscribe_vector *v)
@@ -429,9 +429,9 @@ static void point_uss_slave_address_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_slave_address_index_0, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_slave_address_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_slave_address_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_slave_address_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_slave_address_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), true))
 }
 
 static void point_uss_slave_address_index_1(fieldscribe_vector *v)
@@ -453,9 +453,9 @@ static void point_uss_slave_address_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_slave_address_index_1, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_slave_address_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_slave_address_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_slave_address_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_slave_address_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
@@ -477,9 +477,9 @@ static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm410, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
@@ -501,9 +501,9 @@ static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm420, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
@@ -525,9 +525,9 @@ static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm430, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
@@ -549,9 +549,9 @@ static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm440, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
@@ -573,9 +573,9 @@ static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm410, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
@@ -597,9 +597,9 @@ static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm420, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
@@ -621,9 +621,9 @@ static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm430, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), true))
 }
 
 static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
@@ -645,9 +645,9 @@ static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm440, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw))
+        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), true))
 }
 
 static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
@@ -674,9 +674,9 @@ static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pkw_length_index_0, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pkw_length_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pkw_length_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pkw_length_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pkw_length_index_0_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), true))
 }
 
 static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
@@ -703,9 +703,9 @@ static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pkw_length_index_1, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pkw_length_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pkw_length_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pkw_length_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_pkw_length_index_1_decode(raw))
+        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), true))
 }
 
 static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
@@ -727,11 +727,11 @@ static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_telegram_off_time_index_0, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE, &value))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_telegram_off_time_index_0, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, fieldscribe_agree(v,
-        (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE, &value) == 0))
+        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE,
+        &value) == 0)
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_telegram_off_time_index_0, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, fieldscribe_agree(v,
-        (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE, &value) == 0))
+        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE,
+        &value) == 0)
     FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF,
         SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_0, uint16_t)
@@ -756,11 +756,11 @@ static void point_uss_telegram_off_time_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_telegram_off_time_index_1, int32_t, uint16_t, value,
         FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE, &value))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_telegram_off_time_index_1, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, fieldscribe_agree(v,
-        (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE, &value) == 0))
+        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE,
+        &value) == 0)
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_telegram_off_time_index_1, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, fieldscribe_agree(v,
-        (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE, &value) == 0))
+        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE,
+        &value) == 0)
     FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF,
         SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_1, uint16_t)
@@ -785,9 +785,9 @@ static void point_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_0, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
@@ -815,9 +815,9 @@ static void point_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_1, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
@@ -845,9 +845,9 @@ static void point_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_2, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
@@ -875,9 +875,9 @@ static void point_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_3, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
@@ -905,9 +905,9 @@ static void point_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_0, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
@@ -935,9 +935,9 @@ static void point_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_1, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
@@ -965,9 +965,9 @@ static void point_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_2, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
@@ -995,9 +995,9 @@ static void point_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
     FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_3, int64_t, uint32_t,
         value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), 0))
     FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), true))
     FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw))
+        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), true))
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)

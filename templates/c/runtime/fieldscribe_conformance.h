@@ -1044,7 +1044,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 
 /*
  * A point in one call: what its frames and its codec do. `decoded` stores what `raw` means in `number` and gives the
- * status of that, `valued` stores it alone.
+ * status of that; `valued` stores it, too, and says whether the number may stand for `raw`.
  */
 #define FIELDSCRIBE_CALL_READ(device_type, call, type, raw_type, number, with, decoded)          \
     if (fieldscribe_asks(v, "read")) {                                                           \
@@ -1068,11 +1068,13 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
     if (fieldscribe_asks(v, kind)) {                                                             \
         device_type device = {fieldscribe_called_unit(v)};                                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        raw_type again = raw;                                                                    \
         type number = (type)0;                                                                   \
-        int status;                                                                              \
-        valued;                                                                                  \
-        status = (int)call(&device with, number);                                                \
-        fieldscribe_is_called(v, &device.unit, status, 0);                                       \
+        (void)again;                                                                             \
+        if (valued) {                                                                            \
+            const int status = (int)call(&device with, number);                                  \
+            fieldscribe_is_called(v, &device.unit, status, 0);                                   \
+        }                                                                                        \
     }
 
 /* Whether bytes are those of the step that are to be sent. */

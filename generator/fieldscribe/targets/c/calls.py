@@ -57,8 +57,8 @@ def call_cases(
 ) -> Iterator[str]:
     """Yield the macros of the conformance program that call these functions; `arguments` passes other points' numbers.
 
-    A value to write is what the raw number decodes to. It is not written where a point is only written and not raw, or
-    has counts of a floating-point number, which not every pattern is.
+    A value to write is what the raw number decodes to, if that encodes to it. None is written where a point is only
+    written and not raw, or has counts of a floating-point number, which not every pattern is.
     """
     if view.shape == "text":
         return
@@ -76,7 +76,10 @@ def call_cases(
     for verb, to in (("write", transfer.write), ("store", transfer.store)):
         if to and (tail is None or (point.readable and not point.info.floating)):
             names = point.arguments if tail is not None else point.limit_arguments
-            result = f"fieldscribe_agree(v, (int){decoded} == 0)" if fails else decoded
+            result = f"(int){decoded} == 0" if fails else f"({decoded}, true)"
+            if tail == "_count":  # not every raw number is a whole count
+                encoded = called(f"{view.function}_encode{tail}", f"{value} {arguments(names)}", "&again")
+                result = f"{result} && (int){encoded} == 0 && again == raw"
             item = f"{scope.prefix}_{verb}_{view.fields.item}"
             yield f'CALL_WRITE("{verb}", {device}, {item}, {types}, {value}, {arguments(names)}, {result})'
 
