@@ -36,19 +36,8 @@ WORDS = (
     *("words", "address", "code", "space", "name", "class", "self", "type", "fn", "none", "true", "value", "of"),
     *("read", "write", "request", "command", "encode", "decode", "check", "first", "last", "with", "get", "all_false"),
     *(
-        "group_count",
-        "exception",
-        "status",
-        "ok",
-        "points",
-        "enums",
-        "factors",
-        "flags",
-        "old",
-        "unit",
-        "link",
-        "1",
-        "12",
+        *("group_count", "exception", "status", "ok", "points", "enums", "factors", "flags", "old", "unit", "link"),
+        *("1", "12"),
     ),
 )
 
@@ -185,10 +174,7 @@ NAMES_OF_FLAGS = {
     "c": {
         "on": ("MADE_UP_STATE_ON_MASK",),
         "mode": (
-            "MADE_UP_STATE_MODE_MASK",
-            "MADE_UP_STATE_MODE_SHIFT",
-            "MADE_UP_STATE_MODE_A",
-            "MADE_UP_STATE_MODE_B",
+            *("MADE_UP_STATE_MODE_MASK", "MADE_UP_STATE_MODE_SHIFT", "MADE_UP_STATE_MODE_A", "MADE_UP_STATE_MODE_B"),
             "made_up_state_mode",
         ),
         "low": ("MADE_UP_STATE_LOW_MASK",),

@@ -124,12 +124,6 @@ def test_in_rust(folder: Path) -> None:
     (folder / "rust/Cargo.toml").write_text('[workspace]\nmembers = ["made_up"]\nresolver = "2"\n', "utf-8")
     ran(
         tool("cargo"),
-        "test",
-        "--offline",
-        "--quiet",
-        "--package",
-        "made_up",
-        "--test",
-        "old_names",
+        *("test", "--offline", "--quiet", "--package", "made_up", "--test", "old_names"),
         cwd=folder / "rust",
     )

@@ -243,13 +243,7 @@ def test_hostile_texts_stay_strings() -> None:
     assert message.name == "cycle"
     names = {signal.name for signal in message.signals}
     assert {
-        "swapped_high",
-        "swapped_low",
-        "wide_high",
-        "wide_low",
-        "group",
-        "message",
-        "cycle_word_8",
+        *("swapped_high", "swapped_low", "wide_high", "wide_low", "group", "message", "cycle_word_8"),
         device.points[0].name,
     } <= names
     assert all("\n" not in line for line in text.split("\n"))

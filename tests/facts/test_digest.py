@@ -99,23 +99,12 @@ def code(device: Device) -> dict[str, str]:
 
 NO_FACTS = (
     *(
-        "Device.id",
-        "Device.version",
-        "Device.digest",
-        "Device.command",
-        "Device.family",
-        "Device.blocks",
+        *("Device.id", "Device.version", "Device.digest", "Device.command", "Device.family", "Device.blocks"),
         "Device.enums",
     ),
     *(
-        "Bus.line_numbers",
-        "Block.space",
-        "Block.function",
-        "Block.address",
-        "Block.count",
-        "Block.points",
-        "Code.most",
-        "Frame.family_facts",
+        *("Bus.line_numbers", "Block.space", "Block.function", "Block.address", "Block.count", "Block.points"),
+        *("Code.most", "Frame.family_facts"),
     ),
     *("Point.errata", "Frame.errata", "Enum.title", "Enum.was", "Erratum.where", "ScaleCase.written"),
     *("Shape.width", "Shape.encodes_values", "Shape.most_raw", "Text.characters", "ScaleCase.raw", "Factor.within"),

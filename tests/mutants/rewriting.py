@@ -57,17 +57,7 @@ def _is_number(node: ast.expr) -> bool:
 
 
 _GENERIC = (
-    "tuple",
-    "list",
-    "dict",
-    "set",
-    "frozenset",
-    "type",
-    "Callable",
-    "Mapping",
-    "Sequence",
-    "Iterable",
-    "Iterator",
+    *("tuple", "list", "dict", "set", "frozenset", "type", "Callable", "Mapping", "Sequence", "Iterable", "Iterator"),
 )
 
 

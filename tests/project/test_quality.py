@@ -39,13 +39,7 @@ def test_mypy_and_ruff_of_the_generated_python() -> None:
     assert places
     assert_clean(
         run(
-            sys.executable,
-            "-m",
-            "mypy",
-            "--config-file",
-            os.devnull,
-            "--strict",
-            "--no-error-summary",
+            *(sys.executable, "-m", "mypy", "--config-file", os.devnull, "--strict", "--no-error-summary"),
             *places,
             MYPYPATH="generated/python",
         )
