@@ -8,12 +8,8 @@
  * Headers of points need only this file. Headers of frames also need functions that a program must define exactly once:
  * one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
  *
- * ..._encode checks a value against the limits of its point. fieldscribe_put_u16 and the like check only that a raw
- * number has no more bits than its point: pass them the result of ..._encode, or call ..._check first. The macro of a
- * special code is a raw number and needs no encoding. `in steps of` in a comment says how the device rounds values;
- * nothing here checks it. A function that takes words also takes how many there are, and refuses too few. Each family
- * finds the words of a point its own way: in a block (fieldscribe_modbus_words_in), in a telegram
- * (fieldscribe_can_received), in process data (fieldscribe_uss_words_heard).
+ * ..._encode checks a value against the limits of its point. The macro of a special code is a raw number and needs no
+ * encoding. `in steps of` in a comment says how the device rounds values; nothing here checks it.
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
@@ -59,10 +55,6 @@
 #endif
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* The result of a conversion; 0 is success. */
 typedef enum fieldscribe_status {
     FIELDSCRIBE_OK = 0,
@@ -97,17 +89,13 @@ typedef struct fieldscribe_whole {
 
 static inline fieldscribe_whole fieldscribe_whole_of(int64_t number)
 {
-    fieldscribe_whole whole;
-    whole.status = FIELDSCRIBE_OK;
-    whole.number = number;
+    const fieldscribe_whole whole = {FIELDSCRIBE_OK, number};
     return whole;
 }
 
 static inline fieldscribe_whole fieldscribe_no_whole(fieldscribe_status status)
 {
-    fieldscribe_whole whole;
-    whole.status = status;
-    whole.number = 0;
+    const fieldscribe_whole whole = {status, 0};
     return whole;
 }
 
@@ -1628,9 +1616,15 @@ typedef struct fieldscribe_layout {
     uint64_t fixed_bits; /* ...these */
 } fieldscribe_layout;
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /*
  * The raw number out of words, of which there are `count`. False, and nothing stored, when the point's raw number has
  * another type (a call that is right once is always right), or when there are no words or fewer than the point has.
+ * Each family finds the words of a point its own way: in a block (fieldscribe_modbus_words_in), in a telegram
+ * (fieldscribe_can_received), in process data (fieldscribe_uss_words_heard).
  */
 
 FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(
@@ -1663,7 +1657,8 @@ FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(
 /*
  * The raw number into words. A point that shares its word changes its own bits alone: words[0] must hold the word as
  * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point, or
- * when there are no words or fewer than the point has.
+ * when there are no words or fewer than the point has. Limits are not checked: pass the result of ..._encode, or call
+ * ..._check first.
  */
 
 FIELDSCRIBE_CHECKED bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words, size_t count);
@@ -1717,10 +1712,6 @@ FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_IMPLEMENTED)
 #define FIELDSCRIBE_IMPLEMENTED
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /* True if the layout has that type, and there are enough words. */
 static bool fieldscribe_layout_fits(
@@ -1987,9 +1978,5 @@ bool fieldscribe_put_text(
     }
     return true;
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -71,14 +71,12 @@ typedef struct fieldscribe_modbus_reply {
     uint8_t exception;
 } fieldscribe_modbus_reply;
 
-typedef struct fieldscribe_modbus_request fieldscribe_modbus_request;
-
 /*
  * A request, as fieldscribe_modbus_read, _write and _send make it. `number` stands behind the address: the count, or
  * the only value of 05h, 06h and 08h. For 08h, `address` is the sub-function (0). `writer` is NULL for a read, so
  * that a program which only reads links nothing that writes. `transaction` is for TCP alone.
  */
-struct fieldscribe_modbus_request {
+typedef struct fieldscribe_modbus_request {
     uint16_t transaction;
     uint8_t unit;
     uint8_t function;
@@ -88,7 +86,7 @@ struct fieldscribe_modbus_request {
     bool late; /* an answer to an earlier request may still come: ask_rtu first waits until the line is silent */
     const uint16_t *values;
     const struct fieldscribe_modbus_writer *writer;
-};
+} fieldscribe_modbus_request;
 
 /* The request that reads a point or a block. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
@@ -126,19 +124,13 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_pr
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
     size_t length);
 
-/*
- * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
- * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, an answer
- * to something else, a wrong checksum; the last few are looked at when more come, or when it is told that the line is
- * silent. If nothing came and nothing was dropped, nobody answers. An answer of another length than was asked for is
- * received, too, where it fits into the buffer; parsing says what is wrong with it.
- */
+/* What picks the answer to one request out of bytes as they come. */
 typedef struct fieldscribe_modbus_receiver {
-    uint8_t *buffer;
+    uint8_t *buffer; /* the caller's */
     size_t size;
-    size_t length;
-    size_t dropped;
-    size_t next; /* with so many bytes there is more to know about the answer */
+    size_t length;  /* so many bytes of the answer are in the buffer, all of it when it is `done` */
+    size_t dropped; /* so many bytes were no part of it */
+    size_t next;    /* with so many bytes there is more to know about the answer */
     const struct fieldscribe_modbus_wire *wire;
     uint16_t transaction;
     uint8_t unit;
@@ -148,7 +140,10 @@ typedef struct fieldscribe_modbus_receiver {
 
 /*
  * A receiver for the answer to a request, which it does not need again. It is done at once where nobody answers, and
- * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME.
+ * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME. It drops noise, an answer to something
+ * else, a wrong checksum; the last few bytes are looked at when more come, or when it is told that the line is silent.
+ * If nothing came and nothing was dropped, nobody answers. An answer of another length than was asked for is received,
+ * too, where it fits into the buffer; parsing says what is wrong with it.
  */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
@@ -413,10 +408,6 @@ FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_MODBUS_IMPLEMENTED)
 #define FIELDSCRIBE_MODBUS_IMPLEMENTED
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {
@@ -939,17 +930,9 @@ static const struct fieldscribe_modbus_wire fieldscribe_modbus_tcp = {
 static fieldscribe_modbus_receiver fieldscribe_modbus_await_on(const struct fieldscribe_modbus_wire *wire,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    fieldscribe_modbus_receiver receiver;
-    receiver.buffer = buffer;
-    receiver.size = size;
-    receiver.length = 0U;
-    receiver.dropped = 0U;
-    receiver.next = wire->around + 2U; /* the shortest answer */
-    receiver.wire = wire;
-    receiver.transaction = request->transaction;
-    receiver.unit = request->unit;
-    receiver.function = request->function;
-    receiver.done = false;
+    const size_t shortest = wire->around + 2U;
+    const fieldscribe_modbus_receiver receiver = {
+        buffer, size, 0U, 0U, shortest, wire, request->transaction, request->unit, request->function, false};
     return receiver;
 }
 
@@ -971,25 +954,31 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
     return receiver;
 }
 
-/*
- * Drops bytes until the rest may be the answer, and what came behind it when it is whole. `whole_only`: until the rest
- * is a whole answer, and none if there is none.
- */
-static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool whole_only)
+/* The first byte that begins an answer, or with `whole_only` a whole one, and its length; else the end of the bytes. */
+static size_t fieldscribe_modbus_begin(
+    const fieldscribe_modbus_receiver *receiver, bool whole_only, size_t *whole)
 {
     const size_t end = receiver->length;
-    size_t whole = receiver->wire->around + 2U; /* the shortest answer */
     size_t begin;
-    size_t at = 0U;
     for (begin = 0U; begin < end; ++begin) {
         const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
         if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
-            whole = least;
+            *whole = least;
             break;
         }
     }
-    if (whole_only && (begin == end)) {
-        return;
+    return begin;
+}
+
+/* Drops bytes until the rest may be the answer, in `silence` one that is whole if there is, and what came behind it. */
+static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
+{
+    const size_t end = receiver->length;
+    size_t whole = receiver->wire->around + 2U; /* the shortest answer */
+    size_t begin = silence ? fieldscribe_modbus_begin(receiver, true, &whole) : end;
+    size_t at = 0U;
+    if (begin == end) {
+        begin = fieldscribe_modbus_begin(receiver, false, &whole);
     }
     receiver->next = whole;
     receiver->length = end - begin;
@@ -1023,13 +1012,10 @@ void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver)
     if (!receiver->done) {
         fieldscribe_modbus_settle(receiver, true);
     }
-    if (!receiver->done) {
-        fieldscribe_modbus_settle(receiver, false);
-    }
 }
 
-/* Receives an answer. False: the line was silent, or has sent enough. */
-static bool fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
+/* Receives an answer, until the line is silent or has sent enough. */
+static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
 {
     uint32_t wait = line->answer_ms;
     bool comes = true;
@@ -1047,8 +1033,9 @@ static bool fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, field
             fieldscribe_modbus_settle(receiver, false);
         }
     }
-    fieldscribe_modbus_silent(receiver);
-    return receiver->done;
+    if (!receiver->done) {
+        fieldscribe_modbus_settle(receiver, true);
+    }
 }
 
 /* Sends a request, if there is room for it and its answer, and receives that. */
@@ -1072,10 +1059,11 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
         return status;
     }
     receiver = fieldscribe_modbus_await_on(wire, request, line->buffer, line->size);
-    if ((!fieldscribe_modbus_listen(line, &receiver)) && (receiver.length == 0U) && (receiver.dropped > 0U)) {
-        (void)fieldscribe_modbus_listen(line, &receiver);
+    fieldscribe_modbus_listen(line, &receiver);
+    if ((receiver.length == 0U) && (receiver.dropped > 0U)) {
+        fieldscribe_modbus_listen(line, &receiver);
     }
-    if (receiver.length < receiver.next) {
+    if (!receiver.done) {
         return (receiver.dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
     return fieldscribe_modbus_take_answer(
@@ -1218,9 +1206,5 @@ const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *re
     before = (uint32_t)point->address - request->address;
     return (before > ((uint32_t)reply->count - point->count)) ? NULL : &reply->values[before];
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -41,10 +41,6 @@
 #define HITACHI_L200_DESCRIPTION_DIGEST "41c63c2a3a23005a"
 #define HITACHI_L200_DESCRIPTION 0x41c63c2aU /* for #if */
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef fieldscribe_status hitachi_l200_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 typedef fieldscribe_real hitachi_l200_real;
@@ -4042,9 +4038,5 @@ FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_encode(int32_t value, uint16_t *raw)
 { return fieldscribe_encode_u16(value, 0, 255, raw); }
 static inline int32_t hitachi_l200_stabilization_constant_set_2_decode(uint16_t raw) { return raw; }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -21,10 +21,6 @@
 #error "hitachi_l200.h is of another description: take the one that was generated with this header."
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function hitachi_l200_modbus_functions[] = {
     {1U, false, 32U}, /* read_coils */
@@ -2686,9 +2682,5 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_stabilization_constant_set_2(hitachi_
     FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x1542U, uint16_t, hitachi_l200_stabilization_constant_set_2_encode(value, &raw),
         raw)
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

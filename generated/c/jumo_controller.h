@@ -36,10 +36,6 @@
 #define JUMO_CONTROLLER_DESCRIPTION_DIGEST "260af48d2f694f9b"
 #define JUMO_CONTROLLER_DESCRIPTION 0x260af48dU /* for #if */
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef fieldscribe_status jumo_controller_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 typedef fieldscribe_real jumo_controller_real;
@@ -448,9 +444,5 @@ FIELDSCRIBE_STATUS jumo_controller_timer_commands_check(uint16_t raw) { (void)ra
 FIELDSCRIBE_STATUS jumo_controller_timer_commands_encode(int32_t value, uint16_t *raw)
 { return fieldscribe_encode_u16(value, 0, 65535, raw); }
 static inline int32_t jumo_controller_timer_commands_decode(uint16_t raw) { return raw; }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -21,10 +21,6 @@
 #error "jumo_controller.h is of another description: take the one that was generated with this header."
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function jumo_controller_modbus_functions[] = {
     {3U, false, 32U}, /* read_holding_registers */
@@ -366,9 +362,5 @@ FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_commands(jumo_controller_devi
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0072U, value, jumo_controller_timer_commands_decode(word)) }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_timer_commands(jumo_controller_device *device, int32_t value)
 { FIELDSCRIBE_MODBUS_WRITE_WORD(6U, 0x0072U, uint16_t, jumo_controller_timer_commands_encode(value, &raw), raw) }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -37,10 +37,6 @@
 #define NORD_SK5XXE_DESCRIPTION_DIGEST "8a2a4e64b041a524"
 #define NORD_SK5XXE_DESCRIPTION 0x8a2a4e64U /* for #if */
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef fieldscribe_status nord_sk5xxe_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 typedef fieldscribe_real nord_sk5xxe_real;
@@ -533,9 +529,5 @@ static inline int32_t nord_sk5xxe_actual_value_5_decode(uint16_t raw) { return r
  * P741[6] sent actual value 5: r; the manual leaves open whether it exists in each parameter set (further_elements);
  * not generated: the manual prints no address
  */
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

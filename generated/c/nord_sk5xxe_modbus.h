@@ -21,10 +21,6 @@
 #error "nord_sk5xxe.h is of another description: take the one that was generated with this header."
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
 static const fieldscribe_modbus_function nord_sk5xxe_modbus_functions[] = {
     {1U, false, 2000U}, /* read_coils */
@@ -181,9 +177,5 @@ FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_4(nord_sk5xxe_device *devi
 static const fieldscribe_modbus_r nord_sk5xxe_actual_value_5_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC5U, 1U}};
 FIELDSCRIBE_MODBUS_CALL nord_sk5xxe_read_actual_value_5(nord_sk5xxe_device *device, int32_t *value)
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0CC5U, value, nord_sk5xxe_actual_value_5_decode(word)) }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -47,10 +47,6 @@
 #define SIEMENS_MM4_DESCRIPTION_DIGEST "5cb44d5bdfa43066"
 #define SIEMENS_MM4_DESCRIPTION 0x5cb44d5bU /* for #if */
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef fieldscribe_status siemens_mm4_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 typedef fieldscribe_real siemens_mm4_real;
@@ -1068,9 +1064,5 @@ FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
 #define SIEMENS_MM4_SECOND_STATUS_WORD_ADDRESS 0x0003U
 #define SIEMENS_MM4_SECOND_STATUS_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
 static inline int32_t siemens_mm4_second_status_word_decode(uint16_t raw) { return raw; }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

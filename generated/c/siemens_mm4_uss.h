@@ -23,10 +23,6 @@
 #error "siemens_mm4.h is of another description: take the one that was generated with this header."
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* ---- Tasks ---- */
 
 enum {
@@ -970,9 +966,5 @@ static const fieldscribe_uss_s siemens_mm4_second_control_word_frame = {&siemens
 static const fieldscribe_uss_h siemens_mm4_status_word_frame = {&siemens_mm4_layout_u16, {0U, 1U}};
 static const fieldscribe_uss_h siemens_mm4_main_actual_value_frame = {&siemens_mm4_layout_u16, {1U, 1U}};
 static const fieldscribe_uss_h siemens_mm4_second_status_word_frame = {&siemens_mm4_layout_u16, {3U, 1U}};
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -45,10 +45,6 @@
 #define WOODWARD_MPU2S_DESCRIPTION_DIGEST "77f5919be08f3e15"
 #define WOODWARD_MPU2S_DESCRIPTION 0x77f5919bU /* for #if */
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef fieldscribe_status woodward_mpu2s_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 typedef fieldscribe_real woodward_mpu2s_real;
@@ -6044,10 +6040,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_encode(fieldscribe_
 { return fieldscribe_scale_u16(value, 256, 3840, 17920, raw); }
 static inline fieldscribe_real woodward_mpu2s_monitoring_start_frequency_decode(uint16_t raw)
 { return fieldscribe_ratio(raw, 256); }
-#endif
-
-#ifdef __cplusplus
-}
 #endif
 
 #endif

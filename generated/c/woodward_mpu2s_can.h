@@ -22,10 +22,6 @@
 #error "woodward_mpu2s.h is of another description: take the one that was generated with this header."
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Bits per second. */
 #define WOODWARD_MPU2S_CAN_BITRATE 125000U
 
@@ -1213,9 +1209,5 @@ static const fieldscribe_can_h woodward_mpu2s_digital_input_faults_9_to_16_frame
     {&woodward_mpu2s_layout_u16, {0x003AU, 0x003AU}};
 static const fieldscribe_can_h woodward_mpu2s_internal_faults_7_frame =
     {&woodward_mpu2s_layout_u16, {0x003BU, 0x003BU}};
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -573,6 +573,16 @@ void prove_begun_tcp(size_t size, size_t length)
     }
 }
 
+void prove_begin(size_t size, size_t length)
+{
+    size_t whole;
+    if (length <= STEPS) {
+        //@ split length;
+        has(EXACTLY(length, frame), size, length);
+        (void)fieldscribe_modbus_begin(&receiver, number % 2U != 0U, &whole);
+    }
+}
+
 void prove_settle(size_t size, size_t length)
 {
     if (length <= STEPS) {
@@ -643,7 +653,7 @@ void prove_listen(size_t size)
         //@ split size;
         link(EXACTLY(size, frame), size);
         receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, &request, line.buffer, size);
-        (void)fieldscribe_modbus_listen(&line, &receiver);
+        fieldscribe_modbus_listen(&line, &receiver);
     }
 }
 

@@ -27,12 +27,7 @@ _DEFINED = re.compile(
 _OPENS_C = '#ifdef __cplusplus\nextern "C" {\n#endif'
 _CLOSES_C = "#ifdef __cplusplus\n}\n#endif"
 _CLOSES = "#endif"
-_NOTICE = """\
-/*
- * Only what the chosen points use: the rest of this file is left out. To have more of it, add its names to --points
- * (fieldscribe_* keeps everything), or leave out --points.
- */
-"""
+_NOTICE = "/* Only what the chosen points use: to have more, add its names to --points, or fieldscribe_* for all. */\n"
 
 
 def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) -> dict[str, str]:

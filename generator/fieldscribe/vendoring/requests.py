@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from fieldscribe.code_view import for_code
 from fieldscribe.model import Device
@@ -134,7 +135,7 @@ def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {
     reduced = select(device, request.chosen) if request.points else device
     named = replace(for_code(reduced), id=request.name or device.id, command=request.command(device.id))
     language = target(request.language)
-    ways = {"tests": False} | ({} if request.frames else {"exchanges": False})
+    ways: dict[str, Any] = {"tests": False} | ({"frames": _frames_part(request)} if request.language == "c" else {})
     copied = language.runtime(named, **ways)
     files = {path: (templates_dir() / source).read_text("utf-8") for path, source in copied}
     outputs = dict(language.outputs(named, render, **ways, **({"rows": True} if request.rows else {})))
@@ -151,6 +152,14 @@ def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {
         files = {f"{named.id}.h": joined(files, named)}
     yield from files.items()
     yield LICENCE, (templates_dir() / LICENCE).read_text("utf-8")
+
+
+def _frames_part(request: CodeRequest) -> str:
+    """Return what the header of frames of C holds: calls alone for chosen points, if no other function is chosen."""
+    if not request.frames:
+        return "constants"
+    others = request.rows or request.single_file or request.points != request.chosen
+    return "all" if others or not request.points else "calls"
 
 
 def _wheels_of(texts: Mapping[str, str]) -> Iterator[tuple[str, bytes]]:

@@ -322,10 +322,6 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(const f
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_CAN_IMPLEMENTED)
 #define FIELDSCRIBE_CAN_IMPLEMENTED
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit)
 {
     return message->id + (message->adds_unit ? unit : 0U);
@@ -792,9 +788,5 @@ fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_recei
     }
     return status;
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -464,10 +464,6 @@ FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t l
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_USS_IMPLEMENTED)
 #define FIELDSCRIBE_USS_IMPLEMENTED
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit)
 {
     const fieldscribe_uss_request request = {unit, 0U, 0U, 0U, 0U, 0U};
@@ -968,9 +964,5 @@ fieldscribe_uss_status fieldscribe_uss_write_words(
     fieldscribe_uss_reply reply;
     return fieldscribe_uss_call(unit, &request, &reply);
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Literal
 
 from fieldscribe.model import Device
 from fieldscribe.resources import Render
@@ -17,19 +18,25 @@ SEES_TITLES = False
 NEEDS_FAMILY = True
 BEFORE_POINTS = ("", "read", "write", "store")
 
+FramesPart = Literal["all", "constants", "calls"]
+"""What the header of frames holds."""
+
 
 def outputs(
-    device: Device, render: Render, *, tests: bool = True, exchanges: bool = True, rows: bool = False
+    device: Device, render: Render, *, tests: bool = True, frames: FramesPart = "all", rows: bool = False
 ) -> Iterable[tuple[str, str]]:
     """Yield the headers of points and frames, and the conformance program: path below the output folder, and text.
 
-    Without `exchanges` the header of frames has constants alone, or is left out where the family has no facts header.
-    With `rows` there is a header of macros that are rows of tables.
+    With `constants` the header of frames has constants alone, or is left out where the family has no facts header; with
+    `calls` it leaves out the descriptors of points that calls read and write. With `rows` there is a header of macros
+    that are rows of tables.
     """
     scope = scope_of(device)
+    scope.calls_only = frames == "calls"
+    exchanges = frames != "constants"
     points = generated_points(device, scope)
-    own, frames = header_context(device, points, scope), frames_of(device).header(device, points, scope)
-    context, sections = {"device": own, "bus": frames.context, "exchanges": exchanges}, frames.sections
+    own, bus = header_context(device, points, scope), frames_of(device).header(device, points, scope)
+    context, sections = {"device": own, "bus": bus.context, "exchanges": exchanges}, bus.sections
     yield f"c/{device.id}.h", header(device, own, points, scope, render)
     if not exchanges and not frames_of(device).HAS_FACTS:
         return
@@ -46,11 +53,11 @@ def outputs(
         yield f"c/conformance/{device.id}_conformance.c", program
 
 
-def runtime(device: Device, *, tests: bool = True, exchanges: bool = True) -> Iterator[tuple[str, str]]:
+def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -> Iterator[tuple[str, str]]:
     """Yield the source files beside them: path below the output folder, and path below the templates."""
     names = ["fieldscribe.h"]
     names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
-    names += [f"fieldscribe_{device.family}.h"] * exchanges
+    names += [f"fieldscribe_{device.family}.h"] * (frames != "constants")
     names += ["fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"] * tests
     for name in names:
         yield f"c/{name}", f"c/runtime/{name}"

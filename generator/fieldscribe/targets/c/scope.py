@@ -17,7 +17,8 @@ class HeaderScope:
 
     `enums` are the names of enums of points, `digits` of those of decimal digits, `spaces` the space of each group
     whose points all have the same. `shared` are what several points share, each with the first of them. `spelling` is
-    how the function being written spells the raw number of another point.
+    how the function being written spells the raw number of another point. `calls_only` leaves out the descriptor of a
+    point that calls read and write.
     """
 
     prefix: str
@@ -28,6 +29,7 @@ class HeaderScope:
     spaces: Mapping[str, str | None]
     spelling: str = "{}_raw"
     shared: dict[str, str] = field(default_factory=dict)
+    calls_only: bool = False
 
     @property
     def points(self) -> Mapping[str, Point]:

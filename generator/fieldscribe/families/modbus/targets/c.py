@@ -138,6 +138,9 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     name, text = f"{view.function}_frame", point.text is not None
     address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
+    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words)
+    if layouts.scope.calls_only and not text:
+        return Frame((), (), Transfer("modbus", *transfers))
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]
     parts += [
@@ -146,7 +149,6 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words)
     row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) else None
     return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
 
