@@ -573,16 +573,6 @@ void prove_begun_tcp(size_t size, size_t length)
     }
 }
 
-void prove_begin(size_t size, size_t length)
-{
-    size_t whole;
-    if (length <= STEPS) {
-        //@ split length;
-        has(EXACTLY(length, frame), size, length);
-        (void)fieldscribe_modbus_begin(&receiver, number % 2U != 0U, &whole);
-    }
-}
-
 void prove_settle(size_t size, size_t length)
 {
     if (length <= STEPS) {

@@ -954,32 +954,26 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
     return receiver;
 }
 
-/* The first byte that begins an answer, or with `whole_only` a whole one, and its length; else the end of the bytes. */
-static size_t fieldscribe_modbus_begin(
-    const fieldscribe_modbus_receiver *receiver, bool whole_only, size_t *whole)
-{
-    const size_t end = receiver->length;
-    size_t begin;
-    for (begin = 0U; begin < end; ++begin) {
-        const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
-        if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
-            *whole = least;
-            break;
-        }
-    }
-    return begin;
-}
-
 /* Drops bytes until the rest may be the answer, in `silence` one that is whole if there is, and what came behind it. */
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
 {
     const size_t end = receiver->length;
     size_t whole = receiver->wire->around + 2U; /* the shortest answer */
-    size_t begin = silence ? fieldscribe_modbus_begin(receiver, true, &whole) : end;
+    size_t begin;
     size_t at = 0U;
-    if (begin == end) {
-        begin = fieldscribe_modbus_begin(receiver, false, &whole);
-    }
+    bool whole_only = silence;
+    bool again;
+    do {
+        for (begin = 0U; begin < end; ++begin) {
+            const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
+            if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
+                whole = least;
+                break;
+            }
+        }
+        again = whole_only && (begin == end);
+        whole_only = false;
+    } while (again);
     receiver->next = whole;
     receiver->length = end - begin;
     if (whole <= receiver->length) {
@@ -1043,19 +1037,21 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
     const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
     fieldscribe_modbus_receiver receiver;
-    const bool answered = request->unit != line->profile->broadcast;
+    uint32_t whole = 0U; /* nobody answers */
     size_t length;
     fieldscribe_modbus_status status = wire->build(line->profile, request, line->buffer, line->size, &length);
     fieldscribe_modbus_clear(reply);
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
-    if (answered && (((wire->around + fieldscribe_modbus_answer(request)) > line->size) ||
-            ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count)))) {
+    if (request->unit != line->profile->broadcast) {
+        whole = wire->around + fieldscribe_modbus_answer(request);
+    }
+    if ((whole > line->size) || ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    if (!answered) {
+    if (whole == 0U) {
         return status;
     }
     receiver = fieldscribe_modbus_await_on(wire, request, line->buffer, line->size);
@@ -1063,7 +1059,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
     if ((receiver.length == 0U) && (receiver.dropped > 0U)) {
         fieldscribe_modbus_listen(line, &receiver);
     }
-    if (!receiver.done) {
+    if (receiver.length < receiver.next) {
         return (receiver.dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
     return fieldscribe_modbus_take_answer(
