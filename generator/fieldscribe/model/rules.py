@@ -30,10 +30,6 @@ class Linear:
     offset: Fraction
     factors: tuple[Factor, ...]
 
-    def __hash__(self) -> int:
-        """Hash whole numbers, because the hash of a fraction takes long and rules are looked up for each point."""
-        return hash((self.ratio.as_integer_ratio(), self.offset.as_integer_ratio(), self.factors))
-
     def at(self, argument: Fraction) -> Fraction:
         """Return the result of a rule without factors."""
         return argument * self.ratio + self.offset

@@ -36,22 +36,22 @@ HAS_FACTS = True
 
 @dataclass(frozen=True, slots=True)
 class BlocksView:
-    """The reads that fetch the points of a group; `labels` name its points for people."""
+    """The reads that fetch the points of a group; `by_name` has its points."""
 
     name: str
     array: str
     values: StructView
     blocks: Sequence[Block]
-    labels: Mapping[str, str]
+    by_name: Mapping[str, Sequence[GeneratedPoint]]
     scope: HeaderScope
 
     @property
     def rows(self) -> Iterator[tuple[str, str, str, str]]:
         """The function, address and count of each block, and what it holds; made when the header is written."""
         for block in self.blocks:
-            ends = dict.fromkeys(self.labels[name] for name in (block.points[0], block.points[-1]))
-            numbers = unsigned(block.function), hexadecimal(block.address), unsigned(block.count)
-            yield *numbers, c_comment("..".join(ends))
+            ends = [self.by_name[name][-1].point for name in (block.points[0], block.points[-1])]
+            holds = c_comment("..".join(dict.fromkeys(point.code or point.name for point in ends)))
+            yield unsigned(block.function), hexadecimal(block.address), unsigned(block.count), holds
 
     @property
     def cases(self) -> Iterator[str]:
@@ -72,14 +72,13 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     """Return the header of frames, `<device>_modbus.h`."""
     profile = profile_of(device.bus)
     layouts = Layouts(scope)
-    labels = {point.name: point.code or point.name for point in device.points}
     counts = [block.count for blocks in device.blocks.values() for block in blocks]
     by_name: dict[str, list[GeneratedPoint]] = {}
     for each in placed:
         if each.point.readable:
             by_name.setdefault(each.point.name, []).append(each)
     members = Members(scope)
-    blocks = [_blocks(group, blocks, labels, by_name, members) for group, blocks in device.blocks.items() if blocks]
+    blocks = [_blocks(group, blocks, by_name, members) for group, blocks in device.blocks.items() if blocks]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
     frames = Frames(
@@ -183,7 +182,6 @@ def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
 def _blocks(
     group: str,
     blocks: tuple[Block, ...],
-    labels: Mapping[str, str],
     by_name: Mapping[str, Sequence[GeneratedPoint]],
     members: Members,
 ) -> BlocksView:
@@ -201,7 +199,7 @@ def _blocks(
             yield Part(unsigned(number), filled, [each for each, declaration, _ in placed if declaration])
 
     values = StructView(f"{members.scope.prefix}_{group}_group", parts)
-    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, labels, members.scope)
+    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, by_name, members.scope)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
