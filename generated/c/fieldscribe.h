@@ -1937,7 +1937,7 @@ bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t
 
 bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words, size_t count)
 {
-    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64)) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64) || (raw > layout->mask)) {
         return false;
     }
     fieldscribe_layout_store(layout, raw, words);
@@ -1946,10 +1946,11 @@ bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_
 
 bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words, size_t count)
 {
-    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64)) {
+    const uint64_t size = (raw < 0) ? (uint64_t)(-1 - raw) : (uint64_t)raw;
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64) || (size > (layout->mask >> 1))) {
         return false;
     }
-    fieldscribe_layout_store(layout, (raw < 0) ? ~(uint64_t)(-1 - raw) : (uint64_t)raw, words);
+    fieldscribe_layout_store(layout, (raw < 0) ? ~size : size, words);
     return true;
 }
 

@@ -146,7 +146,8 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
 @pytest.mark.parametrize(
     ("facts", "rule", "hint"),
     [
-        ("type: int48", "wrong-choice", "leave `type` out; say it in words"),
+        ("type: int128", "wrong-form", "leave `type` out; say it in words"),
+        ("type: int48", "wrong-form", "write `type: s48`"),
         ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
         ("scale: [{when: mode == 0, rule: x 0.1}]", "bad-formula", "`rule: value = raw * 0.1`"),
         ("no_value: [7FFFh]", "unknown-key", "`special: {7FFFh: {name: not_available, no_value: yes}}`"),
@@ -198,9 +199,9 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
             "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores",
         ),
         ("type", "yaml-comma", "give it a value: `type: …`"),
-        ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
-        ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
-        ("type: bool", "wrong-choice", "one bit of a word is `bits: 0`"),
+        ("type: BYTE", "wrong-form", "write `type: u8` with the `bits: 7..0`"),
+        ("type: string", "wrong-form", "write `type: text` with `characters: …`"),
+        ("type: bool", "wrong-form", "one bit of a word is `bits: 0`"),
         ("default: $2a", "bad-number", "write 2Ah"),
         ("default: 16#FF", "bad-number", "write 0xFF"),
         ("default: 2a hex", "bad-number", "write 2Ah"),

@@ -61,6 +61,7 @@ from .forms import (
     Flags,
     Integer,
     Named,
+    Type,
 )
 from .layouts import Layout
 from .modbus import (
@@ -154,6 +155,7 @@ __all__ = [
     "TelegramError",
     "Text",
     "Transport",
+    "Type",
     "UnknownValueError",
     "Value",
     "WithCodes",

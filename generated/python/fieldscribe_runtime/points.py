@@ -146,7 +146,7 @@ class Point(Guided):
     @cached_property
     def size(self) -> int:
         """How many words (or single bits) the point takes."""
-        return 1 if self.facts.bits is not None else max(1, self.wire.bits // 16)
+        return 1 if self.facts.bits is not None else -(-self.wire.bits // 16)
 
     @property
     def names(self) -> type[enum.IntEnum | enum.IntFlag] | None:

@@ -92,7 +92,10 @@ def points_by_name(device: Device) -> Mapping[str, Point]:
 
 def same_meaning(first: Point, second: Point) -> bool:
     """Return True if two points differ only in their place or limits."""
-    facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (first, second)]
+    facts = [
+        (point.name, point.shape.wire_type, point.bits, point.unit, point.scale, point.enum)
+        for point in (first, second)
+    ]
     return facts[0] == facts[1]
 
 

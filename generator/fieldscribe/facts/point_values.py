@@ -10,7 +10,6 @@ from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.facts.table import API, COMPATIBLE, DOCS, WIRE, Context, Exported
 from fieldscribe.families import family
 from fieldscribe.model import (
-    TYPES,
     Allowed,
     Bound,
     Entry,
@@ -24,6 +23,7 @@ from fieldscribe.model import (
     Source,
     Variant,
     item_of,
+    type_info,
 )
 from fieldscribe.wording.exact import fixed_rule, number_text, value_multiple
 
@@ -222,7 +222,7 @@ def range_view(point: Exported) -> object:
     ranges, wire_type = point["raw"]["ranges"], point["type"]
     if wire_type is None:
         return None if ranges == [[0, (1 << 16 * point["words"]) - 1]] else ranges
-    info, bits = TYPES[wire_type], point["bits"]
+    info, bits = type_info(wire_type), point["bits"]
     width = info.bits if bits is None else abs(bits[0] - bits[1]) + 1
     least, greatest = (-(1 << (width - 1)), (1 << (width - 1)) - 1) if info.signed else (0, (1 << width) - 1)
     return None if ranges == [[least, greatest]] else ranges

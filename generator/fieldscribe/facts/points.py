@@ -29,7 +29,7 @@ from fieldscribe.facts.schema import (
     ref,
 )
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, FactTable, Parts, View
-from fieldscribe.model import TYPES
+from fieldscribe.language.keys import forms
 
 _CERTAINTIES = {"imported": "imported, not compared with a manual", "hardware": "seen on hardware"}
 
@@ -252,10 +252,10 @@ POINT: FactTable = (
     Fact(
         "type",
         "The type on the wire; null where the manual does not settle it.",
-        null_or(one_of(*TYPES)),
+        null_or({"type": "string", "pattern": forms.TYPE.pattern}),
         values.type_class,
         shared="shape and terms",
-        value=lambda point, _: point.type if point.untyped is None else None,
+        value=lambda point, _: point.shape.wire_type if point.untyped is None else None,
         label="Type",
         text=texts.type_text,
         column="the wire type; empty where the manual does not settle it",

@@ -57,7 +57,7 @@ def type_text(point: Point, _: Context) -> str:
     if point.digits is not None:
         return f"{wording.type_text(point)} ({kind})"
     if point.bits is None:
-        return f"{point.type} ({kind})"
+        return f"{point.shape.wire_type} ({kind})"
     return f"{wording.type_text(point)} of a shared word ({kind})"
 
 

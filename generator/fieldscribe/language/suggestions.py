@@ -148,11 +148,13 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
         )
         for ours, names, also in _TYPES
     ),
+    ("type", r"(?:u|uint|unsigned)(24|40|48|56)(?:_t)?", r"write `type: u\1`"),
+    ("type", r"(?:s|i|int|sint|signed)(24|40|48|56)(?:_t)?", r"write `type: s\1`"),
     ("type", "int|integer", "write `type: s16` or `type: s32`"),
     (
         "type",
-        r"[usi]?(?:int)?(?:24|40|48|56|128)(?:_t)?|(?:.*[^a])?bcd.*",
-        'no type here is like this: leave `type` out; say it in words, as `untyped: "48-bit counter"` with `length: 3`',
+        r"[usi]?(?:int)?128(?:_t)?|(?:.*[^a])?bcd.*",
+        'no type here is like this: leave `type` out; say it in words, as `untyped: "a BCD number"` with `length: 1`',
     ),
     ("range range_in_units units pzd", r"\{.*\}", _ends),
     ("range range_in_units units pzd", rf"\[({_PLAIN}), ({_PLAIN})\]", r"{key}: \1..\2"),

@@ -19,7 +19,20 @@ from fieldscribe.model.device import (
     Telegram,
     Version,
 )
-from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
+from fieldscribe.model.numbers import (
+    TYPES,
+    Digits,
+    Entry,
+    Enum,
+    Fixed,
+    Flag,
+    Special,
+    Text,
+    Titles,
+    TypeInfo,
+    carrier_of,
+    type_info,
+)
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Interner, Shape

@@ -25,7 +25,19 @@ TYPES: Mapping[str, TypeInfo] = {
     "f64": TypeInfo(64, False, True),
     "text": TypeInfo(16, False, False),
 }
-"""All wire types. The width of a text is that of one word; `Shape.text` has the number of its characters."""
+"""The types that code has. The width of a text is that of one word; `Shape.text` has the number of its characters."""
+
+
+def type_info(name: str) -> TypeInfo:
+    """Return what a wire type is, by its name: one of `TYPES`, or a sign and a width such as `u24`."""
+    return TYPES.get(name) or TypeInfo(int(name[1:]), name[0] == "s", False)
+
+
+def carrier_of(name: str) -> str:
+    """Return the type of code that holds a wire type: the type itself, or the next wider one."""
+    if name in TYPES:
+        return name
+    return f"{name[0]}{next(bits for bits in (8, 16, 32, 64) if bits >= int(name[1:]))}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,8 @@ from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
 class Shape:
     """What the raw numbers of points are: their type, their meaning, and whether they can be read and written.
 
-    `width` is the number of bits of the raw number: all of the type, or those of a bit group. `scale` is None if the
+    `type` is the one that code holds the raw number in. `width` is the number of its bits: all of the type, or those of
+    a bit group or of a narrower wire type. `scale` is None if the
     raw number is the value. `decimals` k fixes the unit of the integer path, 10^-k units; it is None if the counts do
     not fit 64 bits, and then the point has no integer path. `encodes_values` is False if raw numbers or the products of
     the scale exceed 53 bits: then values are only decoded. `most_raw` is the greatest raw number that a run-time scale
@@ -54,7 +55,17 @@ class Shape:
     @cached_property
     def words(self) -> int:
         """Return how many 16-bit words (or single bits) a point takes; a bit group lies in one word."""
-        return max(1, self.info.bits // 16) if self.text is None else self.text.characters // 2
+        return -(-self.width // 16) if self.text is None else self.text.characters // 2
+
+    @cached_property
+    def wire_type(self) -> str:
+        """Return the type on the wire, which may be narrower than the type that holds it in code: `u24`."""
+        return f"{self.type[0]}{self.width}" if 16 < self.width < self.info.bits else self.type
+
+    @cached_property
+    def narrow(self) -> bool:
+        """Return True if the raw number has words of its own, and its type has more bits than these."""
+        return self.wire_type != self.type
 
     @cached_property
     def least(self) -> int:

@@ -13,7 +13,7 @@ from fieldscribe.language.formula.syntax import FormulaError, names
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
-from fieldscribe.model import NOWHERE, TYPES, Place
+from fieldscribe.model import NOWHERE, Place
 from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
@@ -162,7 +162,7 @@ class Places:
         """Return how many addresses a number takes."""
         if encoding.bits is not None or encoding.space in self.scope.family.indexed:  # an index names a whole value
             return 1
-        return max(1, TYPES[encoding.type].bits // 16) if facts.untyped is None else int(facts.get("length", 1))
+        return -(-encoding.width // 16) if facts.untyped is None else int(facts.get("length", 1))
 
     def _low_first(self, facts: PointFacts, type_name: str) -> bool:
         """Return True if the word with the low part of a number comes first."""

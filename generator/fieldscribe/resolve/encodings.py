@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import quoted
 from fieldscribe.language.suggestions import space_hint, suggest_bits
-from fieldscribe.model import TYPES, Special, TypeInfo
+from fieldscribe.model import Special, carrier_of, type_info
 from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
@@ -49,9 +49,10 @@ class Encodings:
         space = _space_of(self._scope, facts)
         bits = _bits_of(self._scope, facts, space)
         name = _type_of(self._scope, facts, space, bits)
-        width = TYPES[name].bits if bits is None else bits[0] - bits[1] + 1
-        holds = ends_of(width, signed=TYPES[name].signed)
-        return Encoding(space, name, bits, width, holds, *self._codes.of(facts, name, bits))
+        info = type_info(name)
+        width = info.bits if bits is None else bits[0] - bits[1] + 1
+        holds = ends_of(width, signed=info.signed)
+        return Encoding(space, carrier_of(name), bits, width, holds, *self._codes.of(facts, name, bits))
 
 
 def _space_of(scope: Scope, facts: PointFacts) -> str:
@@ -120,7 +121,7 @@ def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, 
             message,
             'write in place of `type` and `characters`: `untyped: "a text, one character an index"`, in words that fit',
         )
-    if type_name == "text" or TYPES[type_name].bits <= widest:
+    if type_name == "text" or type_info(type_name).bits <= widest:
         return None
     if space in scope.family.indexed:
         message = f"`{type_name}` does not fit an address of `{space}`, which carries {widest} bits"
@@ -133,7 +134,7 @@ def _type_fault(
     type_name: str, space: str, single: bool, width: int | None, default: str
 ) -> tuple[str, str, str] | None:
     """Return rule, message and hint for a type that does not fit space and bits; None if it fits."""
-    info: TypeInfo = TYPES[type_name]
+    info = type_info(type_name)
     if type_name == "text" and (single or width is not None):
         return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
     if width is not None:

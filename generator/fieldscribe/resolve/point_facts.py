@@ -14,7 +14,7 @@ from fieldscribe.diagnostics import Span
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import TYPES, Titles, Variant, item_of
+from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
 
@@ -136,7 +136,7 @@ class PointFacts:
     @property
     def floating(self) -> bool:
         """Return True if the type is a floating-point type."""
-        return TYPES[self.get("type") or "u16"].floating
+        return type_info(self.get("type") or "u16").floating
 
     @property
     def text(self) -> bool:

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.words import ends_of, number_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval
-from fieldscribe.model import TYPES, Allowed, Interval, Special
+from fieldscribe.model import Allowed, Interval, Special, type_info
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer
@@ -55,14 +55,14 @@ class SpecialCodes:
         for holder in (self.scope.header, *self.scope.groups):
             for kind, facts in holder.get("types", {}).items():
                 if "special" in facts:
-                    self.held(facts["special"], kind, TYPES[kind].bits)
+                    self.held(facts["special"], kind, type_info(kind).bits)
 
     def of(self, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
         """Return the codes of a point of this type, nearest first, and a name for those that it shares with others."""
         levels = tuple(_levels(self.scope, facts, kind, bits))
         if not levels:
             return (), ""
-        width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
+        width = type_info(kind).bits if bits is None else bits[0] - bits[1] + 1
         key = (*(id(node) for _, node in levels), kind, width)
         if key not in self._specials:
             self._specials[key] = self._specials_of(levels, kind, width)
@@ -90,7 +90,7 @@ class SpecialCodes:
 
     def _numbers(self, node: Map, kind: str, width: int) -> Iterator[_Code]:
         """Yield the entries of one `special` that the type can hold; report the others."""
-        info = TYPES[kind]
+        info = type_info(kind)
         least, greatest = ends_of(width, signed=info.signed)
         for key, value in node.items():
             span = node.key_span(key)
@@ -210,7 +210,7 @@ def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | 
         of_type = holder.get("types", {}).get(kind, {}).get("special")
         if of_type:
             yield label, of_type
-        if holder.get("special") and not TYPES[kind].floating:
+        if holder.get("special") and not type_info(kind).floating:
             yield label, holder["special"]
 
 

@@ -93,7 +93,7 @@ def type_text(point: Point) -> str:
         return f"text, {point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
         return f"{point.type}, {point.digits.count} decimal digits"
-    return point.type if point.bits is None else f"{point.type}, {_bits_text(*point.bits)}"
+    return point.shape.wire_type if point.bits is None else f"{point.type}, {_bits_text(*point.bits)}"
 
 
 def _bits_text(high: int, low: int) -> str:

@@ -884,11 +884,13 @@ FIELDSCRIBE_ONCE uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
     return (with_sign ? most >> 1 : most) + 1U;
 }
 
-/* Whether a point with words of its own has all the bits of its type. */
+/* Whether a point with words of its own has all the bits of its type, or the lower ones and some in each word. */
 FIELDSCRIBE_ONCE bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
 {
     const uint64_t all = UINT64_MAX >> (64U - 8U * size);
-    return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == all;
+    const uint64_t behind = layout->words > 1U ? UINT64_MAX >> (80U - 16U * layout->words) : all;
+    const bool narrow = layout->mask > behind && layout->mask < all && (layout->mask & (layout->mask + 1U)) == 0U;
+    return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == all || narrow;
 }
 
 /* Whether the bits of a point are all that its type has. */

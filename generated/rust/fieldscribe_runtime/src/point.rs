@@ -102,6 +102,9 @@ pub trait Point: Sized {
     const FLOATING: bool = false;
     /// How many words, or bits of a bit space, the point takes.
     const WORDS: u16 = 1;
+    /// The bits of the raw number, if its words hold fewer than its type; else 0. Its words then come first in
+    /// [`Raw::Words`], and what is behind them does not count.
+    const WIDTH: u32 = 0;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
     /// With how many decimals people see the value, where the description says it.
@@ -127,7 +130,7 @@ pub trait Point: Sized {
     /// The raw number from the point's words, in the order of their addresses.
     #[inline]
     fn from_words(words: <Self::Raw as Raw>::Words) -> Self::Raw {
-        Self::Raw::from_words(in_reading_order(words, Self::ADDRESSES))
+        joined_in_order::<Self>(in_reading_order(words, Self::ADDRESSES))
     }
 
     /// The raw number from received words, in the order of their addresses.
@@ -136,7 +139,7 @@ pub trait Point: Sized {
     /// [`Error::WrongLength`] unless there are exactly the point's words.
     fn from_received(mut received: impl Iterator<Item = u16>) -> Result<Self::Raw, Error> {
         let mut words = Self::Raw::MIN.into_words();
-        for word in words.as_mut() {
+        for word in counted_mut::<Self>(words.as_mut()) {
             *word = received
                 .next()
                 .ok_or(Error::WrongLength(Some(Self::NAME)))?;
@@ -159,7 +162,7 @@ pub trait Whole: Point {
     /// The point's words in the order of their addresses.
     #[inline]
     fn to_words(raw: Self::Raw) -> <Self::Raw as Raw>::Words {
-        in_address_order(raw.into_words(), Self::ADDRESSES)
+        in_address_order(split::<Self>(raw), Self::ADDRESSES)
     }
 }
 
@@ -429,8 +432,60 @@ pub(crate) fn joined<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
     if P::WORDS == 1 {
         P::from_words(words)
     } else {
-        P::Raw::from_words(words)
+        joined_in_order::<P>(words)
     }
+}
+
+/// The raw number from words in reading order; of a number narrower than its type, the bits that it has.
+#[inline]
+pub(crate) fn joined_in_order<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
+    if P::WIDTH == 0 {
+        return P::Raw::from_words(words);
+    }
+    let counted = words.as_ref().iter().take(usize::from(P::WORDS));
+    let pattern = counted.fold(0, |pattern: i64, word| (pattern << 16) | i64::from(*word));
+    let above = i64::BITS.saturating_sub(P::WIDTH);
+    let at_the_top = pattern.wrapping_shl(above);
+    P::Raw::truncated(if P::Raw::ENDS.0 < 0 {
+        at_the_top.wrapping_shr(above)
+    } else {
+        i64::from_be_bytes(
+            (u64::from_be_bytes(at_the_top.to_be_bytes()).wrapping_shr(above)).to_be_bytes(),
+        )
+    })
+}
+
+/// The words of a raw number in reading order; of a number narrower than its type, those that it has come first.
+#[inline]
+pub(crate) fn split<P: Point>(raw: P::Raw) -> <P::Raw as Raw>::Words {
+    let mut words = raw.into_words();
+    if P::WIDTH != 0 {
+        let above = words.as_ref().len().saturating_sub(usize::from(P::WORDS));
+        words.as_mut().rotate_left(above);
+    }
+    words
+}
+
+/// The words that count.
+#[inline]
+pub(crate) fn counted<P: Point>(words: &[u16]) -> &[u16] {
+    let count = if P::WIDTH == 0 {
+        words.len()
+    } else {
+        usize::from(P::WORDS)
+    };
+    words.get(..count).unwrap_or(words)
+}
+
+/// The same, to be changed.
+#[inline]
+pub(crate) fn counted_mut<P: Point>(words: &mut [u16]) -> &mut [u16] {
+    let count = if P::WIDTH == 0 {
+        words.len()
+    } else {
+        usize::from(P::WORDS)
+    };
+    words.get_mut(..count).unwrap_or_default()
 }
 
 /// Words in the order of their addresses as words in reading order, which `addresses` has.

@@ -66,6 +66,11 @@ BYTES = Form("^[0-9A-Fa-f\\s]+$", "bytes in hexadecimal", "write two digits for 
 SHA256 = Form(
     "^[0-9a-f]{64}$", "a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"
 )
+TYPE = Form(
+    "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text)$",
+    "a type",
+    "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit and text",
+)
 WORD_ORDER = Form("^(high|low) first$", "an order of words", "write `high first` or `low first`")
 ID = Form("^[a-z][a-z0-9_]*$", "an id", "ids are written a to z, digits and _")
 PART_FILE = Form(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import FACTS, GROUP
 from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER
-from fieldscribe.model import TYPES
 from fieldscribe.schema_types import (
     NOTHING,
     NUMBER,
@@ -29,18 +28,19 @@ KEYS = (
     Key(
         "type",
         _GROUPED,
-        "The type on the wire; u16 by default. ~ if the manual leaves it open: the point is then documented and not "
-        "generated.",
-        ["s16", "u32"],
-        one_of(*TYPES),
+        "The type on the wire; u16 by default. A number without (u) or with a sign (s) has up to 64 bits (u24, s48), "
+        "right-aligned in as many words as it needs. ~ if the manual leaves it open: the point is then documented and "
+        "not generated.",
+        ["u16", "s16", "u32", "f32", "u48", "text"],
+        Text(form=forms.TYPE),
         NOTHING,
     ),
     Key(
         "untyped",
         FACTS,
-        "An encoding that no `type` covers (48 bits, sign and magnitude, logarithmic), in words: the point is then "
+        "An encoding that no `type` covers (sign and magnitude, logarithmic), in words: the point is then "
         "documented and not generated; its words can be read raw.",
-        ["48-bit counter, the high word first"],
+        ["sign and magnitude, the sign in bit 15"],
         Text(80),
     ),
     Key(

@@ -212,12 +212,13 @@ def _mask(point: Point) -> int:
         return group_mask(point)
     if point.info.bits == 1:
         return 1 if point.space in ("coil", "discrete") else 0xFFFF
-    return mask_of(point.info.bits)
+    return mask_of(point.width)
 
 
 def _tail(point: Point, order: str, mask: int) -> str:
     """Return the part of a layout's name that tells it from others of its type."""
-    parts = [f"order_{order.lower()}"] if point.words > 1 else []
+    parts = [f"{point.width}_bits"] if point.shape.narrow else []
+    parts += [f"order_{order.lower()}"] if point.words > 1 else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
     elif point.info.bits == 1 and mask > 1:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.model import Point
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
@@ -63,11 +63,19 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         split = "words[0] = (uint16_t)raw;"
         joined = f"({kind})fieldscribe_signed({mask}, {sign})"
     else:
-        places = places_of(point)
-        into = ", ".join(f"&words[{place}]" for place in places)
+        places = [f"words[{place}]" for place in places_of(point)]
+        above = info.bits // 16 - point.words  # words that the type has and the wire has not
+        into = ", ".join(["&above"] * above + [f"&{place}" for place in places])
         split = f"fieldscribe_split{info.bits}((uint{info.bits}_t)raw, {into});"
-        joined = f"fieldscribe_join{info.bits}({', '.join(f'words[{place}]' for place in places)})"
-        joined = f"fieldscribe_signed{info.bits}({joined})" if info.signed else joined
+        split = f"uint16_t above; {split}" if above else split
+        joined = f"fieldscribe_join{info.bits}({', '.join(['0U'] * above + places)})"
+        if point.width % 16:
+            joined = f"{joined} & {hexadecimal(mask_of(point.width))}"
+        if point.shape.narrow and info.signed:
+            sign = hexadecimal(1 << (point.width - 1))
+            joined = f"({kind})(({joined}) ^ {sign}) - ({kind}){sign}"
+        elif info.signed:
+            joined = f"fieldscribe_signed{info.bits}({joined})"
     words = f"uint16_t words[{point.words}]"
     yield function(f"{INLINE} void", f"{name}_to_words", (f"{kind} raw", words), split)
     yield function(f"{INLINE} {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")

@@ -227,7 +227,7 @@ def _codes(device: Device) -> str:
             sharing.setdefault(point.specials_of, []).append(point)
     rows = []
     for name, points in sharing.items():
-        sharers = f"{target('codes', name)}: {counted(len(points), 'point')} of type {points[0].type}"
+        sharers = f"{target('codes', name)}: {counted(len(points), 'point')} of type {points[0].shape.wire_type}"
         for special in points[0].specials:
             if special.shared:
                 numbers = wording.special_numbers(special, points[0].width)

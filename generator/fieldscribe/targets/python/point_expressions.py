@@ -63,7 +63,7 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     if point.text is not None:
         encoding = () if point.text.encoding == "ascii" else (python_string(point.text.encoding),)
         return call(kind, (str(point.text.characters), *encoding))
-    arguments: list[Node] = [scope.runtime(point.type.upper())]
+    arguments: list[Node] = [_wire(point, scope)]
     if named:
         scope.runtime("enums")
         arguments.append(f"enums.{named}")
@@ -77,6 +77,13 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
         pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
         arguments.append(Group("units=(", pairs))
     return call(kind, arguments)
+
+
+def _wire(point: Point, scope: PackageScope) -> Node:
+    """Return the type on the wire: `U16`; one that has no constant as `Type(24)`."""
+    if not point.shape.narrow:
+        return scope.runtime(point.type.upper())
+    return call(scope.runtime("Type"), (str(point.width), *["signed=True"] * point.info.signed))
 
 
 def _scaled(point: Point, scope: PackageScope) -> Iterator[Node]:

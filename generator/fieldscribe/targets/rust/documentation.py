@@ -28,7 +28,7 @@ class PointDoc:
 
     def __init__(self, point: Point, lowered: Lowered) -> None:
         self._before, self._behind = _around_address(point)
-        self._type, self._facts = f"`{point.type}`", tuple(_facts(point))
+        self._type, self._facts = f"`{point.shape.wire_type}`", tuple(_facts(point))
         self._size = _size(point)
         self._tail = "".join(f"    ///\n{_comment(paragraph)}" for paragraph in _paragraphs(point, lowered))
 

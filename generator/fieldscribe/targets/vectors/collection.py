@@ -170,7 +170,7 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         "facts",
         terms.group,
         point.name,
-        shape.type,
+        shape.wire_type,
         terms.unit.symbol or None,
         None if point.default is None else float(point.default),
         None if terms.changes == "always" else terms.changes,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines, text
@@ -176,12 +177,15 @@ def _wide_patterns(count: int) -> tuple[int, ...]:
 def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
     """Return the words of a raw number as they travel, in ascending order of address: `order` says which is which.
 
-    A bit group shares its word with other bits. Constant bits are as written when sent, and different when received.
+    A bit group shares its word with other bits. Constant bits and those above a narrow number are as written when sent,
+    and different when received.
     """
     if encoding.bits is not None:
         return (_shared_word(encoding, encoding.bits[1], raw, received=received),)
     count = len(order)
     pattern = raw & (1 << 16 * count) - 1
+    if received and encoding.shape.narrow:
+        pattern ^= mask_of(16 * count - encoding.shape.width, encoding.shape.width)
     return tuple([pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order])
 
 

@@ -13,7 +13,7 @@ use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
     MOST_NEEDS,
 };
-use crate::point::in_reading_order;
+use crate::point::{counted, counted_mut, in_reading_order};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
@@ -303,7 +303,7 @@ macro_rules! client {
                 D: Accepts<P::Device>,
             {
                 let mut words = P::Raw::MIN.into_words();
-                self.get::<P>(words.as_mut())$($wait)*?;
+                self.get::<P>(counted_mut::<P>(words.as_mut()))$($wait)*?;
                 Ok(P::from_words(words))
             }
 
@@ -338,7 +338,7 @@ macro_rules! client {
             /// Writes a raw number that was checked.
             $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
-                let mut request = Request::write_words::<P>(self.unit.number, words.as_ref());
+                let mut request = Request::write_words::<P>(self.unit.number, counted::<P>(words.as_ref()));
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
 

@@ -3,6 +3,7 @@
 
 use super::function::{is_read, read_function, write_function};
 use super::{crc, About, Block, BuildError, Command, Framing, Profile};
+use crate::point::counted;
 use crate::{BitGroup, Point, Readable, Whole, Writable};
 
 /// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
@@ -69,7 +70,13 @@ impl Request<'static> {
     #[must_use]
     pub fn write<P: Writable + Whole>(unit: u8, raw: P::Raw) -> Self {
         let function = writing_function::<P>();
-        Self::own(unit, function, P::WRITE_ADDRESS, P::to_words(raw).as_ref()).of::<P>()
+        Self::own(
+            unit,
+            function,
+            P::WRITE_ADDRESS,
+            counted::<P>(P::to_words(raw).as_ref()),
+        )
+        .of::<P>()
     }
 
     /// A request that writes a word back with a group of its bits replaced.

@@ -766,14 +766,27 @@ where
 {
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
-    same(words.as_slice(), P::to_words(raw).as_ref())?;
-    in_order(&words, P::ADDRESSES, raw.into_words().as_ref())?;
+    same(words.as_slice(), words_of::<P>(raw).as_slice())?;
+    let all = raw.into_words();
+    let above = all.as_ref().len() - words.len();
+    in_order(&words, P::ADDRESSES, &all.as_ref()[above..])?;
     let more = [words.as_slice(), &[0]].concat();
     let received = |words: &[u16]| P::from_received(words.iter().copied());
     same(Ok(raw), received(&words))?;
     let wrong = Err(Error::WrongLength(Some(P::NAME)));
     same(wrong, received(&words[1..]))?;
     same(wrong, received(&more))
+}
+
+/// The words of a raw number that count.
+pub fn words_of<P: Whole>(raw: P::Raw) -> Vec<u16> {
+    let words = P::to_words(raw);
+    let count = if P::WIDTH == 0 {
+        words.as_ref().len()
+    } else {
+        usize::from(P::WORDS)
+    };
+    words.as_ref()[..count].to_vec()
 }
 
 /// The words by address are those in reading order.

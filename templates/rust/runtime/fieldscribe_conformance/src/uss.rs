@@ -260,14 +260,14 @@ pub fn send_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Writable<Raw: Number> + Whole + Sent,
 {
-    let words = P::to_words(vector.raw("raw"));
+    let words = crate::words_of::<P>(vector.raw("raw"));
     let mut client = Client::for_profile(
         Script::new(vector),
         profile,
         link(vector),
         vector.raw("unit"),
     );
-    for (position, word) in (P::ADDRESS..).zip(words.as_ref()) {
+    for (position, word) in (P::ADDRESS..).zip(&words) {
         client.set_word(position, *word).map_err(Error::name)?;
     }
     let found = client.cycle();

@@ -6,8 +6,8 @@
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
-/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[write_at 0x2028]`: where
-///   it is written, if that is elsewhere, `[index 1]`, `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask,
+/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[width 24]`: the bits of a
+///   number narrower than its type, `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`, `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask,
 ///   `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the bits of the word that are always the same, and what they
 ///   are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
@@ -51,6 +51,7 @@ macro_rules! point {
         at $space:ident $(($other:literal))? $address:literal;
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
+        $(width $width:literal;)?
         $(write_at $write_address:literal;)?
         $(index $index:literal;)?
         $(telegram $telegram:literal;)?
@@ -81,6 +82,7 @@ macro_rules! point {
             const ADDRESS: u16 = $address;
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
+            $(const WIDTH: u32 = $width;)?
             $(const WRITE_ADDRESS: u16 = $write_address;)?
             $(const INDEX: Option<u8> = Some($index);)?
             $(const TELEGRAM: Option<&'static str> = Some($telegram);)?

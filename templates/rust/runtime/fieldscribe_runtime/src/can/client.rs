@@ -11,7 +11,7 @@ use super::{
 };
 use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
 use crate::error::lead;
-use crate::point::joined;
+use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
@@ -561,7 +561,7 @@ macro_rules! client {
 
             /// Writes a raw number that was checked, word by word.
             $($async)? fn put<P: Whole + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
-                let words = raw.into_words();
+                let words = split::<P>(raw);
                 for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
                     self.write_word(*address, *word)$($wait)*.map_err(ClientError::of::<P>)?;
                 }

@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::{Frame, Message, Profile, ReceiveError, LENGTH};
 use crate::client::MOST_NEEDS;
-use crate::point::joined;
+use crate::point::{counted_mut, joined};
 use crate::{AnyValue, CountReadable, Decoded, NeedsNothing, PointFacts, PointInfo, Raw, Readable};
 
 /// A cyclic layout of words that the frames of a message carry.
@@ -138,7 +138,7 @@ impl<T: Telegram> Receiver<T> {
     /// the same from before to after the low one.
     pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, ReceiveError> {
         let mut words = P::Raw::MIN.into_words();
-        let found = self.words(P::ADDRESSES, words.as_mut());
+        let found = self.words(P::ADDRESSES, counted_mut::<P>(words.as_mut()));
         found.map_err(ReceiveError::of::<P>)?;
         Ok(joined::<P>(words))
     }

@@ -3,6 +3,7 @@
 
 use core::fmt;
 
+use crate::point::{joined_in_order, split};
 use crate::{Access, Code, Error, Point, Raw, Space};
 
 use super::{DataScale, Needs};
@@ -106,7 +107,7 @@ impl PointFacts {
             needs: <()>::points,
             writing: None,
             form: Form::Plain,
-            raw: RawType::of::<P::Raw>(),
+            raw: RawType::of::<P>(),
             ends: <P::Raw as Raw>::ENDS,
             codes: &NO_CODES,
             fixed: (P::FIXED_MASK, P::FIXED_BITS),
@@ -192,24 +193,24 @@ pub(super) struct RawType {
 }
 
 impl RawType {
-    const fn of<R: Raw>() -> Self {
+    const fn of<P: Point>() -> Self {
         Self {
             from_words: |given| {
-                let mut words = R::MIN.into_words();
+                let mut words = P::Raw::MIN.into_words();
                 for (word, given) in words.as_mut().iter_mut().zip(given) {
                     *word = given;
                 }
-                R::from_words(words).to_i128()
+                joined_in_order::<P>(words).to_i128()
             },
             into_words: |number| {
                 let mut words = [0; 4];
-                let parts = R::from_i128(number)?.into_words();
+                let parts = split::<P>(P::Raw::from_i128(number)?);
                 for (word, part) in words.iter_mut().zip(parts.as_ref()) {
                     *word = *part;
                 }
                 Some(words)
             },
-            is_signed: R::ENDS.0 < 0,
+            is_signed: <P::Raw as Raw>::ENDS.0 < 0,
         }
     }
 }
