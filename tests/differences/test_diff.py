@@ -204,9 +204,9 @@ def test_devices_come_and_go(diff: Diff) -> None:
 
 def test_findings_are_told_and_the_rest_is_compared(diff: Diff) -> None:
     """A point that did not resolve is not gone."""
-    diff.write("new", EDITED.replace("name: ramp", "name: ramp, type: u17"))
+    diff.write("new", EDITED.replace("name: ramp", "name: ramp, type: u99"))
     told = diff("old", "new")
-    assert "u17" in told.err
+    assert "u99" in told.err
     assert "ramp" not in told.out
     assert told.out.endswith("3 differences\n")
     Path("new/device.yaml").write_text("device: 1\n", "utf-8")
@@ -214,8 +214,8 @@ def test_findings_are_told_and_the_rest_is_compared(diff: Diff) -> None:
 
 
 def test_errors_are_no_success(diff: Diff) -> None:
-    diff.write("old", POINTS.replace("name: ramp", "name: ramp, type: u17"))
-    diff.write("new", POINTS.replace("name: ramp", "name: ramp, type: u17"))
+    diff.write("old", POINTS.replace("name: ramp", "name: ramp, type: u99"))
+    diff.write("new", POINTS.replace("name: ramp", "name: ramp, type: u99"))
     assert diff("old", "new").code == 1
 
 
@@ -242,7 +242,7 @@ FOREIGN = "model.json does not follow the schema of exported models"
         (lambda model: model.pop("points"), "`points` is missing"),
         (lambda model: model.update(points={}), "`points` is missing or no list"),
         (lambda model: model["points"].append({}), FOREIGN),
-        (lambda model: model["points"][0].update(type="u17"), FOREIGN),
+        (lambda model: model["points"][0].update(type="u99"), FOREIGN),
         (lambda model: model["points"][0].update(addresses=["1", 2]), FOREIGN),
         (lambda model: model["points"][0].update(raw=[]), FOREIGN),
         (lambda model: model["points"][0].update(scale=[{"num": 1}]), FOREIGN),

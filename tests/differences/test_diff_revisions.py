@@ -23,7 +23,7 @@ def test_a_revision(repository: Diff) -> None:
 
 @pytest.mark.full(seconds=1)
 def test_a_revision_with_findings(repository: Diff) -> None:
-    repository.write("old", EDITED.replace("name: ramp", "name: ramp, type: u17"))
+    repository.write("old", EDITED.replace("name: ramp", "name: ramp, type: u99"))
     commit("wrong")
     told = repository("v1:old", "HEAD:old")
     assert "HEAD:old/device.yaml:" in told.err

@@ -29,7 +29,7 @@ from fieldscribe.facts.schema import (
     ref,
 )
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, FactTable, Parts, View
-from fieldscribe.language.keys import forms
+from fieldscribe.model import TYPE_PATTERN
 
 _CERTAINTIES = {"imported": "imported, not compared with a manual", "hardware": "seen on hardware"}
 
@@ -252,7 +252,7 @@ POINT: FactTable = (
     Fact(
         "type",
         "The type on the wire; null where the manual does not settle it.",
-        null_or({"type": "string", "pattern": forms.TYPE.pattern}),
+        null_or({"type": "string", "pattern": TYPE_PATTERN}),
         values.type_class,
         shared="shape and terms",
         value=lambda point, _: point.shape.wire_type if point.untyped is None else None,

@@ -20,6 +20,7 @@ from fieldscribe.model.device import (
     Version,
 )
 from fieldscribe.model.numbers import (
+    TYPE_PATTERN,
     TYPES,
     Digits,
     Entry,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -27,10 +28,16 @@ TYPES: Mapping[str, TypeInfo] = {
 }
 """The types that code has. The width of a text is that of one word; `Shape.text` has the number of its characters."""
 
+TYPE_PATTERN = "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text)$"
+"""The names of wire types: those of `TYPES`, and a sign with any width up to 64 bits."""
+
 
 def type_info(name: str) -> TypeInfo:
-    """Return what a wire type is, by its name: one of `TYPES`, or a sign and a width such as `u24`."""
-    return TYPES.get(name) or TypeInfo(int(name[1:]), name[0] == "s", False)
+    """Return what a wire type is, by its name: one of `TYPES`, or a sign and a width such as `u24`. Raises KeyError."""
+    known = TYPES.get(name)
+    if known is None and re.search(TYPE_PATTERN, name) is None:
+        raise KeyError(name)
+    return known or TypeInfo(int(name[1:]), name[0] == "s", False)
 
 
 def carrier_of(name: str) -> str:

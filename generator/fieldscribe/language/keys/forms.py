@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldscribe.model import TYPE_PATTERN
 from fieldscribe.schema_types import Form
 
 _WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
@@ -67,7 +68,7 @@ SHA256 = Form(
     "^[0-9a-f]{64}$", "a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"
 )
 TYPE = Form(
-    "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text)$",
+    TYPE_PATTERN,
     "a type",
     "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit and text",
 )
