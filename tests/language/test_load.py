@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 import yaml
+from fieldscribe import pipeline
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load, scalar
 from fieldscribe.language.nodes import Map, Seq
@@ -164,3 +165,9 @@ def test_yaml_is_loaded_only_where_files_are_read(module: str, loaded: bool) -> 
     """`generate` with nothing changed takes a third less time without it."""
     code = f"import sys, fieldscribe.{module}; sys.exit('yaml' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == loaded
+
+
+def test_a_text_without_findings_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fieldscribe.language.source.find_positions", lambda _: pytest.fail("read again for places"))
+    for device_file in (ROOT / "descriptions").glob("*/device.yaml"):
+        assert pipeline.load_analysis(device_file, Report()) is not None
