@@ -519,6 +519,23 @@ static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector
                                              : fieldscribe_modbus_ask_rtu(&line, request, reply);
 }
 
+/* What cannot be built is not sent. */
+static void fieldscribe_sends_nothing(fieldscribe_vector *v)
+{
+    static uint16_t values[FIELDSCRIBE_VALUES_MOST];
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    fieldscribe_modbus_request request;
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, FIELDSCRIBE_VALUES_MOST);
+    fieldscribe_stream stream;
+    const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
+    memset(&stream, 0, sizeof stream);
+    if (!fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {
+        const fieldscribe_modbus_status status = fieldscribe_asks_line(v, framing, &request, &stream, &reply);
+        fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+        fieldscribe_agree(v, stream.sent_count == 0U && reply.count == 0U && reply.exception == 0U);
+    }
+}
+
 /* Asking says what parsing says, whatever comes before the answer; and it ends when none comes. */
 static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_status parsed)
@@ -660,6 +677,7 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
 {
     if (fieldscribe_asks(v, "build") || fieldscribe_asks(v, "printed_build")) {
         fieldscribe_run_build(v);
+        fieldscribe_sends_nothing(v);
     } else if (fieldscribe_asks(v, "reply") || fieldscribe_asks(v, "printed_reply")) {
         fieldscribe_run_reply(v);
     } else if (fieldscribe_asks(v, "block")) {

@@ -41,7 +41,7 @@ class _Typical(NamedTuple):
     encoding: PointEncoding
     settings: dict[str, int]
     needs: Script
-    received: tuple[int, ...]
+    received: list[tuple[int, ...]]
     sent: list[tuple[int, tuple[int, ...]]]
 
 
@@ -75,7 +75,8 @@ class Exchanges:
         if typical.settings:
             self.lines.set("with", typical.settings)
         if encoding.shape.readable:
-            self._add("read", point, typical, typical.sent[0], self.wire.reads(point, typical.received))
+            for sent, received in zip(typical.sent, typical.received, strict=True):
+                self._add("read", point, typical, sent, self.wire.reads(point, received))
         for kind in ("write", "store") if encoding.shape.writable else ():
             for raw, words in typical.sent:
                 put = words
@@ -98,7 +99,8 @@ class Exchanges:
         shape, order = encoding.shape, encoding.order
         switch = shape.type == "bit" and outer_bounds(shape, encoding.allowed) == (0, 1)
         sent = [(put, words_of(encoding, order, put)) for put in ((raw, 0) if switch else (raw,))]
-        return _Typical(encoding, settings, needs, words_of(encoding, order, raw, received=True), sent)
+        received = [words_of(encoding, order, put, received=True) for put, _ in sent]
+        return _Typical(encoding, settings, needs, received, sent)
 
     def _beside(self, point: Point, encoding: PointEncoding, raw: int, script: Script) -> Script | None:
         """Return the exchange that writes a bit group: its word is read before."""
