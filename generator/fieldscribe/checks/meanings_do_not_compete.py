@@ -12,6 +12,7 @@ from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
+_OF_PATTERNS = tuple(key for key in (*_OF_INTEGERS, "range", "range_in_units", "scale") if key not in ("enum", "open"))
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
 _RIVALS = (
     ("enum", "flags", "name the numbers of several bits under `values` of one flag"),
@@ -41,13 +42,8 @@ def check(analysis: Analysis) -> None:
         facts, shape = resolved.facts, resolved.point.shape
         if shape.specials:
             _shared_names(analysis, resolved)
-        if shape.info.floating:
-            _alien(
-                analysis, facts, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
-            )
-            continue
-        if facts.text:
-            _alien(analysis, facts, _OF_NUMBERS, "text", "its characters are all that it means")
+        if (alien := _alien_to(facts)) is not None:
+            _alien(analysis, facts, *alien)
             continue
         if shape.type == "bit" and facts.get("special") is not None and "type" not in facts.failed:
             message = f"`{facts.name}` is a single bit, which has no room for a special code"
@@ -62,6 +58,15 @@ def check(analysis: Analysis) -> None:
                 related = [(facts.span(first), f"`{first}` stands here")]
                 message = f"`{facts.name}` cannot have both `{first}` and `{second}`"
                 analysis.report.error("two-meanings", message, facts.span(second), hint, related)
+
+
+def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:
+    """Return the keys that a text or a floating-point number cannot have, what it is, and why; None for the others."""
+    if facts.floating:
+        return _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
+    if facts.pattern_bits:
+        return _OF_PATTERNS, "floating-point number", "its enum names all that may be written"
+    return (_OF_NUMBERS, "text", "its characters are all that it means") if facts.text else None
 
 
 def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:

@@ -89,7 +89,10 @@ def _naming(point: Point) -> Callable[[int], Meaning] | None:
         return lambda raw: Meaning(quoted_text(text_of(raw, point.words)), text_of(raw, point.words))
     if point.enum is not None:
         entries = {entry.raw: wording.entry_meaning(entry) for entry in reversed(point.enum.entries)}
-        return lambda raw: Meaning(line(entries.get(raw, "")) or f"{raw}, a number without a name in the manual")
+        number = partial(_float_text, point) if point.shape.patterns else str
+        return lambda raw: Meaning(
+            line(entries.get(raw, "")) or f"{number(raw)}, a number without a name in the manual"
+        )
     if point.flags:
         meaning = Meaning("", flags=FlagTexts(point))
         return lambda _raw: meaning
@@ -197,7 +200,7 @@ def _float_text(point: Point, raw: int) -> str:
     """Return the shortest decimal that has this bit pattern, as an instrument would show it."""
     number = codec.float_of(point, raw)
     text = repr(number)
-    if point.type == "f32":
+    if point.shape.wire_type == "f32":
         for digits in range(1, 10):
             shorter = f"{number:.{digits}g}"
             try:

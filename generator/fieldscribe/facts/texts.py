@@ -53,7 +53,7 @@ def type_text(point: Point, _: Context) -> str:
     """Return the type with what kind of number it is."""
     if point.untyped is not None or point.type == "bit" or point.text is not None:
         return wording.type_text(point)
-    kind = f"{_KINDS[point.type[0]]}, {point.width} bits"
+    kind = f"{_KINDS[point.shape.wire_type[0]]}, {point.width} bits"
     if point.digits is not None:
         return f"{wording.type_text(point)} ({kind})"
     if point.bits is None:

@@ -22,6 +22,8 @@ class Shape:
     names the type, group or format of those that the point shares with others. `display` is the number of decimals that
     people see, None if the description gives none; no computation depends on it.
 
+    `patterns` is True if an enum names floating-point numbers: raw numbers are their patterns.
+
     Equal shapes are one object, so that the facts derived below are computed once.
     """
 
@@ -40,6 +42,7 @@ class Shape:
     encodes_values: bool = True
     most_raw: int | None = None
     display: int | None = None
+    patterns: bool = False
 
     def __hash__(self) -> int:
         """Hash the facts that usually differ, because titles have no hash; equality compares all facts."""
@@ -59,13 +62,15 @@ class Shape:
 
     @cached_property
     def wire_type(self) -> str:
-        """Return the type on the wire, which may be narrower than the type that holds it in code: `u24`."""
-        return f"{self.type[0]}{self.width}" if 16 < self.width < self.info.bits else self.type
+        """Return the type on the wire; code may hold it in a wider one (`u24`), or as a pattern (`f32`)."""
+        if self.patterns:
+            return f"f{self.width}"
+        return f"{self.type[0]}{self.width}" if self.narrow else self.type
 
     @cached_property
     def narrow(self) -> bool:
         """Return True if the raw number has words of its own, and its type has more bits than these."""
-        return self.wire_type != self.type
+        return 16 < self.width < self.info.bits
 
     @cached_property
     def least(self) -> int:

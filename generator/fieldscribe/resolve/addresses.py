@@ -166,6 +166,7 @@ class Places:
 
     def _low_first(self, facts: PointFacts, type_name: str) -> bool:
         """Return True if the word with the low part of a number comes first."""
+        type_name = f"f{facts.pattern_bits}" if facts.pattern_bits else type_name
         order = self._order.get(type_name) if isinstance(self._order, Map) else self._order
         return bool((facts.get("words") or order) == "low first")
 

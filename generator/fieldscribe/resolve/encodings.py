@@ -52,7 +52,8 @@ class Encodings:
         info = type_info(name)
         width = info.bits if bits is None else bits[0] - bits[1] + 1
         holds = ends_of(width, signed=info.signed)
-        return Encoding(space, carrier_of(name), bits, width, holds, *self._codes.of(facts, name, bits))
+        carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
+        return Encoding(space, carrier, bits, width, holds, *self._codes.of(facts, name, bits))
 
 
 def _space_of(scope: Scope, facts: PointFacts) -> str:

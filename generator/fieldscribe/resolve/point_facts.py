@@ -135,8 +135,14 @@ class PointFacts:
 
     @property
     def floating(self) -> bool:
-        """Return True if the type is a floating-point type."""
-        return type_info(self.get("type") or "u16").floating
+        """Return True if the type is a floating-point type, and no enum names its patterns."""
+        return type_info(self.get("type") or "u16").floating and self.get("enum") is None
+
+    @property
+    def pattern_bits(self) -> int:
+        """Return how many bits the floating-point numbers have that an enum names; 0 if it names none of these."""
+        info = type_info(self.get("type") or "u16")
+        return info.bits if info.floating and self.get("enum") is not None else 0
 
     @property
     def text(self) -> bool:

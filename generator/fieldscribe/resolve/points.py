@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
+from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
@@ -252,9 +253,13 @@ def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction
             scope.report.error("bad-number", message, span, f"write `default: {stated}`")
             return None, None
         value = number(stated, span, scope.report)
+        if value is not None and facts.pattern_bits:
+            return value, pattern_of(value, facts.pattern_bits)
         exact = None if value is None or rule is None else rule.at(value)
         return value, exact.numerator if exact is not None and exact.denominator == 1 else None
     raw = None if facts.layer("default") is None else _default_raw(scope, facts, shape)
+    if raw is not None and facts.pattern_bits:
+        return Fraction(float_of(raw, facts.pattern_bits)), raw
     return None if raw is None or rule is None else (raw - rule.offset) / rule.ratio, raw
 
 

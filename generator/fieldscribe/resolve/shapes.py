@@ -115,6 +115,7 @@ class Shapes:
             specials_of=encoding.specials_of,
             text=text,
             digits=digits,
+            patterns=facts.pattern_bits > 0,
             fixed=fixed_of(scope, facts, encoding.bits, encoding.width) if "w" in access else None,
         )
         shape = self._interner.shape(replace(shape, display=_display_of(facts, shape, bounds)))

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
@@ -15,8 +16,9 @@ from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Text
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
-from fieldscribe.resolve.values import bit_range, integer
+from fieldscribe.resolve.values import bit_range, integer, number
 from fieldscribe.schema_types import TEXTS
+from fieldscribe.wording.exact import number_text
 
 WORD_BITS = 16
 _MOST_CHARACTERS = 250
@@ -52,16 +54,19 @@ def named_enum(scope: Scope, facts: PointFacts, raw: Map | str, span: Span, *, c
     if isinstance(entries, str):
         scope.unknown("enum", name, span, scope.named_enums)
         return None
+    floating = facts.pattern_bits
+    if floating and isinstance(raw, str):
+        name = f"{name}_f{floating}"  # whole numbers may share the enum, too
     key = (name, id(entries), closed)
     if key not in scope.enums:
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed, was)
+        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries, floating), closed, was)
     return scope.enums[key]
 
 
-def entries_of(scope: Scope, node: Map) -> tuple[Entry, ...]:
-    """Return the named numbers in the author's order."""
+def entries_of(scope: Scope, node: Map, floating: int = 0) -> tuple[Entry, ...]:
+    """Return the named numbers in the author's order; of `floating` bits, the patterns of the numbers."""
     taken = Taken(scope.report, "number")
-    entries = ((key, _entry(scope, node, key, value)) for key, value in node.items())
+    entries = ((key, _entry(scope, node, key, value, floating)) for key, value in node.items())
     return tuple(
         entry
         for key, entry in entries
@@ -69,16 +74,22 @@ def entries_of(scope: Scope, node: Map) -> tuple[Entry, ...]:
     )
 
 
-def _entry(scope: Scope, node: Map, key: str, value: Any) -> Entry | None:
+def _entry(scope: Scope, node: Map, key: str, value: Any, floating: int) -> Entry | None:
     if suggest_interval(key) is not None:
         hint = "write a row for each number that has a name; the others need none"
         scope.report.error("bad-number", f"`{key[:60]}` is not a single number", node.key_span(key), hint)
         return None
-    number = integer(key, node.key_span(key), scope.report)
-    if number is None:
+    quantity = None if isinstance(value, str) else value.get("quantity")
+    if floating:
+        exact = number(key, node.key_span(key), scope.report)
+        raw = None if exact is None else pattern_of(exact, floating)
+        quantity = quantity or (None if exact is None else number_text(exact))
+    else:
+        raw = integer(key, node.key_span(key), scope.report)
+    if raw is None:
         return None
     name = name_of(value)
-    return Entry(number, name, entry_titles(value, name), None if isinstance(value, str) else value.get("quantity"))
+    return Entry(raw, name, entry_titles(value, name), quantity)
 
 
 def name_of(value: Map | str) -> str:
@@ -271,13 +282,13 @@ def _flag(scope: Scope, node: Map, key: str, low: int, width: int) -> Flag:
             message = f"`{entry.name}` is {entry.raw}, which {width} bit{'s' if width > 1 else ''} cannot hold"
             scope.report.error("enum-outside-range", message, value.span("values"), f"0..{(1 << width) - 1} can occur")
     meanings = []
-    for number, which in enumerate(("zero", "one")):
+    for state, which in enumerate(("zero", "one")):
         if which not in value:
             continue
         if width > 1 or named:
             message = f"`{which}` says what a single bit means"
             scope.report.error("flag-values", message, value.key_span(which), "name the numbers under `values` only")
-        meanings.append(Entry(number, which, titles(value[which], which.capitalize()), None))
+        meanings.append(Entry(state, which, titles(value[which], which.capitalize()), None))
     if width > 1 and "active" in value:
         message = "`active` is for a single bit"
         scope.report.error("flag-values", message, value.key_span("active"), "name the numbers under `values`")
