@@ -107,8 +107,9 @@ NO_FACTS = (
         *("Code.most", "Frame.family_facts"),
     ),
     *("Point.errata", "Frame.errata", "Enum.title", "Enum.was", "Erratum.where", "ScaleCase.written"),
-    *("Shape.width", "Shape.encodes_values", "Shape.most_raw", "Text.characters", "ScaleCase.raw", "Factor.within"),
-    *("Factor.slope", "Factor.intercept", "Limit.least", "Limit.greatest", "Allowed.listed", "Point.default"),
+    *("Shape.width", "Shape.encodes_values", "Shape.most_raw", "Shape.patterns", "Text.characters", "ScaleCase.raw"),
+    *("Factor.within", "Factor.slope", "Factor.intercept", "Limit.least", "Limit.greatest"),
+    *("Allowed.listed", "Point.default"),
 )
 """Fields that follow from others, that cannot be changed alone, or that `diff` does not compare."""
 UNPUBLISHED = ("Special.hexadecimal", "Special.shared", "Erratum.facts", "Place.references", "Terms.reason")
