@@ -213,6 +213,8 @@ class _Members(dict[int, T]):
         return member
 
 
+_STATES = 2
+"""So many members are all named where one is wanted."""
 _REMEMBERED = 4096
 """So many members without a name are remembered for each point."""
 
@@ -258,11 +260,11 @@ class Named(Form[E, E]):
     def _meant(self, value: str | bool) -> str:
         """Return the member that is meant, else how members are named."""
         named = self.names.__members__
-        member = named.get(value.strip().upper()) if isinstance(value, str) else self._known.get(int(value))
-        if member is not None:
-            return f"{self.names.__name__}.{member.name}"
-        first = next(iter(named), None)
-        return f"a {self.names.__name__}" + (f" such as {self.names.__name__}.{first}" if first else "")
+        member = named.get(value.strip().upper()) if isinstance(value, str) else None
+        names = [f"{self.names.__name__}.{name}" for name in ([member.name] if member else named)]
+        if 0 < len(names) <= _STATES:
+            return " or ".join(names)
+        return f"a number of {self.names.__name__}" + (f" such as {names[0]}" if names else "")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """Return the same number if it is named (for a closed enum) and in range."""

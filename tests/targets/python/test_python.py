@@ -238,6 +238,11 @@ def test_a_refused_point_costs_no_group(
     drive.forget()
     slave.refuses = {at: 0x0B}  # a gateway whose unit does not answer
     assert status(partial(drive.read_many, wanted, errors="return"))[0] == "exception"
+    slave.refuses = {0x2008: 2}  # between the points of a read
+    for _ in range(2):
+        slave.log.clear()
+        assert drive.read_many(["voltage_ratio", "power"], errors="return")["power"] == 0
+    assert [(address, count) for _, address, count in slave.log] == [(0x2007, 1), (0x2009, 2)]
 
 
 def test_what_is_documented_only_is_said_once(package: Any, folder: Path) -> None:

@@ -145,10 +145,16 @@ class ModbusSession(Session):
             raws[point.facts.item] = self._taken(point, own)
         return raws
 
+    def _part_passes_over(self, points: Sequence[Point], *arguments: object) -> None:
+        block = arguments[0]
+        assert isinstance(block, Block)
+        taken = {(block.space, address) for point in points for address in point.facts.at.addresses}
+        self._gaps |= {place for place in block.places if place not in taken}
+
     def _holes(self) -> frozenset[tuple[str, int]]:
-        """Return the addresses of the points that the device has refused."""
+        """Return the addresses that the device has refused: of points, and between them."""
         places = [self.POINTS[item].facts.at for item in self._refused]
-        return frozenset((place.space, address) for place in places for address in place.addresses)
+        return self._gaps.union((place.space, address) for place in places for address in place.addresses)
 
     @classmethod
     def layouts(cls, group: str, **variants: str) -> tuple[Layout, ...]:

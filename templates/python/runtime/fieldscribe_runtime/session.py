@@ -56,6 +56,10 @@ _LASTING = frozenset({0x01, 0x02, 0x03})
 """Exceptions that say that a request does not suit the device: no such function, address, or number of words."""
 
 
+def _is_lasting(error: FieldscribeError) -> bool:
+    return isinstance(error, ExceptionReplyError) and error.code in _LASTING
+
+
 class Session(NamedPoints, ABC):
     """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
 
@@ -74,6 +78,8 @@ class Session(NamedPoints, ABC):
         self._kept: dict[str, int] = {}
         self._refused: dict[str, FieldscribeError] = {}
         """What `read_many` does not request again, by item."""
+        self._gaps: frozenset[tuple[str, int]] = frozenset()
+        """What lies between points, and no read may pass over: the space and the address."""
 
     if not TYPE_CHECKING:
 
@@ -149,17 +155,24 @@ class Session(NamedPoints, ABC):
             if len(points) == 1:
                 self._note(points[0], error, refusals)
                 return {}
+            is_lasting = _is_lasting(error)
         finally:
             self.traffic.is_split = False
         raws: dict[str, int] = {}
         for point in points:
             raws.update((yield from self._gather_steps([point], None, refusals)))
+        if is_lasting and len(raws) == len(points):
+            self._note_gaps(points, *arguments)
         return raws
+
+    def _note_gaps(self, points: Sequence[Point], *arguments: object) -> None:
+        """Note that the device refuses a part for what lies between its points: each of them comes by itself."""
+        del points, arguments
 
     def _note(self, point: Point, error: FieldscribeError, refusals: dict[str, FieldscribeError]) -> None:
         """Note that a point is refused; if that lasts, for the next time, too."""
         refusals[point.facts.item] = error
-        if isinstance(error, ExceptionReplyError) and error.code in _LASTING:
+        if _is_lasting(error):
             self._refused[point.facts.item] = copy(error)
 
     def _shared_word_steps(self, point: Point) -> Steps[int]:
@@ -172,6 +185,7 @@ class Session(NamedPoints, ABC):
         """Read everything anew: what changes rarely or never, and what the device has refused."""
         self._kept.clear()
         self._refused.clear()
+        self._gaps = frozenset()
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
