@@ -264,7 +264,7 @@ class Named(Form[E, E]):
         names = [f"{self.names.__name__}.{name}" for name in ([member.name] if member else named)]
         if 0 < len(names) <= _STATES:
             return " or ".join(names)
-        return f"a number of {self.names.__name__}" + (f" such as {names[0]}" if names else "")
+        return f"a member of {self.names.__name__}" + (f" such as {names[0]}" if names else "")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """Return the same number if it is named (for a closed enum) and in range."""

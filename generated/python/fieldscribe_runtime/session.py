@@ -162,10 +162,10 @@ class Session(NamedPoints, ABC):
         for point in points:
             raws.update((yield from self._gather_steps([point], None, refusals)))
         if is_lasting and len(raws) == len(points):
-            self._part_passes_over(points, *arguments)
+            self._note_gaps(points, *arguments)
         return raws
 
-    def _part_passes_over(self, points: Sequence[Point], *arguments: object) -> None:
+    def _note_gaps(self, points: Sequence[Point], *arguments: object) -> None:
         """Note that the device refuses a part for what lies between its points: each of them comes by itself."""
         del points, arguments
 

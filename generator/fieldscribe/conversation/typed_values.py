@@ -53,13 +53,13 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
         number = _number(point, text)
     except NumberError as error:
         names = [name for name, _ in _names(point)]
+        message = f"{label(point)} has no name `{shortened(text)}`"
         if names and not text[:1].isdigit():
             known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
-            raise _unknown(f"{label(point)} has no name `{shortened(text)}`", text.casefold(), names, known) from error
+            raise _unknown(message, text.casefold(), names, known) from error
         if text[:1].isalpha() and not _HEX_DIGITS.fullmatch(text):
-            allowed = wording.range_text(point)
-            hint = f"it takes {allowed}" if allowed else "it takes a number"
-            raise UnclearError(f"{label(point)} has no names, here is `{shortened(text)}`", hint) from error
+            allowed = "on or off" if point.width == 1 else wording.range_text(point)
+            raise UnclearError(message, f"it takes {allowed or 'numbers only'}") from error
         raise UnclearError(error.message, error.hint) from error
     if point.form not in ("enum", "flags", "bit", "digits"):
         return Typed(number, 0)

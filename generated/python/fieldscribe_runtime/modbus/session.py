@@ -145,7 +145,7 @@ class ModbusSession(Session):
             raws[point.facts.item] = self._taken(point, own)
         return raws
 
-    def _part_passes_over(self, points: Sequence[Point], *arguments: object) -> None:
+    def _note_gaps(self, points: Sequence[Point], *arguments: object) -> None:
         block = arguments[0]
         assert isinstance(block, Block)
         taken = {(block.space, address) for point in points for address in point.facts.at.addresses}

@@ -476,8 +476,8 @@ macro_rules! client {
             ) -> Result<u16, ClientError<T::Error>> {
                 let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
                 self.drain()$($wait)*?;
-                self.unit.trace(Way::Sent, &asked);
                 self.transport.send(&asked)$($wait)*.map_err(lost)?;
+                self.unit.trace(Way::Sent, &asked);
                 let Some(answer) = dialogue.answer else {
                     return Ok(raw);
                 };

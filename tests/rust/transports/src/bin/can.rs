@@ -37,4 +37,5 @@ fn main() {
     waits();
     assert_eq!(programs::log::kept()[..2], ["unit 5 -> 33Fh EE 05 00 0B 3C 00 D2 0E", "unit 5 <- 325h DD 00 05 15 13 86 00 00"]);
     does_not_wait();
+    assert!(programs::log::kept().last().is_some_and(|last| last.starts_with("unit 5 <-"))); // no request that was not sent
 }
