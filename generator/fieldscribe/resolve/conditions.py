@@ -25,6 +25,9 @@ from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 from fieldscribe.resolve.word_contents import enum_of
 
+_MOST_STEPS = 16
+"""The most points that exist by one another, in a row."""
+
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """The test of raw numbers for a test of values, if raw numbers fall while the value rises."""
 
@@ -90,6 +93,9 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
     if not points:
         scales.symbols.unknown(name, written.of(name))
         raise FactError
+    if len(asking) > _MOST_STEPS:
+        message = f"`{name}` exists by more than {_MOST_STEPS} conditions, one behind the other"
+        raise FormulaError(message, column, "compare what the first of them compares")
     if any(point in asking for point in points):
         raise FormulaError(f"`{name}` exists by a condition that leads back to itself", column, "write it out")
     versions = next((key for point in points for key in ("since", "until") if point.get(key) is not None), None)

@@ -43,6 +43,8 @@ def expand(scope: Scope) -> list[PointFacts]:
 def _point(scope: Scope, group: Map, point: Map) -> Iterable[PointFacts]:
     if "record" in point:
         return _record(scope, group, point)
+    if "cases" in point:
+        return _cases(scope, group, point)
     rows = point.get("sets")
     if not isinstance(rows, Map) and not _AXES.isdisjoint(point):
         return _elements(scope, group, point)
@@ -52,18 +54,20 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterable[PointFacts]:
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
     title = _title(point)
     facts = PointFacts(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
-    if "cases" in point:
-        return _cases(scope, facts, point["cases"])
     return _variants(scope, facts) if rows is None else _sets(scope, facts, rows)
 
 
-def _cases(scope: Scope, row: PointFacts, cases: Map) -> Iterator[PointFacts]:
+def _cases(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     """Yield a point for each meaning of the row; report a case without a condition, and what repeats besides."""
-    for key in ("sets", "variants"):
-        if key in row.node:
+    row = PointFacts(point["name"], (point, *_format(scope, point)), group, point, _title(point))
+    row.set_number = row.get("set")
+    row.element = _single_element(scope, row)
+    cases: Map = point["cases"]
+    for key in ("sets", "indices", "each", "variants"):
+        if key in point:
             hint = "say it in the `when` of each case, or write rows of their own"
             message = f"`{row.name}` has `cases` and `{key}`"
-            scope.report.error("two-meanings", message, row.node.key_span(key), hint)
+            scope.report.error("two-meanings", message, point.key_span(key), hint)
     for name, override in cases.items():
         words = humanised(name).lower()
         title = titles(override.get("title")) or {language: f"{text} ({words})" for language, text in row.title.items()}
@@ -234,10 +238,9 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[PointFacts]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"
             scope.report.error("record-cycle", message, point.span("record"), "write its points out")
-        elif "each" in point or not _AXES.isdisjoint(point):
-            key = next(key for key in ("sets", "indices", "set", "index", "each") if key in point)
-            message = "the points of a record cannot repeat in sets or indices"
-            scope.report.error("record-key", message, point.key_span(key), "use the record once for each of them")
+        elif keys := [key for key in ("sets", "indices", "set", "index", "each", "cases") if key in point]:
+            message = "the points of a record cannot repeat in sets, indices or cases"
+            scope.report.error("record-key", message, point.key_span(keys[0]), "use the record once for each of them")
         else:
             yield from _variants(scope, _member(scope, group, use, point))
 

@@ -43,8 +43,12 @@ def _identities(
             hint = "name a point that every variant has and that can be read: a whole number or a text"
             scope.report.error("identify", message, node.key_span(word), hint)
             continue
+        longest = 0 if point.text is None else point.text.characters
         items = list(enumerate(held)) if isinstance(held, Seq) else [(None, held)]
         if point.text is not None:
+            if any(len(str(item)) > longest for _, item in items):
+                hint = f"a text of it has at most {longest} characters"
+                scope.report.error("identify", f"`{point.name}` cannot hold this text", node.span(word), hint)
             yield Identity(variant, point.name, (), tuple(str(item) for _, item in items))
             continue
         names = {} if point.enum is None else {entry.name: entry.raw for entry in point.enum.entries}
