@@ -220,15 +220,17 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
     return true;
 }
 
-#define FIELDSCRIBE_MEMBER(point, member, raw_type, decode)                                      \
-    if (fieldscribe_spells(fieldscribe_field(v, "point"), point)) {                              \
-        fieldscribe_agree(v, group.member == decode((raw_type)fieldscribe_bits(v, "raw")));      \
+#define FIELDSCRIBE_MEMBER(name, is)                                                             \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), name)) {                              \
+        fieldscribe_agree(v, is);                                                                \
     }
-
-#define FIELDSCRIBE_MEMBER_TEXT(point, member)                                                   \
-    if (fieldscribe_spells(fieldscribe_field(v, "point"), point)) {                              \
-        fieldscribe_agree(v, fieldscribe_is_text_of(group.member, words, what->count));          \
-    }
+#define FIELDSCRIBE_MEMBER_RAW(item, raw_type)                                                   \
+    FIELDSCRIBE_MEMBER(#item, group.item##_raw == (raw_type)fieldscribe_bits(v, "raw"))
+#define FIELDSCRIBE_MEMBER_COUNT(device, item, raw_type)                                         \
+    FIELDSCRIBE_MEMBER(                                                                          \
+        #item, group.item##_count == device##_##item##_decode_count((raw_type)fieldscribe_bits(v, "raw")))
+#define FIELDSCRIBE_MEMBER_TEXT(item)                                                            \
+    FIELDSCRIBE_MEMBER(#item, fieldscribe_is_text_of(group.item##_text, words, what->count))
 
 /* A character of words that hold two each, the first in the high byte. */
 static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)

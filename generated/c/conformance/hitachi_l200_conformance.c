@@ -59,10 +59,7 @@ static void point_run_command(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_command_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_command_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_run_command_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_command, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_run_command_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_command, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_command_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, run_command, bool, bool, PLAIN)
 }
 
 static void point_direction_command(fieldscribe_vector *v)
@@ -80,10 +77,7 @@ static void point_direction_command(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_direction_command_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_direction_command_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_direction_command_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_direction_command, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_direction_command_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_direction_command, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_direction_command_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, direction_command, bool, bool, PLAIN)
 }
 
 static void point_external_trip(fieldscribe_vector *v)
@@ -101,10 +95,7 @@ static void point_external_trip(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_external_trip_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_external_trip_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_external_trip_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_external_trip, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_external_trip_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_external_trip, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_external_trip_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, external_trip, bool, bool, PLAIN)
 }
 
 static void point_trip_reset(fieldscribe_vector *v)
@@ -121,10 +112,7 @@ static void point_trip_reset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_trip_reset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_reset_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_trip_reset_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_reset, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_trip_reset_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_trip_reset, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_reset_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, trip_reset, bool, bool, PLAIN)
 }
 
 static void point_digital_input_1(fieldscribe_vector *v)
@@ -142,10 +130,7 @@ static void point_digital_input_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_digital_input_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_1, bool, bool, PLAIN)
 }
 
 static void point_digital_input_2(fieldscribe_vector *v)
@@ -163,10 +148,7 @@ static void point_digital_input_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_digital_input_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_2, bool, bool, PLAIN)
 }
 
 static void point_digital_input_3(fieldscribe_vector *v)
@@ -184,10 +166,7 @@ static void point_digital_input_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_digital_input_3_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_3, bool, bool, PLAIN)
 }
 
 static void point_digital_input_4(fieldscribe_vector *v)
@@ -205,10 +184,7 @@ static void point_digital_input_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_digital_input_4_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_4, bool, bool, PLAIN)
 }
 
 static void point_digital_input_5(fieldscribe_vector *v)
@@ -226,10 +202,7 @@ static void point_digital_input_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_frame, bit, bool)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_digital_input_5_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_5, bool, bool, PLAIN)
 }
 
 static void point_running(fieldscribe_vector *v)
@@ -243,8 +216,7 @@ static void point_running(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_running_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_running_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_running, bool, bool, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_running_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, running, bool, bool, PLAIN)
 }
 
 static void point_direction_status(fieldscribe_vector *v)
@@ -258,8 +230,7 @@ static void point_direction_status(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_direction_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_direction_status_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_direction_status, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_direction_status_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, direction_status, bool, bool, PLAIN)
 }
 
 static void point_ready(fieldscribe_vector *v)
@@ -273,8 +244,7 @@ static void point_ready(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_ready_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ready_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ready, bool, bool, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_ready_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, ready, bool, bool, PLAIN)
 }
 
 static void point_alarm(fieldscribe_vector *v)
@@ -288,8 +258,7 @@ static void point_alarm(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_alarm_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_alarm_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_alarm, bool, bool, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_alarm_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, alarm, bool, bool, PLAIN)
 }
 
 static void point_pid_deviation(fieldscribe_vector *v)
@@ -303,8 +272,7 @@ static void point_pid_deviation(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_pid_deviation_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_deviation_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_deviation, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_pid_deviation_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, pid_deviation, bool, bool, PLAIN)
 }
 
 static void point_overload(fieldscribe_vector *v)
@@ -318,8 +286,7 @@ static void point_overload(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_overload_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload, bool, bool, value, FIELDSCRIBE_ALONE, (value
-        = hitachi_l200_overload_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, overload, bool, bool, PLAIN)
 }
 
 static void point_frequency_arrival_in_acceleration(fieldscribe_vector *v)
@@ -334,8 +301,7 @@ static void point_frequency_arrival_in_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_arrival_in_acceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_in_acceleration_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_arrival_in_acceleration, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_arrival_in_acceleration_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, frequency_arrival_in_acceleration, bool, bool, PLAIN)
 }
 
 static void point_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
@@ -350,8 +316,7 @@ static void point_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_arrival_at_constant_speed_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_at_constant_speed_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_arrival_at_constant_speed, bool, bool, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_arrival_at_constant_speed_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, frequency_arrival_at_constant_speed, bool, bool, PLAIN)
 }
 
 static void point_run_mode(fieldscribe_vector *v)
@@ -365,8 +330,7 @@ static void point_run_mode(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_run_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_mode_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_mode, bool, bool, value, FIELDSCRIBE_ALONE, (value
-        = hitachi_l200_run_mode_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, run_mode, bool, bool, PLAIN)
 }
 
 static void point_data_write(fieldscribe_vector *v)
@@ -380,8 +344,7 @@ static void point_data_write(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_data_write_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_data_write_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_data_write, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_data_write_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, data_write, bool, bool, PLAIN)
 }
 
 static void point_crc_error(fieldscribe_vector *v)
@@ -395,8 +358,7 @@ static void point_crc_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_crc_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_crc_error_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_crc_error, bool, bool, value, FIELDSCRIBE_ALONE, (value
-        = hitachi_l200_crc_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, crc_error, bool, bool, PLAIN)
 }
 
 static void point_overrun_error(fieldscribe_vector *v)
@@ -410,8 +372,7 @@ static void point_overrun_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_overrun_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overrun_error_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overrun_error, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_overrun_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, overrun_error, bool, bool, PLAIN)
 }
 
 static void point_framing_error(fieldscribe_vector *v)
@@ -425,8 +386,7 @@ static void point_framing_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_framing_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_framing_error_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_framing_error, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_framing_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, framing_error, bool, bool, PLAIN)
 }
 
 static void point_parity_error(fieldscribe_vector *v)
@@ -440,8 +400,7 @@ static void point_parity_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_parity_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_parity_error_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_parity_error, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_parity_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, parity_error, bool, bool, PLAIN)
 }
 
 static void point_checksum_error(fieldscribe_vector *v)
@@ -455,8 +414,7 @@ static void point_checksum_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(bool)
     FIELDSCRIBE_LIES(hitachi_l200_checksum_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_checksum_error_frame, bit, bool)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_checksum_error, bool, bool, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_checksum_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, checksum_error, bool, bool, PLAIN)
 }
 
 static void point_network_frequency_setpoint(fieldscribe_vector *v)
@@ -475,11 +433,7 @@ static void point_network_frequency_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_frequency_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_frequency_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_frequency_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_frequency_setpoint, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_network_frequency_setpoint_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_frequency_setpoint, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_network_frequency_setpoint_decode_count(raw), true) &&
-        (int)hitachi_l200_network_frequency_setpoint_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, network_frequency_setpoint, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_inverter_status(fieldscribe_vector *v)
@@ -505,10 +459,7 @@ static void point_inverter_status(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_inverter_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_inverter_status_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_inverter_status_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_inverter_status, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_inverter_status_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_inverter_status, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_inverter_status_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, inverter_status, int32_t, uint16_t, PLAIN)
 }
 
 static void point_network_process_value(fieldscribe_vector *v)
@@ -526,11 +477,7 @@ static void point_network_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_process_value_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_process_value_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_process_value_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_process_value, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_network_process_value_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_process_value, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_network_process_value_decode_count(raw), true) &&
-        (int)hitachi_l200_network_process_value_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, network_process_value, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_output_frequency(fieldscribe_vector *v)
@@ -544,8 +491,7 @@ static void point_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_output_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, output_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_motor_current(fieldscribe_vector *v)
@@ -559,8 +505,7 @@ static void point_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_current_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_current, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_current_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, motor_current, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_rotation_direction(fieldscribe_vector *v)
@@ -576,8 +521,7 @@ static void point_rotation_direction(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_rotation_direction_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_rotation_direction_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_rotation_direction, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_rotation_direction_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, rotation_direction, int32_t, uint16_t, PLAIN)
 }
 
 static void point_scaled_process_value(fieldscribe_vector *v)
@@ -591,8 +535,7 @@ static void point_scaled_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_scaled_process_value, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_scaled_process_value_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_scaled_process_value_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_scaled_process_value, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_scaled_process_value_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, scaled_process_value, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_digital_inputs(fieldscribe_vector *v)
@@ -604,8 +547,7 @@ static void point_digital_inputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_digital_inputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_inputs_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_inputs, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_inputs_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, digital_inputs, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("input_1", (((uint16_t)fieldscribe_bits(v, "raw")) & HITACHI_L200_DIGITAL_INPUTS_INPUT_1_MASK) !=
         0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & HITACHI_L200_DIGITAL_INPUTS_INPUT_1_MASK) != 0U)
     FIELDSCRIBE_TRUTH("input_2", (((uint16_t)fieldscribe_bits(v, "raw")) & HITACHI_L200_DIGITAL_INPUTS_INPUT_2_MASK) !=
@@ -627,8 +569,7 @@ static void point_digital_outputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_digital_outputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_outputs_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_outputs, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_outputs_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, digital_outputs, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("output_11", (((uint16_t)fieldscribe_bits(v, "raw")) &
         HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_11_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_11_MASK) != 0U)
@@ -650,8 +591,7 @@ static void point_output_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_output_voltage_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, output_voltage, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_run_time(fieldscribe_vector *v)
@@ -663,8 +603,7 @@ static void point_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_time, int64_t, uint32_t, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_power_on_time(fieldscribe_vector *v)
@@ -676,8 +615,7 @@ static void point_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_on_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_on_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_power_on_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, power_on_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_count(fieldscribe_vector *v)
@@ -689,8 +627,7 @@ static void point_trip_count(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_count_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_count_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_count, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_count_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_count, int32_t, uint16_t, PLAIN)
 }
 
 static void point_trip_1_error(fieldscribe_vector *v)
@@ -706,8 +643,7 @@ static void point_trip_1_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_error_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_error, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_error, int32_t, uint16_t, PLAIN)
 }
 
 static void point_trip_1_output_frequency(fieldscribe_vector *v)
@@ -721,8 +657,7 @@ static void point_trip_1_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_output_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_output_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_output_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_output_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_1_motor_current(fieldscribe_vector *v)
@@ -736,8 +671,7 @@ static void point_trip_1_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_motor_current_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_motor_current, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_motor_current_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_motor_current, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_1_dc_bus_voltage(fieldscribe_vector *v)
@@ -751,8 +685,7 @@ static void point_trip_1_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_dc_bus_voltage_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_dc_bus_voltage, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_1_dc_bus_voltage_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_dc_bus_voltage, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_1_run_time(fieldscribe_vector *v)
@@ -764,8 +697,7 @@ static void point_trip_1_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_1_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_1_power_on_time(fieldscribe_vector *v)
@@ -777,8 +709,7 @@ static void point_trip_1_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_1_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_1_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_power_on_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_1_power_on_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_1_power_on_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_1_power_on_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_2_error(fieldscribe_vector *v)
@@ -794,8 +725,7 @@ static void point_trip_2_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_error_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_error, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_error, int32_t, uint16_t, PLAIN)
 }
 
 static void point_trip_2_output_frequency(fieldscribe_vector *v)
@@ -809,8 +739,7 @@ static void point_trip_2_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_output_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_output_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_output_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_output_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_2_motor_current(fieldscribe_vector *v)
@@ -824,8 +753,7 @@ static void point_trip_2_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_motor_current_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_motor_current, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_motor_current_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_motor_current, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_2_dc_bus_voltage(fieldscribe_vector *v)
@@ -839,8 +767,7 @@ static void point_trip_2_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_dc_bus_voltage_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_dc_bus_voltage, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_2_dc_bus_voltage_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_dc_bus_voltage, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_2_run_time(fieldscribe_vector *v)
@@ -852,8 +779,7 @@ static void point_trip_2_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_2_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_2_power_on_time(fieldscribe_vector *v)
@@ -865,8 +791,7 @@ static void point_trip_2_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_2_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_2_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_power_on_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_2_power_on_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_2_power_on_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_2_power_on_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_3_error(fieldscribe_vector *v)
@@ -882,8 +807,7 @@ static void point_trip_3_error(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_error_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_error_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_error, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_error_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_error, int32_t, uint16_t, PLAIN)
 }
 
 static void point_trip_3_output_frequency(fieldscribe_vector *v)
@@ -897,8 +821,7 @@ static void point_trip_3_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_output_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_output_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_output_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_output_frequency_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_output_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_3_motor_current(fieldscribe_vector *v)
@@ -912,8 +835,7 @@ static void point_trip_3_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_motor_current_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_motor_current_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_motor_current, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_motor_current_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_motor_current, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_3_dc_bus_voltage(fieldscribe_vector *v)
@@ -927,8 +849,7 @@ static void point_trip_3_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_dc_bus_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_dc_bus_voltage_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_dc_bus_voltage, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_trip_3_dc_bus_voltage_decode_count(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_dc_bus_voltage, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_trip_3_run_time(fieldscribe_vector *v)
@@ -940,8 +861,7 @@ static void point_trip_3_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_3_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_trip_3_power_on_time(fieldscribe_vector *v)
@@ -953,8 +873,7 @@ static void point_trip_3_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(hitachi_l200_trip_3_power_on_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(hitachi_l200_trip_3_power_on_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_power_on_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_trip_3_power_on_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_trip_3_power_on_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(hitachi_l200, trip_3_power_on_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_acceleration_time(fieldscribe_vector *v)
@@ -972,11 +891,7 @@ static void point_acceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_decode_count(raw), true) &&
-        (int)hitachi_l200_acceleration_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_time, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_acceleration_time_set_2(fieldscribe_vector *v)
@@ -994,11 +909,7 @@ static void point_acceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_set_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_set_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_set_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_acceleration_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_time_set_2, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_deceleration_time(fieldscribe_vector *v)
@@ -1016,11 +927,7 @@ static void point_deceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_decode_count(raw), true) &&
-        (int)hitachi_l200_deceleration_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_time, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_deceleration_time_set_2(fieldscribe_vector *v)
@@ -1038,11 +945,7 @@ static void point_deceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_set_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_set_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_set_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_deceleration_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_time_set_2, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_motor_direction(fieldscribe_vector *v)
@@ -1060,10 +963,7 @@ static void point_motor_direction(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_direction_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_direction_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_direction_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_direction, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_direction_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_direction, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_direction_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_direction, int32_t, uint16_t, PLAIN)
 }
 
 static void point_frequency_source(fieldscribe_vector *v)
@@ -1084,10 +984,7 @@ static void point_frequency_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, frequency_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_frequency_source_set_2(fieldscribe_vector *v)
@@ -1108,10 +1005,7 @@ static void point_frequency_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_source_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_source_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_source_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, frequency_source_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_run_source(fieldscribe_vector *v)
@@ -1130,10 +1024,7 @@ static void point_run_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, run_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_run_source_set_2(fieldscribe_vector *v)
@@ -1152,10 +1043,7 @@ static void point_run_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_run_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_run_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_run_source_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_run_source_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_run_source_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, run_source_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_rated_frequency(fieldscribe_vector *v)
@@ -1172,11 +1060,11 @@ static void point_motor_rated_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_rated_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_rated_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency, int32_t, uint16_t,
-        value, FIELDSCRIBE_WITH("maximum_frequency", uint16_t), (value = hitachi_l200_motor_rated_frequency_decode(raw),
-        true))
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_motor_rated_frequency, int32_t))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_WITH("maximum_frequency", uint16_t), FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_motor_rated_frequency,
+        int32_t), FIELDSCRIBE_ENCODE_RAW(hitachi_l200_motor_rated_frequency, uint16_t))
 }
 
 static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
@@ -1194,11 +1082,12 @@ static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_rated_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_rated_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_rated_frequency_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_WITH("maximum_frequency_set_2", uint16_t), (value =
-        hitachi_l200_motor_rated_frequency_set_2_decode(raw), true))
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_motor_rated_frequency_set_2, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_motor_rated_frequency_set_2, int32_t))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_motor_rated_frequency_set_2, int32_t,
+        uint16_t, FIELDSCRIBE_WITH("maximum_frequency_set_2", uint16_t),
+        FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_motor_rated_frequency_set_2, int32_t),
+        FIELDSCRIBE_ENCODE_RAW(hitachi_l200_motor_rated_frequency_set_2, uint16_t))
 }
 
 static void point_maximum_frequency(fieldscribe_vector *v)
@@ -1215,10 +1104,11 @@ static void point_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency, int32_t, uint16_t, value,
-        FIELDSCRIBE_WITH("motor_rated_frequency", uint16_t), (value = hitachi_l200_maximum_frequency_decode(raw), true))
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_maximum_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_maximum_frequency, int32_t))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_WITH("motor_rated_frequency", uint16_t), FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_maximum_frequency,
+        int32_t), FIELDSCRIBE_ENCODE_RAW(hitachi_l200_maximum_frequency, uint16_t))
 }
 
 static void point_maximum_frequency_set_2(fieldscribe_vector *v)
@@ -1235,11 +1125,12 @@ static void point_maximum_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_maximum_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_maximum_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_maximum_frequency_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_maximum_frequency_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_WITH("motor_rated_frequency_set_2", uint16_t), (value =
-        hitachi_l200_maximum_frequency_set_2_decode(raw), true))
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_maximum_frequency_set_2, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_maximum_frequency_set_2, int32_t))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_maximum_frequency_set_2, int32_t,
+        uint16_t, FIELDSCRIBE_WITH("motor_rated_frequency_set_2", uint16_t),
+        FIELDSCRIBE_DECODE_PLAIN(hitachi_l200_maximum_frequency_set_2, int32_t),
+        FIELDSCRIBE_ENCODE_RAW(hitachi_l200_maximum_frequency_set_2, uint16_t))
 }
 
 static void point_at_terminal_selection(fieldscribe_vector *v)
@@ -1259,10 +1150,7 @@ static void point_at_terminal_selection(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_at_terminal_selection_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_at_terminal_selection_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_at_terminal_selection_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_at_terminal_selection, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_at_terminal_selection_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_at_terminal_selection, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_at_terminal_selection_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, at_terminal_selection, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_o_minimum_frequency(fieldscribe_vector *v)
@@ -1280,11 +1168,7 @@ static void point_input_o_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_minimum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_minimum_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_input_o_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_minimum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_o_maximum_frequency(fieldscribe_vector *v)
@@ -1302,11 +1186,7 @@ static void point_input_o_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_maximum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_maximum_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_input_o_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_maximum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
@@ -1321,10 +1201,7 @@ static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_minimum_setpoint, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_minimum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_minimum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_minimum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_minimum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
@@ -1339,10 +1216,7 @@ static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_maximum_setpoint, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_maximum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_maximum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_maximum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_maximum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_o_start_condition(fieldscribe_vector *v)
@@ -1360,10 +1234,7 @@ static void point_input_o_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_start_condition_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_start_condition, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_start_condition_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_start_condition, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_o_start_condition_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_start_condition, int32_t, uint16_t, PLAIN)
 }
 
 static void point_analog_input_filter(fieldscribe_vector *v)
@@ -1380,10 +1251,7 @@ static void point_analog_input_filter(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_input_filter_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_input_filter_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_input_filter_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_input_filter, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_input_filter_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_input_filter, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_input_filter_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, analog_input_filter, int32_t, uint16_t, PLAIN)
 }
 
 static void point_base_frequency(fieldscribe_vector *v)
@@ -1401,11 +1269,7 @@ static void point_base_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_base_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_base_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_base_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, base_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_base_frequency_set_2(fieldscribe_vector *v)
@@ -1423,11 +1287,7 @@ static void point_base_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_base_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_base_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_base_frequency_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_base_frequency_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_base_frequency_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_base_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, base_frequency_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_1(fieldscribe_vector *v)
@@ -1445,11 +1305,7 @@ static void point_fixed_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_1_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_1_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_1_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_1_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_1, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_2(fieldscribe_vector *v)
@@ -1467,11 +1323,7 @@ static void point_fixed_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_2_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_3(fieldscribe_vector *v)
@@ -1489,11 +1341,7 @@ static void point_fixed_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_3_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_3_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_3_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_3_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_3, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_4(fieldscribe_vector *v)
@@ -1511,11 +1359,7 @@ static void point_fixed_frequency_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_4_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_4_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_4, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_4_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_4, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_4_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_4_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_4, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_5(fieldscribe_vector *v)
@@ -1533,11 +1377,7 @@ static void point_fixed_frequency_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_5_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_5_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_5, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_5_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_5, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_5_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_5_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_5, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_6(fieldscribe_vector *v)
@@ -1555,11 +1395,7 @@ static void point_fixed_frequency_6(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_6_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_6_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_6_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_6, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_6_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_6, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_6_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_6_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_6, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_7(fieldscribe_vector *v)
@@ -1577,11 +1413,7 @@ static void point_fixed_frequency_7(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_7_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_7_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_7_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_7, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_7_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_7, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_7_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_7_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_7, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_8(fieldscribe_vector *v)
@@ -1599,11 +1431,7 @@ static void point_fixed_frequency_8(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_8_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_8_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_8_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_8, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_8_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_8, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_8_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_8_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_8, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_9(fieldscribe_vector *v)
@@ -1621,11 +1449,7 @@ static void point_fixed_frequency_9(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_9_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_9_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_9_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_9, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_9_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_9, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_9_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_9_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_9, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_10(fieldscribe_vector *v)
@@ -1643,11 +1467,7 @@ static void point_fixed_frequency_10(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_10_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_10_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_10_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_10, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_10_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_10, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_10_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_10_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_10, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_11(fieldscribe_vector *v)
@@ -1665,11 +1485,7 @@ static void point_fixed_frequency_11(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_11_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_11_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_11_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_11, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_11_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_11, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_11_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_11_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_11, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_12(fieldscribe_vector *v)
@@ -1687,11 +1503,7 @@ static void point_fixed_frequency_12(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_12_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_12_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_12_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_12, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_12_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_12, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_12_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_12_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_12, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_13(fieldscribe_vector *v)
@@ -1709,11 +1521,7 @@ static void point_fixed_frequency_13(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_13_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_13_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_13_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_13, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_13_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_13, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_13_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_13_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_13, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_14(fieldscribe_vector *v)
@@ -1731,11 +1539,7 @@ static void point_fixed_frequency_14(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_14_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_14_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_14_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_14, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_14_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_14, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_14_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_14_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_14, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_fixed_frequency_15(fieldscribe_vector *v)
@@ -1753,11 +1557,7 @@ static void point_fixed_frequency_15(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_fixed_frequency_15_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_fixed_frequency_15_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_15_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_fixed_frequency_15, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_15_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_fixed_frequency_15, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_fixed_frequency_15_decode_count(raw), true) &&
-        (int)hitachi_l200_fixed_frequency_15_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, fixed_frequency_15, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jog_frequency(fieldscribe_vector *v)
@@ -1775,11 +1575,7 @@ static void point_jog_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jog_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jog_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jog_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jog_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_jog_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jog_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jog_stop_mode(fieldscribe_vector *v)
@@ -1798,10 +1594,7 @@ static void point_jog_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jog_stop_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jog_stop_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_stop_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jog_stop_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_jog_stop_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jog_stop_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_jog_stop_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, jog_stop_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_boost_mode(fieldscribe_vector *v)
@@ -1819,10 +1612,7 @@ static void point_boost_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_boost_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_boost_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, boost_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_boost_mode_set_2(fieldscribe_vector *v)
@@ -1840,10 +1630,7 @@ static void point_boost_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_boost_mode_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_boost_mode_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_boost_mode_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_boost_mode_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_boost_mode_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, boost_mode_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_manual_boost(fieldscribe_vector *v)
@@ -1861,11 +1648,7 @@ static void point_manual_boost(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_decode_count(raw), true) &&
-        (int)hitachi_l200_manual_boost_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, manual_boost, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_manual_boost_set_2(fieldscribe_vector *v)
@@ -1883,11 +1666,7 @@ static void point_manual_boost_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_manual_boost_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, manual_boost_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_manual_boost_frequency(fieldscribe_vector *v)
@@ -1905,11 +1684,7 @@ static void point_manual_boost_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_manual_boost_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, manual_boost_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
@@ -1930,12 +1705,7 @@ static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_manual_boost_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_manual_boost_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_manual_boost_frequency_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_manual_boost_frequency_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_manual_boost_frequency_set_2_decode_count(raw), true)
-        && (int)hitachi_l200_manual_boost_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
-        raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, manual_boost_frequency_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_vf_characteristic(fieldscribe_vector *v)
@@ -1953,10 +1723,7 @@ static void point_vf_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_vf_characteristic_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_vf_characteristic_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, vf_characteristic, int32_t, uint16_t, PLAIN)
 }
 
 static void point_vf_characteristic_set_2(fieldscribe_vector *v)
@@ -1974,10 +1741,7 @@ static void point_vf_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_vf_characteristic_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_vf_characteristic_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_vf_characteristic_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_vf_characteristic_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_vf_characteristic_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, vf_characteristic_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_output_voltage_setting(fieldscribe_vector *v)
@@ -1992,10 +1756,7 @@ static void point_output_voltage_setting(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_setting_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_setting_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, output_voltage_setting, int32_t, uint16_t, PLAIN)
 }
 
 static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
@@ -2011,10 +1772,7 @@ static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_output_voltage_setting_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_setting_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_output_voltage_setting_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_output_voltage_setting_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_output_voltage_setting_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, output_voltage_setting_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_dc_brake_enable(fieldscribe_vector *v)
@@ -2032,10 +1790,7 @@ static void point_dc_brake_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_enable_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_enable_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_enable_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, dc_brake_enable, int32_t, uint16_t, PLAIN)
 }
 
 static void point_dc_brake_frequency(fieldscribe_vector *v)
@@ -2055,13 +1810,12 @@ static void point_dc_brake_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_WITH("start_frequency", uint16_t), (count =
-        hitachi_l200_dc_brake_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_dc_brake_frequency_encode_count(count FIELDSCRIBE_WITH("start_frequency", uint16_t), &again)
-        == 0 && again == raw)
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_dc_brake_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_COUNT_OF(hitachi_l200_dc_brake_frequency, int32_t))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_dc_brake_frequency, int32_t, uint16_t,
+        FIELDSCRIBE_WITH("start_frequency", uint16_t), FIELDSCRIBE_DECODE_COUNT_OF(hitachi_l200_dc_brake_frequency,
+        int32_t), (int)hitachi_l200_dc_brake_frequency_encode_count(number FIELDSCRIBE_WITH("start_frequency",
+        uint16_t), &again))
 }
 
 static void point_dc_brake_delay(fieldscribe_vector *v)
@@ -2079,11 +1833,7 @@ static void point_dc_brake_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_dc_brake_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, dc_brake_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_dc_brake_torque(fieldscribe_vector *v)
@@ -2098,10 +1848,7 @@ static void point_dc_brake_torque(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_torque_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_torque_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_torque_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_torque, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_torque_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_torque, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_torque_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, dc_brake_torque, int32_t, uint16_t, PLAIN)
 }
 
 static void point_dc_brake_time(fieldscribe_vector *v)
@@ -2119,11 +1866,7 @@ static void point_dc_brake_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_time_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_dc_brake_time_decode_count(raw), true) &&
-        (int)hitachi_l200_dc_brake_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, dc_brake_time, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_dc_brake_trigger(fieldscribe_vector *v)
@@ -2141,10 +1884,7 @@ static void point_dc_brake_trigger(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_dc_brake_trigger_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_dc_brake_trigger_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_trigger_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_dc_brake_trigger, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_trigger_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_dc_brake_trigger, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_dc_brake_trigger_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, dc_brake_trigger, int32_t, uint16_t, PLAIN)
 }
 
 static void point_upper_frequency_limit(fieldscribe_vector *v)
@@ -2165,13 +1905,12 @@ static void point_upper_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_upper_frequency_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_upper_frequency_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_upper_frequency_limit_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit),
-        (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
-        (int)hitachi_l200_upper_frequency_limit_encode_count(count FIELDSCRIBE_TOGETHER(with_upper_frequency_limit),
-        &again) == 0 && again == raw)
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &number))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit, int32_t, uint16_t,
+        FIELDSCRIBE_TOGETHER(with_upper_frequency_limit), (int)hitachi_l200_upper_frequency_limit_decode_count(raw
+        FIELDSCRIBE_ALONE, &number), (int)hitachi_l200_upper_frequency_limit_encode_count(number
+        FIELDSCRIBE_TOGETHER(with_upper_frequency_limit), &again))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit, uint16_t)
@@ -2198,13 +1937,13 @@ static void point_upper_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_upper_frequency_limit_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_upper_frequency_limit_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_upper_frequency_limit_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2),
-        (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
-        (int)hitachi_l200_upper_frequency_limit_set_2_encode_count(count
-        FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2), &again) == 0 && again == raw)
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_upper_frequency_limit_set_2, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &number))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_upper_frequency_limit_set_2, int32_t,
+        uint16_t, FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2),
+        (int)hitachi_l200_upper_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &number),
+        (int)hitachi_l200_upper_frequency_limit_set_2_encode_count(number
+        FIELDSCRIBE_TOGETHER(with_upper_frequency_limit_set_2), &again))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit_set_2, uint16_t)
@@ -2228,13 +1967,12 @@ static void point_lower_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_lower_frequency_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_lower_frequency_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_lower_frequency_limit_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit),
-        (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
-        (int)hitachi_l200_lower_frequency_limit_encode_count(count FIELDSCRIBE_TOGETHER(with_lower_frequency_limit),
-        &again) == 0 && again == raw)
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_decode_count(raw FIELDSCRIBE_ALONE, &number))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit, int32_t, uint16_t,
+        FIELDSCRIBE_TOGETHER(with_lower_frequency_limit), (int)hitachi_l200_lower_frequency_limit_decode_count(raw
+        FIELDSCRIBE_ALONE, &number), (int)hitachi_l200_lower_frequency_limit_encode_count(number
+        FIELDSCRIBE_TOGETHER(with_lower_frequency_limit), &again))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit, uint16_t)
@@ -2261,13 +1999,13 @@ static void point_lower_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_lower_frequency_limit_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_lower_frequency_limit_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_lower_frequency_limit_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2),
-        (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &count) == 0 &&
-        (int)hitachi_l200_lower_frequency_limit_set_2_encode_count(count
-        FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2), &again) == 0 && again == raw)
+    FIELDSCRIBE_CALL_READ_BY(hitachi_l200_device, hitachi_l200_read_lower_frequency_limit_set_2, int32_t, uint16_t,
+        FIELDSCRIBE_ALONE, (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &number))
+    FIELDSCRIBE_CALL_WRITE_BY("write", hitachi_l200_device, hitachi_l200_write_lower_frequency_limit_set_2, int32_t,
+        uint16_t, FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2),
+        (int)hitachi_l200_lower_frequency_limit_set_2_decode_count(raw FIELDSCRIBE_ALONE, &number),
+        (int)hitachi_l200_lower_frequency_limit_set_2_encode_count(number
+        FIELDSCRIBE_TOGETHER(with_lower_frequency_limit_set_2), &again))
     FIELDSCRIBE_SPECIAL("inactive", HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE,
         HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit_set_2, uint16_t)
@@ -2288,11 +2026,7 @@ static void point_jump_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_1_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_1, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jump_frequency_1_width(fieldscribe_vector *v)
@@ -2310,11 +2044,7 @@ static void point_jump_frequency_1_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_1_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_1_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_width_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_1_width, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_width_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_1_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_1_width_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_1_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_1_width, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jump_frequency_2(fieldscribe_vector *v)
@@ -2332,11 +2062,7 @@ static void point_jump_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jump_frequency_2_width(fieldscribe_vector *v)
@@ -2354,11 +2080,7 @@ static void point_jump_frequency_2_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_2_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_2_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_width_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_2_width, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_width_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_2_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_2_width_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_2_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_2_width, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jump_frequency_3(fieldscribe_vector *v)
@@ -2376,11 +2098,7 @@ static void point_jump_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_3_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_3, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_jump_frequency_3_width(fieldscribe_vector *v)
@@ -2398,11 +2116,7 @@ static void point_jump_frequency_3_width(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_jump_frequency_3_width_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_jump_frequency_3_width_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_width_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_jump_frequency_3_width, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_width_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_jump_frequency_3_width, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_jump_frequency_3_width_decode_count(raw), true) &&
-        (int)hitachi_l200_jump_frequency_3_width_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, jump_frequency_3_width, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_enable(fieldscribe_vector *v)
@@ -2420,10 +2134,7 @@ static void point_pid_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_enable_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_enable_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_enable, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_enable_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_enable, int32_t, uint16_t, PLAIN)
 }
 
 static void point_pid_proportional_gain(fieldscribe_vector *v)
@@ -2441,11 +2152,7 @@ static void point_pid_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_proportional_gain_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_proportional_gain_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_proportional_gain_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_proportional_gain, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_proportional_gain_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_proportional_gain, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_proportional_gain_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_proportional_gain_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_proportional_gain, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_integral_time(fieldscribe_vector *v)
@@ -2463,11 +2170,7 @@ static void point_pid_integral_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_integral_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_integral_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_integral_time_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_integral_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_integral_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_integral_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_integral_time_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_integral_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_integral_time, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_derivative_time(fieldscribe_vector *v)
@@ -2485,11 +2188,7 @@ static void point_pid_derivative_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_derivative_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_derivative_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_derivative_time_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_derivative_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_derivative_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_derivative_time, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_derivative_time_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_derivative_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_derivative_time, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_display_factor(fieldscribe_vector *v)
@@ -2507,11 +2206,7 @@ static void point_pid_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_display_factor_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_display_factor_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_display_factor_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_display_factor, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_display_factor_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_display_factor, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_display_factor_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_display_factor_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_display_factor, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_process_value_source(fieldscribe_vector *v)
@@ -2531,10 +2226,7 @@ static void point_pid_process_value_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_source_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_process_value_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_process_value_source_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_process_value_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_pid_inversion(fieldscribe_vector *v)
@@ -2552,10 +2244,7 @@ static void point_pid_inversion(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_inversion_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_inversion_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_inversion_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_inversion, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_inversion_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_inversion, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_pid_inversion_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_inversion, int32_t, uint16_t, PLAIN)
 }
 
 static void point_pid_output_limit(fieldscribe_vector *v)
@@ -2573,11 +2262,7 @@ static void point_pid_output_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_output_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_output_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_output_limit_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_output_limit, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_output_limit_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_output_limit, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_output_limit_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_output_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_output_limit, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_avr_mode(fieldscribe_vector *v)
@@ -2596,10 +2281,7 @@ static void point_avr_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_avr_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_avr_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_avr_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_avr_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_avr_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_avr_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_avr_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, avr_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_voltage(fieldscribe_vector *v)
@@ -2614,10 +2296,7 @@ static void point_motor_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_voltage_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_voltage_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_voltage_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_voltage, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_voltage_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_voltage, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_voltage_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_voltage, int32_t, uint16_t, PLAIN)
 }
 
 static void point_acceleration_time_2(fieldscribe_vector *v)
@@ -2635,11 +2314,7 @@ static void point_acceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_time_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_time_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_time_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_time_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_time_2_decode_count(raw), true) &&
-        (int)hitachi_l200_acceleration_time_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_time_2, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_deceleration_time_2(fieldscribe_vector *v)
@@ -2657,11 +2332,7 @@ static void point_deceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_decode_count(raw), true) &&
-        (int)hitachi_l200_deceleration_time_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_time_2, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
@@ -2680,11 +2351,7 @@ static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_time_2_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_time_2_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_set_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_time_2_set_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_time_2_set_2, int64_t,
-        uint32_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_time_2_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_deceleration_time_2_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_time_2_set_2, int64_t, uint32_t, COUNT_OF)
 }
 
 static void point_ramp_2_selection(fieldscribe_vector *v)
@@ -2702,10 +2369,7 @@ static void point_ramp_2_selection(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_ramp_2_selection_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ramp_2_selection_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, ramp_2_selection, int32_t, uint16_t, PLAIN)
 }
 
 static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
@@ -2723,10 +2387,7 @@ static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_ramp_2_selection_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_ramp_2_selection_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_ramp_2_selection_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_ramp_2_selection_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_ramp_2_selection_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, ramp_2_selection_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_acceleration_change_frequency(fieldscribe_vector *v)
@@ -2747,12 +2408,7 @@ static void point_acceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_change_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_change_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_decode_count(raw), true)
-        && (int)hitachi_l200_acceleration_change_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
-        == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_change_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2775,13 +2431,7 @@ static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_change_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_change_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_change_frequency_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_change_frequency_set_2,
-        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, (count =
-        hitachi_l200_acceleration_change_frequency_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_acceleration_change_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_change_frequency_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_deceleration_change_frequency(fieldscribe_vector *v)
@@ -2802,12 +2452,7 @@ static void point_deceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_change_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_change_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_decode_count(raw), true)
-        && (int)hitachi_l200_deceleration_change_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
-        == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_change_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
@@ -2830,13 +2475,7 @@ static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_change_frequency_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_change_frequency_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_change_frequency_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_change_frequency_set_2,
-        int32_t, uint16_t, count, FIELDSCRIBE_ALONE, (count =
-        hitachi_l200_deceleration_change_frequency_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_deceleration_change_frequency_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_change_frequency_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_acceleration_curve(fieldscribe_vector *v)
@@ -2854,10 +2493,7 @@ static void point_acceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_acceleration_curve_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_acceleration_curve_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_curve_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_acceleration_curve, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_acceleration_curve_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_acceleration_curve, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_acceleration_curve_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, acceleration_curve, int32_t, uint16_t, PLAIN)
 }
 
 static void point_deceleration_curve(fieldscribe_vector *v)
@@ -2875,10 +2511,7 @@ static void point_deceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_deceleration_curve_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_deceleration_curve_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_curve_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_deceleration_curve, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_deceleration_curve_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_deceleration_curve, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_deceleration_curve_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, deceleration_curve, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
@@ -2897,11 +2530,7 @@ static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_minimum_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_input_oi_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_minimum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
@@ -2920,11 +2549,7 @@ static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_maximum_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_input_oi_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_maximum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
@@ -2939,10 +2564,7 @@ static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_minimum_setpoint, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_minimum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_minimum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_minimum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_minimum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
@@ -2957,10 +2579,7 @@ static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_maximum_setpoint, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_maximum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_maximum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_maximum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_maximum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_input_oi_start_condition(fieldscribe_vector *v)
@@ -2978,10 +2597,7 @@ static void point_input_oi_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_start_condition_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_start_condition, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_start_condition_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_start_condition, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_input_oi_start_condition_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_start_condition, int32_t, uint16_t, PLAIN)
 }
 
 static void point_calculation_input_a(fieldscribe_vector *v)
@@ -3002,10 +2618,7 @@ static void point_calculation_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_input_a_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_input_a_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_a_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_a, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_a_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_a, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_a_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, calculation_input_a, int32_t, uint16_t, PLAIN)
 }
 
 static void point_calculation_input_b(fieldscribe_vector *v)
@@ -3026,10 +2639,7 @@ static void point_calculation_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_input_b_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_input_b_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_b_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_input_b, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_b_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_input_b, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_input_b_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, calculation_input_b, int32_t, uint16_t, PLAIN)
 }
 
 static void point_calculation_operator(fieldscribe_vector *v)
@@ -3048,10 +2658,7 @@ static void point_calculation_operator(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_calculation_operator_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_calculation_operator_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_operator_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_calculation_operator, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_operator_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_calculation_operator, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_calculation_operator_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, calculation_operator, int32_t, uint16_t, PLAIN)
 }
 
 static void point_frequency_offset(fieldscribe_vector *v)
@@ -3069,11 +2676,7 @@ static void point_frequency_offset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_offset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_offset_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_offset_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_offset_decode_count(raw), true) &&
-        (int)hitachi_l200_frequency_offset_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, frequency_offset, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_frequency_offset_sign(fieldscribe_vector *v)
@@ -3091,10 +2694,7 @@ static void point_frequency_offset_sign(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_offset_sign_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_offset_sign_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_sign_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_offset_sign, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_offset_sign_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_offset_sign, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_frequency_offset_sign_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, frequency_offset_sign, int32_t, uint16_t, PLAIN)
 }
 
 static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
@@ -3117,12 +2717,7 @@ static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_minimum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_minimum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_minimum_frequency_decode_count(raw),
-        true) && (int)hitachi_l200_potentiometer_minimum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, potentiometer_minimum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
@@ -3145,12 +2740,7 @@ static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_maximum_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_maximum_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_frequency, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_frequency, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_potentiometer_maximum_frequency_decode_count(raw),
-        true) && (int)hitachi_l200_potentiometer_maximum_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, potentiometer_maximum_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
@@ -3166,10 +2756,7 @@ static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_minimum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_minimum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_minimum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_minimum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_minimum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, potentiometer_minimum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
@@ -3185,10 +2772,7 @@ static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_maximum_setpoint_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_maximum_setpoint_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_maximum_setpoint, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_maximum_setpoint, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_maximum_setpoint_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, potentiometer_maximum_setpoint, int32_t, uint16_t, PLAIN)
 }
 
 static void point_potentiometer_start_condition(fieldscribe_vector *v)
@@ -3207,10 +2791,7 @@ static void point_potentiometer_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_potentiometer_start_condition_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_potentiometer_start_condition_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_start_condition_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_potentiometer_start_condition, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_start_condition_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_potentiometer_start_condition, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_potentiometer_start_condition_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, potentiometer_start_condition, int32_t, uint16_t, PLAIN)
 }
 
 static void point_restart_mode(fieldscribe_vector *v)
@@ -3230,10 +2811,7 @@ static void point_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_restart_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_restart_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_restart_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_restart_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, restart_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_allowed_power_failure_time(fieldscribe_vector *v)
@@ -3252,11 +2830,7 @@ static void point_allowed_power_failure_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_allowed_power_failure_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_allowed_power_failure_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_allowed_power_failure_time_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_allowed_power_failure_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_allowed_power_failure_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_allowed_power_failure_time, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_allowed_power_failure_time_decode_count(raw), true) &&
-        (int)hitachi_l200_allowed_power_failure_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, allowed_power_failure_time, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_restart_delay(fieldscribe_vector *v)
@@ -3274,11 +2848,7 @@ static void point_restart_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_restart_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_restart_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_restart_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_restart_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_restart_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_restart_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_restart_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, restart_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
@@ -3297,10 +2867,7 @@ static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_power_failure_trip_at_standstill_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_failure_trip_at_standstill_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_trip_at_standstill_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_trip_at_standstill, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_trip_at_standstill_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_trip_at_standstill, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_trip_at_standstill_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, power_failure_trip_at_standstill, int32_t, uint16_t, PLAIN)
 }
 
 static void point_power_failure_restarts(fieldscribe_vector *v)
@@ -3318,10 +2885,7 @@ static void point_power_failure_restarts(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_power_failure_restarts_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_power_failure_restarts_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_restarts_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_power_failure_restarts, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_restarts_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_power_failure_restarts, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_power_failure_restarts_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, power_failure_restarts, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_protection_level(fieldscribe_vector *v)
@@ -3339,11 +2903,7 @@ static void point_motor_protection_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_decode_count(raw), true) &&
-        (int)hitachi_l200_motor_protection_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_protection_level, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_motor_protection_level_set_2(fieldscribe_vector *v)
@@ -3364,12 +2924,7 @@ static void point_motor_protection_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_level_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_motor_protection_level_set_2_decode_count(raw), true)
-        && (int)hitachi_l200_motor_protection_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
-        raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_protection_level_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_motor_protection_characteristic(fieldscribe_vector *v)
@@ -3389,10 +2944,7 @@ static void point_motor_protection_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_characteristic_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_characteristic_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_protection_characteristic, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
@@ -3414,11 +2966,7 @@ static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_protection_characteristic_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_protection_characteristic_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_protection_characteristic_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_protection_characteristic_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_protection_characteristic_set_2,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_motor_protection_characteristic_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_protection_characteristic_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_current_limit_mode(fieldscribe_vector *v)
@@ -3437,10 +2985,7 @@ static void point_current_limit_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_current_limit_mode_set_2(fieldscribe_vector *v)
@@ -3459,10 +3004,7 @@ static void point_current_limit_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_mode_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_mode_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_mode_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_mode_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_mode_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_mode_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_current_limit_level(fieldscribe_vector *v)
@@ -3480,11 +3022,7 @@ static void point_current_limit_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_decode_count(raw), true) &&
-        (int)hitachi_l200_current_limit_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_level, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_current_limit_level_set_2(fieldscribe_vector *v)
@@ -3502,11 +3040,7 @@ static void point_current_limit_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_level_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_level_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_current_limit_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_level_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_current_limit_time(fieldscribe_vector *v)
@@ -3524,11 +3058,7 @@ static void point_current_limit_time(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_time_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_decode_count(raw), true) &&
-        (int)hitachi_l200_current_limit_time_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_time, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_current_limit_time_set_2(fieldscribe_vector *v)
@@ -3546,11 +3076,7 @@ static void point_current_limit_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_time_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_time_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_time_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_time_set_2, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_current_limit_time_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_current_limit_time_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_time_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_current_limit_source(fieldscribe_vector *v)
@@ -3568,10 +3094,7 @@ static void point_current_limit_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_current_limit_source_set_2(fieldscribe_vector *v)
@@ -3590,10 +3113,7 @@ static void point_current_limit_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_current_limit_source_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_current_limit_source_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_current_limit_source_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_current_limit_source_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_current_limit_source_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, current_limit_source_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_parameter_lock(fieldscribe_vector *v)
@@ -3613,10 +3133,7 @@ static void point_parameter_lock(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_parameter_lock_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_parameter_lock_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_parameter_lock_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_parameter_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_parameter_lock_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_parameter_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_parameter_lock_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, parameter_lock, int32_t, uint16_t, PLAIN)
 }
 
 static void point_analog_output_gain(fieldscribe_vector *v)
@@ -3631,10 +3148,7 @@ static void point_analog_output_gain(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_gain_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_gain_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_gain_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_gain, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_gain_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_gain, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_gain_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, analog_output_gain, int32_t, uint16_t, PLAIN)
 }
 
 static void point_start_frequency(fieldscribe_vector *v)
@@ -3652,11 +3166,7 @@ static void point_start_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_start_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_start_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_start_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_start_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_start_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_start_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_start_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_start_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, start_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_carrier_frequency(fieldscribe_vector *v)
@@ -3674,11 +3184,7 @@ static void point_carrier_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_carrier_frequency_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_carrier_frequency_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_carrier_frequency_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_carrier_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_carrier_frequency_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_carrier_frequency, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_carrier_frequency_decode_count(raw), true) &&
-        (int)hitachi_l200_carrier_frequency_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, carrier_frequency, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_initialization_mode(fieldscribe_vector *v)
@@ -3698,10 +3204,7 @@ static void point_initialization_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_initialization_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_initialization_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_initialization_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_initialization_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_initialization_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_initialization_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_initialization_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, initialization_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_frequency_display_factor(fieldscribe_vector *v)
@@ -3719,11 +3222,7 @@ static void point_frequency_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_frequency_display_factor_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_frequency_display_factor_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_display_factor_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_frequency_display_factor, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_display_factor_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_frequency_display_factor, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_frequency_display_factor_decode_count(raw), true) &&
-        (int)hitachi_l200_frequency_display_factor_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, frequency_display_factor, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_stop_key_lock(fieldscribe_vector *v)
@@ -3741,10 +3240,7 @@ static void point_stop_key_lock(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stop_key_lock_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stop_key_lock_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_key_lock_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_key_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_key_lock_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_key_lock, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_key_lock_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, stop_key_lock, int32_t, uint16_t, PLAIN)
 }
 
 static void point_coast_restart_mode(fieldscribe_vector *v)
@@ -3762,10 +3258,7 @@ static void point_coast_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_coast_restart_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_coast_restart_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_coast_restart_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_coast_restart_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_coast_restart_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_coast_restart_mode, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_coast_restart_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, coast_restart_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_network_display(fieldscribe_vector *v)
@@ -3788,10 +3281,7 @@ static void point_network_display(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_network_display_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_network_display_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_network_display_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_network_display, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_network_display_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_network_display, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_network_display_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, network_display, int32_t, uint16_t, PLAIN)
 }
 
 static void point_stop_mode(fieldscribe_vector *v)
@@ -3809,10 +3299,7 @@ static void point_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stop_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stop_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stop_mode, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = hitachi_l200_stop_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stop_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_stop_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, stop_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
@@ -3831,10 +3318,7 @@ static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_enable_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_enable_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_enable_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_enable, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_enable_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_enable, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_enable_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, overvoltage_deceleration_enable, int32_t, uint16_t, PLAIN)
 }
 
 static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
@@ -3852,11 +3336,7 @@ static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_level_200v_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_level_200v_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_200v_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_200v, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_200v_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_200v,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_overvoltage_deceleration_level_200v_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, overvoltage_deceleration_level_200v, int32_t, uint16_t, PLAIN)
 }
 
 static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
@@ -3874,11 +3354,7 @@ static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overvoltage_deceleration_level_400v_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overvoltage_deceleration_level_400v_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_400v_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overvoltage_deceleration_level_400v, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_overvoltage_deceleration_level_400v_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overvoltage_deceleration_level_400v,
-        int32_t, uint16_t, value, FIELDSCRIBE_ALONE, (value =
-        hitachi_l200_overvoltage_deceleration_level_400v_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, overvoltage_deceleration_level_400v, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_1_function(fieldscribe_vector *v)
@@ -3893,10 +3369,7 @@ static void point_digital_input_1_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_1_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
@@ -3912,10 +3385,7 @@ static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_function_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_function_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_1_function_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_2_function(fieldscribe_vector *v)
@@ -3930,10 +3400,7 @@ static void point_digital_input_2_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_2_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
@@ -3949,10 +3416,7 @@ static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_function_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_function_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_2_function_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_3_function(fieldscribe_vector *v)
@@ -3967,10 +3431,7 @@ static void point_digital_input_3_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_3_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
@@ -3986,10 +3447,7 @@ static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_function_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_function_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_3_function_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_4_function(fieldscribe_vector *v)
@@ -4004,10 +3462,7 @@ static void point_digital_input_4_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_4_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
@@ -4023,10 +3478,7 @@ static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_function_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_function_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_4_function_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_5_function(fieldscribe_vector *v)
@@ -4041,10 +3493,7 @@ static void point_digital_input_5_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_5_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
@@ -4060,10 +3509,7 @@ static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_function_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_function_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_function_set_2, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_function_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_function_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_5_function_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_1_contact(fieldscribe_vector *v)
@@ -4081,10 +3527,7 @@ static void point_digital_input_1_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_1_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_1_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_1_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_1_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_1_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_1_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_2_contact(fieldscribe_vector *v)
@@ -4102,10 +3545,7 @@ static void point_digital_input_2_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_2_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_2_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_2_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_2_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_2_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_2_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_3_contact(fieldscribe_vector *v)
@@ -4123,10 +3563,7 @@ static void point_digital_input_3_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_3_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_3_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_3_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_3_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_3_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_3_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_4_contact(fieldscribe_vector *v)
@@ -4144,10 +3581,7 @@ static void point_digital_input_4_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_4_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_4_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_4_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_4_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_4_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_4_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_input_5_contact(fieldscribe_vector *v)
@@ -4165,10 +3599,7 @@ static void point_digital_input_5_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_input_5_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_input_5_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_input_5_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_input_5_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_input_5_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_input_5_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_output_11_function(fieldscribe_vector *v)
@@ -4184,10 +3615,7 @@ static void point_digital_output_11_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_function, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_11_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_output_12_function(fieldscribe_vector *v)
@@ -4203,10 +3631,7 @@ static void point_digital_output_12_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_function, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_12_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_relay_output_function(fieldscribe_vector *v)
@@ -4221,10 +3646,7 @@ static void point_relay_output_function(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_function_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_function_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_function_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_function, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_function_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_function, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_function_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, relay_output_function, int32_t, uint16_t, PLAIN)
 }
 
 static void point_analog_output_source(fieldscribe_vector *v)
@@ -4242,10 +3664,7 @@ static void point_analog_output_source(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_source_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_source_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_analog_output_source_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, analog_output_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_output_11_contact(fieldscribe_vector *v)
@@ -4263,10 +3682,7 @@ static void point_digital_output_11_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_contact, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_11_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_11_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_output_12_contact(fieldscribe_vector *v)
@@ -4284,10 +3700,7 @@ static void point_digital_output_12_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_contact, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_digital_output_12_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_12_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_relay_output_contact(fieldscribe_vector *v)
@@ -4305,10 +3718,7 @@ static void point_relay_output_contact(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_contact_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_contact_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_contact_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_contact, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_contact_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_contact, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_relay_output_contact_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, relay_output_contact, int32_t, uint16_t, PLAIN)
 }
 
 static void point_overload_alarm_level(fieldscribe_vector *v)
@@ -4326,11 +3736,7 @@ static void point_overload_alarm_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overload_alarm_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_alarm_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_decode_count(raw), true) &&
-        (int)hitachi_l200_overload_alarm_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, overload_alarm_level, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
@@ -4349,11 +3755,7 @@ static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_overload_alarm_level_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_overload_alarm_level_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_overload_alarm_level_set_2, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_overload_alarm_level_set_2, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_overload_alarm_level_set_2_decode_count(raw), true) &&
-        (int)hitachi_l200_overload_alarm_level_set_2_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, overload_alarm_level_set_2, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
@@ -4376,12 +3778,7 @@ static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_arrival_frequency_acceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_arrival_frequency_acceleration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_acceleration_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_acceleration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_acceleration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_acceleration_decode_count(raw),
-        true) && (int)hitachi_l200_arrival_frequency_acceleration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, arrival_frequency_acceleration, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
@@ -4404,12 +3801,7 @@ static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_arrival_frequency_deceleration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_arrival_frequency_deceleration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_deceleration_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_arrival_frequency_deceleration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_arrival_frequency_deceleration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_arrival_frequency_deceleration_decode_count(raw),
-        true) && (int)hitachi_l200_arrival_frequency_deceleration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 &&
-        again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, arrival_frequency_deceleration, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_deviation_level(fieldscribe_vector *v)
@@ -4427,11 +3819,7 @@ static void point_pid_deviation_level(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_deviation_level_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_deviation_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_deviation_level_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_deviation_level, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_deviation_level_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_deviation_level, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_deviation_level_decode_count(raw), true) &&
-        (int)hitachi_l200_pid_deviation_level_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_deviation_level, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
@@ -4452,12 +3840,7 @@ static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_upper_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_upper_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_upper_limit_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_upper_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_upper_limit, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_upper_limit_decode_count(raw), true)
-        && (int)hitachi_l200_pid_process_value_upper_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
-        == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_process_value_upper_limit, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
@@ -4478,12 +3861,7 @@ static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_pid_process_value_lower_limit_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_pid_process_value_lower_limit_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_lower_limit_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_pid_process_value_lower_limit, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_pid_process_value_lower_limit, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_pid_process_value_lower_limit_decode_count(raw), true)
-        && (int)hitachi_l200_pid_process_value_lower_limit_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again
-        == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, pid_process_value_lower_limit, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_o_calibration(fieldscribe_vector *v)
@@ -4501,11 +3879,7 @@ static void point_input_o_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_o_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_o_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_calibration_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_o_calibration, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_calibration_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_o_calibration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_o_calibration_decode_count(raw), true) &&
-        (int)hitachi_l200_input_o_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_o_calibration, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_input_oi_calibration(fieldscribe_vector *v)
@@ -4523,11 +3897,7 @@ static void point_input_oi_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_input_oi_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_input_oi_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_calibration_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_input_oi_calibration, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_calibration_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_input_oi_calibration, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_input_oi_calibration_decode_count(raw), true) &&
-        (int)hitachi_l200_input_oi_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, input_oi_calibration, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_thermistor_input_calibration(fieldscribe_vector *v)
@@ -4548,12 +3918,7 @@ static void point_thermistor_input_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_thermistor_input_calibration_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_thermistor_input_calibration_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_thermistor_input_calibration_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_thermistor_input_calibration, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_thermistor_input_calibration_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_thermistor_input_calibration, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_thermistor_input_calibration_decode_count(raw), true)
-        && (int)hitachi_l200_thermistor_input_calibration_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
-        raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, thermistor_input_calibration, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_analog_output_offset(fieldscribe_vector *v)
@@ -4571,11 +3936,7 @@ static void point_analog_output_offset(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_analog_output_offset_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_analog_output_offset_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_offset_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_analog_output_offset, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_analog_output_offset_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_analog_output_offset, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_analog_output_offset_decode_count(raw), true) &&
-        (int)hitachi_l200_analog_output_offset_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, analog_output_offset, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_motor_potentiometer_memory(fieldscribe_vector *v)
@@ -4594,10 +3955,7 @@ static void point_motor_potentiometer_memory(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_potentiometer_memory_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_potentiometer_memory_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_potentiometer_memory_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_potentiometer_memory, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_potentiometer_memory_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_potentiometer_memory, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_potentiometer_memory_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_potentiometer_memory, int32_t, uint16_t, PLAIN)
 }
 
 static void point_reset_mode(fieldscribe_vector *v)
@@ -4616,10 +3974,7 @@ static void point_reset_mode(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_reset_mode_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_reset_mode_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_reset_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_reset_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_reset_mode_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_reset_mode, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_reset_mode_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, reset_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_logic_input_a(fieldscribe_vector *v)
@@ -4634,10 +3989,7 @@ static void point_logic_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_input_a_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_input_a_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_a_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_a, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_a_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_a, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_a_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, logic_input_a, int32_t, uint16_t, PLAIN)
 }
 
 static void point_logic_input_b(fieldscribe_vector *v)
@@ -4652,10 +4004,7 @@ static void point_logic_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_input_b_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_input_b_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_b_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_input_b, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_b_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_input_b, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_input_b_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, logic_input_b, int32_t, uint16_t, PLAIN)
 }
 
 static void point_logic_operator(fieldscribe_vector *v)
@@ -4674,10 +4023,7 @@ static void point_logic_operator(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_logic_operator_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_logic_operator_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_operator_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_logic_operator, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_operator_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_logic_operator, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_logic_operator_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, logic_operator, int32_t, uint16_t, PLAIN)
 }
 
 static void point_digital_output_11_on_delay(fieldscribe_vector *v)
@@ -4696,11 +4042,7 @@ static void point_digital_output_11_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_on_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_on_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_on_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_on_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_on_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_digital_output_11_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_11_on_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_digital_output_11_off_delay(fieldscribe_vector *v)
@@ -4721,12 +4063,7 @@ static void point_digital_output_11_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_11_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_11_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_off_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_11_off_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_off_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_11_off_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_11_off_delay_decode_count(raw), true)
-        && (int)hitachi_l200_digital_output_11_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
-        raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_11_off_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_digital_output_12_on_delay(fieldscribe_vector *v)
@@ -4745,11 +4082,7 @@ static void point_digital_output_12_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_on_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_on_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_on_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_on_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_on_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_digital_output_12_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_12_on_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_digital_output_12_off_delay(fieldscribe_vector *v)
@@ -4770,12 +4103,7 @@ static void point_digital_output_12_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_digital_output_12_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_digital_output_12_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_off_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_digital_output_12_off_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_off_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_digital_output_12_off_delay, int32_t,
-        uint16_t, count, FIELDSCRIBE_ALONE, (count = hitachi_l200_digital_output_12_off_delay_decode_count(raw), true)
-        && (int)hitachi_l200_digital_output_12_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again ==
-        raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, digital_output_12_off_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_relay_output_on_delay(fieldscribe_vector *v)
@@ -4793,11 +4121,7 @@ static void point_relay_output_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_on_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_on_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_on_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_on_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_on_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_on_delay, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_on_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_relay_output_on_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, relay_output_on_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_relay_output_off_delay(fieldscribe_vector *v)
@@ -4815,11 +4139,7 @@ static void point_relay_output_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_relay_output_off_delay_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_relay_output_off_delay_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_off_delay_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_relay_output_off_delay, int32_t, uint16_t, count,
-        FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_off_delay_decode_count(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_relay_output_off_delay, int32_t, uint16_t,
-        count, FIELDSCRIBE_ALONE, (count = hitachi_l200_relay_output_off_delay_decode_count(raw), true) &&
-        (int)hitachi_l200_relay_output_off_delay_encode_count(count FIELDSCRIBE_ALONE, &again) == 0 && again == raw)
+    FIELDSCRIBE_CALLS(hitachi_l200, relay_output_off_delay, int32_t, uint16_t, COUNT_OF)
 }
 
 static void point_motor_power(fieldscribe_vector *v)
@@ -4848,10 +4168,7 @@ static void point_motor_power(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_power_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_power_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_power, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_power_set_2(fieldscribe_vector *v)
@@ -4880,10 +4197,7 @@ static void point_motor_power_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_power_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_power_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_power_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_power_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_power_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_power_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_poles(fieldscribe_vector *v)
@@ -4903,10 +4217,7 @@ static void point_motor_poles(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_poles_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_poles_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_poles, int32_t, uint16_t, PLAIN)
 }
 
 static void point_motor_poles_set_2(fieldscribe_vector *v)
@@ -4926,10 +4237,7 @@ static void point_motor_poles_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_motor_poles_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_motor_poles_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_motor_poles_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_motor_poles_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_motor_poles_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, motor_poles_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_stabilization_constant(fieldscribe_vector *v)
@@ -4944,10 +4252,7 @@ static void point_stabilization_constant(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stabilization_constant_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stabilization_constant_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stabilization_constant_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, stabilization_constant, int32_t, uint16_t, PLAIN)
 }
 
 static void point_stabilization_constant_set_2(fieldscribe_vector *v)
@@ -4963,10 +4268,7 @@ static void point_stabilization_constant_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(hitachi_l200_stabilization_constant_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(hitachi_l200_stabilization_constant_set_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(hitachi_l200_stabilization_constant_set_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(hitachi_l200_device, hitachi_l200_read_stabilization_constant_set_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_set_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", hitachi_l200_device, hitachi_l200_write_stabilization_constant_set_2, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = hitachi_l200_stabilization_constant_set_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(hitachi_l200, stabilization_constant_set_2, int32_t, uint16_t, PLAIN)
 }
 
 static const fieldscribe_status_name statuses[] = {
@@ -5248,30 +4550,30 @@ static void members_of_coils(
         const size_t block = at / 2U;
         if (fieldscribe_is_placed(all, &hitachi_l200_coils_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
             hitachi_l200_coils_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("run_command", run_command_raw, bool, )
-            FIELDSCRIBE_MEMBER("direction_command", direction_command_raw, bool, )
-            FIELDSCRIBE_MEMBER("external_trip", external_trip_raw, bool, )
-            FIELDSCRIBE_MEMBER("trip_reset", trip_reset_raw, bool, )
-            FIELDSCRIBE_MEMBER("digital_input_1", digital_input_1_raw, bool, )
-            FIELDSCRIBE_MEMBER("digital_input_2", digital_input_2_raw, bool, )
-            FIELDSCRIBE_MEMBER("digital_input_3", digital_input_3_raw, bool, )
-            FIELDSCRIBE_MEMBER("digital_input_4", digital_input_4_raw, bool, )
-            FIELDSCRIBE_MEMBER("digital_input_5", digital_input_5_raw, bool, )
-            FIELDSCRIBE_MEMBER("running", running_raw, bool, )
-            FIELDSCRIBE_MEMBER("direction_status", direction_status_raw, bool, )
-            FIELDSCRIBE_MEMBER("ready", ready_raw, bool, )
-            FIELDSCRIBE_MEMBER("alarm", alarm_raw, bool, )
-            FIELDSCRIBE_MEMBER("pid_deviation", pid_deviation_raw, bool, )
-            FIELDSCRIBE_MEMBER("overload", overload_raw, bool, )
-            FIELDSCRIBE_MEMBER("frequency_arrival_in_acceleration", frequency_arrival_in_acceleration_raw, bool, )
-            FIELDSCRIBE_MEMBER("frequency_arrival_at_constant_speed", frequency_arrival_at_constant_speed_raw, bool, )
-            FIELDSCRIBE_MEMBER("run_mode", run_mode_raw, bool, )
-            FIELDSCRIBE_MEMBER("data_write", data_write_raw, bool, )
-            FIELDSCRIBE_MEMBER("crc_error", crc_error_raw, bool, )
-            FIELDSCRIBE_MEMBER("overrun_error", overrun_error_raw, bool, )
-            FIELDSCRIBE_MEMBER("framing_error", framing_error_raw, bool, )
-            FIELDSCRIBE_MEMBER("parity_error", parity_error_raw, bool, )
-            FIELDSCRIBE_MEMBER("checksum_error", checksum_error_raw, bool, )
+            FIELDSCRIBE_MEMBER_RAW(run_command, bool)
+            FIELDSCRIBE_MEMBER_RAW(direction_command, bool)
+            FIELDSCRIBE_MEMBER_RAW(external_trip, bool)
+            FIELDSCRIBE_MEMBER_RAW(trip_reset, bool)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_1, bool)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_2, bool)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_3, bool)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_4, bool)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_5, bool)
+            FIELDSCRIBE_MEMBER_RAW(running, bool)
+            FIELDSCRIBE_MEMBER_RAW(direction_status, bool)
+            FIELDSCRIBE_MEMBER_RAW(ready, bool)
+            FIELDSCRIBE_MEMBER_RAW(alarm, bool)
+            FIELDSCRIBE_MEMBER_RAW(pid_deviation, bool)
+            FIELDSCRIBE_MEMBER_RAW(overload, bool)
+            FIELDSCRIBE_MEMBER_RAW(frequency_arrival_in_acceleration, bool)
+            FIELDSCRIBE_MEMBER_RAW(frequency_arrival_at_constant_speed, bool)
+            FIELDSCRIBE_MEMBER_RAW(run_mode, bool)
+            FIELDSCRIBE_MEMBER_RAW(data_write, bool)
+            FIELDSCRIBE_MEMBER_RAW(crc_error, bool)
+            FIELDSCRIBE_MEMBER_RAW(overrun_error, bool)
+            FIELDSCRIBE_MEMBER_RAW(framing_error, bool)
+            FIELDSCRIBE_MEMBER_RAW(parity_error, bool)
+            FIELDSCRIBE_MEMBER_RAW(checksum_error, bool)
         }
     }
 }
@@ -5287,11 +4589,9 @@ static void members_of_status(
         const size_t block = at / 2U;
         if (fieldscribe_is_placed(all, &hitachi_l200_status_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
             hitachi_l200_status_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("network_frequency_setpoint", network_frequency_setpoint_count, uint16_t,
-                hitachi_l200_network_frequency_setpoint_decode_count)
-            FIELDSCRIBE_MEMBER("inverter_status", inverter_status_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("network_process_value", network_process_value_count, uint16_t,
-                hitachi_l200_network_process_value_decode_count)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, network_frequency_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(inverter_status, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, network_process_value, uint16_t)
         }
     }
 }
@@ -5308,46 +4608,34 @@ static void members_of_monitor_d(
         if (fieldscribe_is_placed(all, &hitachi_l200_monitor_d_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5))
             {
             hitachi_l200_monitor_d_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("trip_count", trip_count_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("trip_1_error", trip_1_error_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("trip_1_output_frequency", trip_1_output_frequency_count, uint16_t,
-                hitachi_l200_trip_1_output_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("trip_1_motor_current", trip_1_motor_current_count, uint16_t,
-                hitachi_l200_trip_1_motor_current_decode_count)
-            FIELDSCRIBE_MEMBER("trip_1_dc_bus_voltage", trip_1_dc_bus_voltage_count, uint16_t,
-                hitachi_l200_trip_1_dc_bus_voltage_decode_count)
-            FIELDSCRIBE_MEMBER("trip_1_run_time", trip_1_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("trip_1_power_on_time", trip_1_power_on_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("trip_2_error", trip_2_error_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("trip_2_output_frequency", trip_2_output_frequency_count, uint16_t,
-                hitachi_l200_trip_2_output_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("trip_2_motor_current", trip_2_motor_current_count, uint16_t,
-                hitachi_l200_trip_2_motor_current_decode_count)
-            FIELDSCRIBE_MEMBER("trip_2_dc_bus_voltage", trip_2_dc_bus_voltage_count, uint16_t,
-                hitachi_l200_trip_2_dc_bus_voltage_decode_count)
-            FIELDSCRIBE_MEMBER("trip_2_run_time", trip_2_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("trip_2_power_on_time", trip_2_power_on_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("trip_3_error", trip_3_error_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("trip_3_output_frequency", trip_3_output_frequency_count, uint16_t,
-                hitachi_l200_trip_3_output_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("trip_3_motor_current", trip_3_motor_current_count, uint16_t,
-                hitachi_l200_trip_3_motor_current_decode_count)
-            FIELDSCRIBE_MEMBER("trip_3_dc_bus_voltage", trip_3_dc_bus_voltage_count, uint16_t,
-                hitachi_l200_trip_3_dc_bus_voltage_decode_count)
-            FIELDSCRIBE_MEMBER("trip_3_run_time", trip_3_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("trip_3_power_on_time", trip_3_power_on_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("output_frequency", output_frequency_count, uint16_t,
-                hitachi_l200_output_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("motor_current", motor_current_count, uint16_t, hitachi_l200_motor_current_decode_count)
-            FIELDSCRIBE_MEMBER("rotation_direction", rotation_direction_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("scaled_process_value", scaled_process_value_count, uint32_t,
-                hitachi_l200_scaled_process_value_decode_count)
-            FIELDSCRIBE_MEMBER("digital_inputs", digital_inputs_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_outputs", digital_outputs_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("output_voltage", output_voltage_count, uint16_t,
-                hitachi_l200_output_voltage_decode_count)
-            FIELDSCRIBE_MEMBER("run_time", run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("power_on_time", power_on_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER_RAW(trip_count, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_1_error, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_1_output_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_1_motor_current, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_1_dc_bus_voltage, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_1_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_1_power_on_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_2_error, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_2_output_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_2_motor_current, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_2_dc_bus_voltage, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_2_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_2_power_on_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_3_error, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_3_output_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_3_motor_current, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, trip_3_dc_bus_voltage, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_3_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(trip_3_power_on_time, uint32_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, output_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, motor_current, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(rotation_direction, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, scaled_process_value, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_inputs, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_outputs, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, output_voltage, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(power_on_time, uint32_t)
         }
     }
 }
@@ -5363,15 +4651,11 @@ static void members_of_basic_f(
         const size_t block = at / 2U;
         if (fieldscribe_is_placed(all, &hitachi_l200_basic_f_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
             hitachi_l200_basic_f_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("acceleration_time", acceleration_time_count, uint32_t,
-                hitachi_l200_acceleration_time_decode_count)
-            FIELDSCRIBE_MEMBER("deceleration_time", deceleration_time_count, uint32_t,
-                hitachi_l200_deceleration_time_decode_count)
-            FIELDSCRIBE_MEMBER("motor_direction", motor_direction_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("acceleration_time_set_2", acceleration_time_set_2_count, uint32_t,
-                hitachi_l200_acceleration_time_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("deceleration_time_set_2", deceleration_time_set_2_count, uint32_t,
-                hitachi_l200_deceleration_time_set_2_decode_count)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, acceleration_time, uint32_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_direction, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, acceleration_time_set_2, uint32_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_time_set_2, uint32_t)
         }
     }
 }
@@ -5388,149 +4672,102 @@ static void members_of_standard_a(
         if (fieldscribe_is_placed(all, &hitachi_l200_standard_a_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             hitachi_l200_standard_a_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("frequency_source", frequency_source_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("run_source", run_source_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_rated_frequency", motor_rated_frequency_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("maximum_frequency", maximum_frequency_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("at_terminal_selection", at_terminal_selection_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_o_minimum_frequency", input_o_minimum_frequency_count, uint16_t,
-                hitachi_l200_input_o_minimum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("input_o_maximum_frequency", input_o_maximum_frequency_count, uint16_t,
-                hitachi_l200_input_o_maximum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("input_o_minimum_setpoint", input_o_minimum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_o_maximum_setpoint", input_o_maximum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_o_start_condition", input_o_start_condition_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("analog_input_filter", analog_input_filter_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("base_frequency", base_frequency_count, uint16_t,
-                hitachi_l200_base_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_1", fixed_frequency_1_count, uint16_t,
-                hitachi_l200_fixed_frequency_1_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_2", fixed_frequency_2_count, uint16_t,
-                hitachi_l200_fixed_frequency_2_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_3", fixed_frequency_3_count, uint16_t,
-                hitachi_l200_fixed_frequency_3_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_4", fixed_frequency_4_count, uint16_t,
-                hitachi_l200_fixed_frequency_4_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_5", fixed_frequency_5_count, uint16_t,
-                hitachi_l200_fixed_frequency_5_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_6", fixed_frequency_6_count, uint16_t,
-                hitachi_l200_fixed_frequency_6_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_7", fixed_frequency_7_count, uint16_t,
-                hitachi_l200_fixed_frequency_7_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_8", fixed_frequency_8_count, uint16_t,
-                hitachi_l200_fixed_frequency_8_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_9", fixed_frequency_9_count, uint16_t,
-                hitachi_l200_fixed_frequency_9_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_10", fixed_frequency_10_count, uint16_t,
-                hitachi_l200_fixed_frequency_10_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_11", fixed_frequency_11_count, uint16_t,
-                hitachi_l200_fixed_frequency_11_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_12", fixed_frequency_12_count, uint16_t,
-                hitachi_l200_fixed_frequency_12_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_13", fixed_frequency_13_count, uint16_t,
-                hitachi_l200_fixed_frequency_13_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_14", fixed_frequency_14_count, uint16_t,
-                hitachi_l200_fixed_frequency_14_decode_count)
-            FIELDSCRIBE_MEMBER("fixed_frequency_15", fixed_frequency_15_count, uint16_t,
-                hitachi_l200_fixed_frequency_15_decode_count)
-            FIELDSCRIBE_MEMBER("jog_frequency", jog_frequency_count, uint16_t, hitachi_l200_jog_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("jog_stop_mode", jog_stop_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("boost_mode", boost_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("manual_boost", manual_boost_count, uint16_t, hitachi_l200_manual_boost_decode_count)
-            FIELDSCRIBE_MEMBER("manual_boost_frequency", manual_boost_frequency_count, uint16_t,
-                hitachi_l200_manual_boost_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("vf_characteristic", vf_characteristic_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("output_voltage_setting", output_voltage_setting_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("dc_brake_enable", dc_brake_enable_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("dc_brake_frequency", dc_brake_frequency_count, uint16_t,
-                hitachi_l200_dc_brake_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("dc_brake_delay", dc_brake_delay_count, uint16_t,
-                hitachi_l200_dc_brake_delay_decode_count)
-            FIELDSCRIBE_MEMBER("dc_brake_torque", dc_brake_torque_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("dc_brake_time", dc_brake_time_count, uint16_t, hitachi_l200_dc_brake_time_decode_count)
-            FIELDSCRIBE_MEMBER("dc_brake_trigger", dc_brake_trigger_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("upper_frequency_limit", upper_frequency_limit_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("lower_frequency_limit", lower_frequency_limit_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("jump_frequency_1", jump_frequency_1_count, uint16_t,
-                hitachi_l200_jump_frequency_1_decode_count)
-            FIELDSCRIBE_MEMBER("jump_frequency_1_width", jump_frequency_1_width_count, uint16_t,
-                hitachi_l200_jump_frequency_1_width_decode_count)
-            FIELDSCRIBE_MEMBER("jump_frequency_2", jump_frequency_2_count, uint16_t,
-                hitachi_l200_jump_frequency_2_decode_count)
-            FIELDSCRIBE_MEMBER("jump_frequency_2_width", jump_frequency_2_width_count, uint16_t,
-                hitachi_l200_jump_frequency_2_width_decode_count)
-            FIELDSCRIBE_MEMBER("jump_frequency_3", jump_frequency_3_count, uint16_t,
-                hitachi_l200_jump_frequency_3_decode_count)
-            FIELDSCRIBE_MEMBER("jump_frequency_3_width", jump_frequency_3_width_count, uint16_t,
-                hitachi_l200_jump_frequency_3_width_decode_count)
-            FIELDSCRIBE_MEMBER("pid_enable", pid_enable_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("pid_proportional_gain", pid_proportional_gain_count, uint16_t,
-                hitachi_l200_pid_proportional_gain_decode_count)
-            FIELDSCRIBE_MEMBER("pid_integral_time", pid_integral_time_count, uint16_t,
-                hitachi_l200_pid_integral_time_decode_count)
-            FIELDSCRIBE_MEMBER("pid_derivative_time", pid_derivative_time_count, uint16_t,
-                hitachi_l200_pid_derivative_time_decode_count)
-            FIELDSCRIBE_MEMBER("pid_display_factor", pid_display_factor_count, uint16_t,
-                hitachi_l200_pid_display_factor_decode_count)
-            FIELDSCRIBE_MEMBER("pid_process_value_source", pid_process_value_source_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("pid_inversion", pid_inversion_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("pid_output_limit", pid_output_limit_count, uint16_t,
-                hitachi_l200_pid_output_limit_decode_count)
-            FIELDSCRIBE_MEMBER("avr_mode", avr_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_voltage", motor_voltage_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("acceleration_time_2", acceleration_time_2_count, uint32_t,
-                hitachi_l200_acceleration_time_2_decode_count)
-            FIELDSCRIBE_MEMBER("deceleration_time_2", deceleration_time_2_count, uint32_t,
-                hitachi_l200_deceleration_time_2_decode_count)
-            FIELDSCRIBE_MEMBER("ramp_2_selection", ramp_2_selection_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("acceleration_change_frequency", acceleration_change_frequency_count, uint16_t,
-                hitachi_l200_acceleration_change_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("deceleration_change_frequency", deceleration_change_frequency_count, uint16_t,
-                hitachi_l200_deceleration_change_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("acceleration_curve", acceleration_curve_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("deceleration_curve", deceleration_curve_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_oi_minimum_frequency", input_oi_minimum_frequency_count, uint16_t,
-                hitachi_l200_input_oi_minimum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("input_oi_maximum_frequency", input_oi_maximum_frequency_count, uint16_t,
-                hitachi_l200_input_oi_maximum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("input_oi_minimum_setpoint", input_oi_minimum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_oi_maximum_setpoint", input_oi_maximum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("input_oi_start_condition", input_oi_start_condition_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("calculation_input_a", calculation_input_a_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("calculation_input_b", calculation_input_b_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("calculation_operator", calculation_operator_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("frequency_offset", frequency_offset_count, uint16_t,
-                hitachi_l200_frequency_offset_decode_count)
-            FIELDSCRIBE_MEMBER("frequency_offset_sign", frequency_offset_sign_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("potentiometer_minimum_frequency", potentiometer_minimum_frequency_count, uint16_t,
-                hitachi_l200_potentiometer_minimum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("potentiometer_maximum_frequency", potentiometer_maximum_frequency_count, uint16_t,
-                hitachi_l200_potentiometer_maximum_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("potentiometer_minimum_setpoint", potentiometer_minimum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("potentiometer_maximum_setpoint", potentiometer_maximum_setpoint_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("potentiometer_start_condition", potentiometer_start_condition_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("frequency_source_set_2", frequency_source_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("run_source_set_2", run_source_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_rated_frequency_set_2", motor_rated_frequency_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("maximum_frequency_set_2", maximum_frequency_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("base_frequency_set_2", base_frequency_set_2_count, uint16_t,
-                hitachi_l200_base_frequency_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("boost_mode_set_2", boost_mode_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("manual_boost_set_2", manual_boost_set_2_count, uint16_t,
-                hitachi_l200_manual_boost_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("manual_boost_frequency_set_2", manual_boost_frequency_set_2_count, uint16_t,
-                hitachi_l200_manual_boost_frequency_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("vf_characteristic_set_2", vf_characteristic_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("output_voltage_setting_set_2", output_voltage_setting_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("upper_frequency_limit_set_2", upper_frequency_limit_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("lower_frequency_limit_set_2", lower_frequency_limit_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("deceleration_time_2_set_2", deceleration_time_2_set_2_count, uint32_t,
-                hitachi_l200_deceleration_time_2_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("ramp_2_selection_set_2", ramp_2_selection_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("acceleration_change_frequency_set_2", acceleration_change_frequency_set_2_count,
-                uint16_t, hitachi_l200_acceleration_change_frequency_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("deceleration_change_frequency_set_2", deceleration_change_frequency_set_2_count,
-                uint16_t, hitachi_l200_deceleration_change_frequency_set_2_decode_count)
+            FIELDSCRIBE_MEMBER_RAW(frequency_source, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(run_source, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_rated_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(maximum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(at_terminal_selection, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_o_minimum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_o_maximum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_o_minimum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_o_maximum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_o_start_condition, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(analog_input_filter, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, base_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_1, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_3, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_4, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_5, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_6, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_7, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_8, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_9, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_10, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_11, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_12, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_13, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_14, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, fixed_frequency_15, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jog_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(jog_stop_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(boost_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, manual_boost, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, manual_boost_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(vf_characteristic, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(output_voltage_setting, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(dc_brake_enable, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, dc_brake_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, dc_brake_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(dc_brake_torque, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, dc_brake_time, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(dc_brake_trigger, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(upper_frequency_limit, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(lower_frequency_limit, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_1, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_1_width, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_2_width, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_3, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, jump_frequency_3_width, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(pid_enable, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_proportional_gain, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_integral_time, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_derivative_time, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_display_factor, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(pid_process_value_source, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(pid_inversion, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_output_limit, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(avr_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_voltage, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, acceleration_time_2, uint32_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_time_2, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(ramp_2_selection, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, acceleration_change_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_change_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(acceleration_curve, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(deceleration_curve, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_oi_minimum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_oi_maximum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_oi_minimum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_oi_maximum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(input_oi_start_condition, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(calculation_input_a, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(calculation_input_b, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(calculation_operator, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, frequency_offset, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(frequency_offset_sign, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, potentiometer_minimum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, potentiometer_maximum_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(potentiometer_minimum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(potentiometer_maximum_setpoint, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(potentiometer_start_condition, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(frequency_source_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(run_source_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_rated_frequency_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(maximum_frequency_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, base_frequency_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(boost_mode_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, manual_boost_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, manual_boost_frequency_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(vf_characteristic_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(output_voltage_setting_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(upper_frequency_limit_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(lower_frequency_limit_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_time_2_set_2, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(ramp_2_selection_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, acceleration_change_frequency_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, deceleration_change_frequency_set_2, uint16_t)
         }
     }
 }
@@ -5547,49 +4784,36 @@ static void members_of_fine_tuning_b(
         if (fieldscribe_is_placed(all, &hitachi_l200_fine_tuning_b_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             hitachi_l200_fine_tuning_b_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("restart_mode", restart_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("allowed_power_failure_time", allowed_power_failure_time_count, uint16_t,
-                hitachi_l200_allowed_power_failure_time_decode_count)
-            FIELDSCRIBE_MEMBER("restart_delay", restart_delay_count, uint16_t, hitachi_l200_restart_delay_decode_count)
-            FIELDSCRIBE_MEMBER("power_failure_trip_at_standstill", power_failure_trip_at_standstill_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("power_failure_restarts", power_failure_restarts_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_protection_level", motor_protection_level_count, uint16_t,
-                hitachi_l200_motor_protection_level_decode_count)
-            FIELDSCRIBE_MEMBER("motor_protection_characteristic", motor_protection_characteristic_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("current_limit_mode", current_limit_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("current_limit_level", current_limit_level_count, uint16_t,
-                hitachi_l200_current_limit_level_decode_count)
-            FIELDSCRIBE_MEMBER("current_limit_time", current_limit_time_count, uint16_t,
-                hitachi_l200_current_limit_time_decode_count)
-            FIELDSCRIBE_MEMBER("current_limit_source", current_limit_source_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("parameter_lock", parameter_lock_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("analog_output_gain", analog_output_gain_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("start_frequency", start_frequency_count, uint16_t,
-                hitachi_l200_start_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("carrier_frequency", carrier_frequency_count, uint16_t,
-                hitachi_l200_carrier_frequency_decode_count)
-            FIELDSCRIBE_MEMBER("initialization_mode", initialization_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("frequency_display_factor", frequency_display_factor_count, uint16_t,
-                hitachi_l200_frequency_display_factor_decode_count)
-            FIELDSCRIBE_MEMBER("stop_key_lock", stop_key_lock_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("coast_restart_mode", coast_restart_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("network_display", network_display_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("stop_mode", stop_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("overvoltage_deceleration_enable", overvoltage_deceleration_enable_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("overvoltage_deceleration_level_200v", overvoltage_deceleration_level_200v_raw, uint16_t,
-                )
-            FIELDSCRIBE_MEMBER("overvoltage_deceleration_level_400v", overvoltage_deceleration_level_400v_raw, uint16_t,
-                )
-            FIELDSCRIBE_MEMBER("motor_protection_level_set_2", motor_protection_level_set_2_count, uint16_t,
-                hitachi_l200_motor_protection_level_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("motor_protection_characteristic_set_2", motor_protection_characteristic_set_2_raw,
-                uint16_t, )
-            FIELDSCRIBE_MEMBER("current_limit_mode_set_2", current_limit_mode_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("current_limit_level_set_2", current_limit_level_set_2_count, uint16_t,
-                hitachi_l200_current_limit_level_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("current_limit_time_set_2", current_limit_time_set_2_count, uint16_t,
-                hitachi_l200_current_limit_time_set_2_decode_count)
-            FIELDSCRIBE_MEMBER("current_limit_source_set_2", current_limit_source_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER_RAW(restart_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, allowed_power_failure_time, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, restart_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(power_failure_trip_at_standstill, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(power_failure_restarts, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, motor_protection_level, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_protection_characteristic, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(current_limit_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, current_limit_level, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, current_limit_time, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(current_limit_source, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(parameter_lock, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(analog_output_gain, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, start_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, carrier_frequency, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(initialization_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, frequency_display_factor, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(stop_key_lock, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(coast_restart_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(network_display, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(stop_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(overvoltage_deceleration_enable, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(overvoltage_deceleration_level_200v, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(overvoltage_deceleration_level_400v, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, motor_protection_level_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_protection_characteristic_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(current_limit_mode_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, current_limit_level_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, current_limit_time_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(current_limit_source_set_2, uint16_t)
         }
     }
 }
@@ -5606,67 +4830,50 @@ static void members_of_control_c(
         if (fieldscribe_is_placed(all, &hitachi_l200_control_c_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5))
             {
             hitachi_l200_control_c_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("digital_input_1_function", digital_input_1_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_2_function", digital_input_2_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_3_function", digital_input_3_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_4_function", digital_input_4_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_5_function", digital_input_5_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_1_contact", digital_input_1_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_2_contact", digital_input_2_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_3_contact", digital_input_3_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_4_contact", digital_input_4_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_5_contact", digital_input_5_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_output_11_function", digital_output_11_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_output_12_function", digital_output_12_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("relay_output_function", relay_output_function_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("analog_output_source", analog_output_source_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_output_11_contact", digital_output_11_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_output_12_contact", digital_output_12_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("relay_output_contact", relay_output_contact_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("overload_alarm_level", overload_alarm_level_count, uint16_t,
-                hitachi_l200_overload_alarm_level_decode_count)
-            FIELDSCRIBE_MEMBER("arrival_frequency_acceleration", arrival_frequency_acceleration_count, uint16_t,
-                hitachi_l200_arrival_frequency_acceleration_decode_count)
-            FIELDSCRIBE_MEMBER("arrival_frequency_deceleration", arrival_frequency_deceleration_count, uint16_t,
-                hitachi_l200_arrival_frequency_deceleration_decode_count)
-            FIELDSCRIBE_MEMBER("pid_deviation_level", pid_deviation_level_count, uint16_t,
-                hitachi_l200_pid_deviation_level_decode_count)
-            FIELDSCRIBE_MEMBER("pid_process_value_upper_limit", pid_process_value_upper_limit_count, uint16_t,
-                hitachi_l200_pid_process_value_upper_limit_decode_count)
-            FIELDSCRIBE_MEMBER("pid_process_value_lower_limit", pid_process_value_lower_limit_count, uint16_t,
-                hitachi_l200_pid_process_value_lower_limit_decode_count)
-            FIELDSCRIBE_MEMBER("input_o_calibration", input_o_calibration_count, uint16_t,
-                hitachi_l200_input_o_calibration_decode_count)
-            FIELDSCRIBE_MEMBER("input_oi_calibration", input_oi_calibration_count, uint16_t,
-                hitachi_l200_input_oi_calibration_decode_count)
-            FIELDSCRIBE_MEMBER("thermistor_input_calibration", thermistor_input_calibration_count, uint16_t,
-                hitachi_l200_thermistor_input_calibration_decode_count)
-            FIELDSCRIBE_MEMBER("analog_output_offset", analog_output_offset_count, uint16_t,
-                hitachi_l200_analog_output_offset_decode_count)
-            FIELDSCRIBE_MEMBER("motor_potentiometer_memory", motor_potentiometer_memory_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("reset_mode", reset_mode_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("logic_input_a", logic_input_a_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("logic_input_b", logic_input_b_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("logic_operator", logic_operator_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_output_11_on_delay", digital_output_11_on_delay_count, uint16_t,
-                hitachi_l200_digital_output_11_on_delay_decode_count)
-            FIELDSCRIBE_MEMBER("digital_output_11_off_delay", digital_output_11_off_delay_count, uint16_t,
-                hitachi_l200_digital_output_11_off_delay_decode_count)
-            FIELDSCRIBE_MEMBER("digital_output_12_on_delay", digital_output_12_on_delay_count, uint16_t,
-                hitachi_l200_digital_output_12_on_delay_decode_count)
-            FIELDSCRIBE_MEMBER("digital_output_12_off_delay", digital_output_12_off_delay_count, uint16_t,
-                hitachi_l200_digital_output_12_off_delay_decode_count)
-            FIELDSCRIBE_MEMBER("relay_output_on_delay", relay_output_on_delay_count, uint16_t,
-                hitachi_l200_relay_output_on_delay_decode_count)
-            FIELDSCRIBE_MEMBER("relay_output_off_delay", relay_output_off_delay_count, uint16_t,
-                hitachi_l200_relay_output_off_delay_decode_count)
-            FIELDSCRIBE_MEMBER("digital_input_1_function_set_2", digital_input_1_function_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_2_function_set_2", digital_input_2_function_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_3_function_set_2", digital_input_3_function_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_4_function_set_2", digital_input_4_function_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("digital_input_5_function_set_2", digital_input_5_function_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("overload_alarm_level_set_2", overload_alarm_level_set_2_count, uint16_t,
-                hitachi_l200_overload_alarm_level_set_2_decode_count)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_1_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_2_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_3_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_4_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_5_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_1_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_2_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_3_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_4_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_5_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_output_11_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_output_12_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(relay_output_function, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(analog_output_source, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_output_11_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_output_12_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(relay_output_contact, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, overload_alarm_level, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, arrival_frequency_acceleration, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, arrival_frequency_deceleration, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_deviation_level, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_process_value_upper_limit, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, pid_process_value_lower_limit, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_o_calibration, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, input_oi_calibration, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, thermistor_input_calibration, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, analog_output_offset, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_potentiometer_memory, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(reset_mode, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(logic_input_a, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(logic_input_b, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(logic_operator, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, digital_output_11_on_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, digital_output_11_off_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, digital_output_12_on_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, digital_output_12_off_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, relay_output_on_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, relay_output_off_delay, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_1_function_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_2_function_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_3_function_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_4_function_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(digital_input_5_function_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_COUNT(hitachi_l200, overload_alarm_level_set_2, uint16_t)
         }
     }
 }
@@ -5682,12 +4889,12 @@ static void members_of_motor_h(
         const size_t block = at / 2U;
         if (fieldscribe_is_placed(all, &hitachi_l200_motor_h_blocks[block], what, words, at % 2U == 0U ? 0x00 : 0xA5)) {
             hitachi_l200_motor_h_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("motor_power", motor_power_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_poles", motor_poles_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("stabilization_constant", stabilization_constant_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_power_set_2", motor_power_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("motor_poles_set_2", motor_poles_set_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("stabilization_constant_set_2", stabilization_constant_set_2_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER_RAW(motor_power, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_poles, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(stabilization_constant, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_power_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(motor_poles_set_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(stabilization_constant_set_2, uint16_t)
         }
     }
 }

@@ -17,8 +17,7 @@ static void point_program_status(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_program_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_program_status_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_program_status, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_program_status_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, program_status, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("program_hold", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK) != 0U)
@@ -44,8 +43,7 @@ static void point_controller_status(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_controller_status_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_controller_status_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_controller_status, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_controller_status_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, controller_status, int32_t, uint16_t, PLAIN)
 }
 
 static void point_binary_outputs(fieldscribe_vector *v)
@@ -56,8 +54,7 @@ static void point_binary_outputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_binary_outputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_binary_outputs_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_binary_outputs, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_binary_outputs_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, binary_outputs, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("binary_output_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK) != 0U)
@@ -98,8 +95,7 @@ static void point_binary_inputs(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_binary_inputs_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_binary_inputs_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_binary_inputs, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_binary_inputs_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, binary_inputs, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("binary_input_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK) != 0U)
@@ -134,8 +130,7 @@ static void point_control_contacts(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_control_contacts_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_control_contacts_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_control_contacts, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_control_contacts_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, control_contacts, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("control_contact_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK) != 0U)
@@ -158,8 +153,7 @@ static void point_binary_signals(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_binary_signals_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_binary_signals_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_binary_signals, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_binary_signals_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, binary_signals, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("control_contact_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK) != 0U)
@@ -190,10 +184,7 @@ static void point_binary_output_control(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_binary_output_control_frame, false, 0x8000U, 0x8000U)
     FIELDSCRIBE_READ(jumo_controller_binary_output_control_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(jumo_controller_binary_output_control_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_binary_output_control, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_binary_output_control_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_binary_output_control, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_binary_output_control_decode(raw), true))
+    FIELDSCRIBE_CALLS(jumo_controller, binary_output_control, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("output_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U)
@@ -234,8 +225,7 @@ static void point_program_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_program_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_program_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_program_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_program_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_program_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, program_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_program_remaining_time(fieldscribe_vector *v)
@@ -246,8 +236,7 @@ static void point_program_remaining_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_program_remaining_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_program_remaining_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_program_remaining_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_program_remaining_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_program_remaining_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, program_remaining_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_section_run_time(fieldscribe_vector *v)
@@ -258,8 +247,7 @@ static void point_section_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_section_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_section_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_section_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_section_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_section_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, section_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_section_remaining_time(fieldscribe_vector *v)
@@ -270,8 +258,7 @@ static void point_section_remaining_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_section_remaining_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_section_remaining_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_section_remaining_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_section_remaining_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_section_remaining_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, section_remaining_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_1_run_time(fieldscribe_vector *v)
@@ -282,8 +269,7 @@ static void point_timer_1_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_timer_1_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_timer_1_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_timer_1_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_1_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_timer_1_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, timer_1_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_2_run_time(fieldscribe_vector *v)
@@ -294,8 +280,7 @@ static void point_timer_2_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_timer_2_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_timer_2_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_timer_2_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_2_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_timer_2_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, timer_2_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_3_run_time(fieldscribe_vector *v)
@@ -306,8 +291,7 @@ static void point_timer_3_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_timer_3_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_timer_3_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_timer_3_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_3_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_timer_3_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, timer_3_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_4_run_time(fieldscribe_vector *v)
@@ -318,8 +302,7 @@ static void point_timer_4_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_timer_4_run_time, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_timer_4_run_time_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_timer_4_run_time_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_4_run_time, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_timer_4_run_time_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(jumo_controller, timer_4_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_setpoint_1(fieldscribe_vector *v)
@@ -333,8 +316,7 @@ static void point_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_setpoint_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_setpoint_1_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(jumo_controller_setpoint_1_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_setpoint_1, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (int)jumo_controller_setpoint_1_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_READ(jumo_controller, setpoint_1, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
@@ -348,8 +330,7 @@ static void point_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_setpoint_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_setpoint_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(jumo_controller_setpoint_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_setpoint_2, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (int)jumo_controller_setpoint_2_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_READ(jumo_controller, setpoint_2, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_proportional_band_1_set_2(fieldscribe_vector *v)
@@ -363,9 +344,7 @@ static void point_proportional_band_1_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_proportional_band_1_set_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_proportional_band_1_set_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE(jumo_controller_proportional_band_1_set_2_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_proportional_band_1_set_2, int64_t, uint32_t,
-        count, FIELDSCRIBE_ALONE, (int)jumo_controller_proportional_band_1_set_2_decode_count(raw FIELDSCRIBE_ALONE,
-        &count))
+    FIELDSCRIBE_CALL_READ(jumo_controller, proportional_band_1_set_2, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_value_0077(fieldscribe_vector *v)
@@ -387,8 +366,7 @@ static void point_value_00ce(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(jumo_controller_value_00ce, uint32_t, 2U)
     FIELDSCRIBE_LIES(jumo_controller_value_00ce_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_value_00ce_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_value_00ce, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (int)jumo_controller_value_00ce_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_READ(jumo_controller, value_00ce, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_program_controller_commands(fieldscribe_vector *v)
@@ -403,10 +381,7 @@ static void point_program_controller_commands(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_program_controller_commands_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_program_controller_commands_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(jumo_controller_program_controller_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_program_controller_commands, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = jumo_controller_program_controller_commands_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_program_controller_commands, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_program_controller_commands_decode(raw), true))
+    FIELDSCRIBE_CALLS(jumo_controller, program_controller_commands, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("hold_program", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
         & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U)
@@ -432,10 +407,7 @@ static void point_controller_commands(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_controller_commands_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_controller_commands_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(jumo_controller_controller_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_controller_commands, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_controller_commands_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_controller_commands, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = jumo_controller_controller_commands_decode(raw), true))
+    FIELDSCRIBE_CALLS(jumo_controller, controller_commands, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("hold_ramp", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U)
@@ -470,10 +442,7 @@ static void point_operation_commands(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_operation_commands_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_operation_commands_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(jumo_controller_operation_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_operation_commands, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_operation_commands_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_operation_commands, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = jumo_controller_operation_commands_decode(raw), true))
+    FIELDSCRIBE_CALLS(jumo_controller, operation_commands, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("displays_off", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U)
@@ -496,10 +465,7 @@ static void point_timer_commands(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(jumo_controller_timer_commands_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(jumo_controller_timer_commands_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(jumo_controller_timer_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(jumo_controller_device, jumo_controller_read_timer_commands, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = jumo_controller_timer_commands_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", jumo_controller_device, jumo_controller_write_timer_commands, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = jumo_controller_timer_commands_decode(raw), true))
+    FIELDSCRIBE_CALLS(jumo_controller, timer_commands, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("hold_timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
         JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
         JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U)
@@ -577,21 +543,21 @@ static void members_of_process_data(
         if (fieldscribe_is_placed(all, &jumo_controller_process_data_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             jumo_controller_process_data_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("program_status", program_status_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("controller_status", controller_status_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("binary_outputs", binary_outputs_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("binary_inputs", binary_inputs_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("control_contacts", control_contacts_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("binary_signals", binary_signals_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("binary_output_control", binary_output_control_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("program_run_time", program_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("program_remaining_time", program_remaining_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("section_run_time", section_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("section_remaining_time", section_remaining_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("timer_1_run_time", timer_1_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("timer_2_run_time", timer_2_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("timer_3_run_time", timer_3_run_time_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("timer_4_run_time", timer_4_run_time_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER_RAW(program_status, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(controller_status, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(binary_outputs, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(binary_inputs, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(control_contacts, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(binary_signals, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(binary_output_control, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(program_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(program_remaining_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(section_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(section_remaining_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(timer_1_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(timer_2_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(timer_3_run_time, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(timer_4_run_time, uint32_t)
         }
     }
 }
@@ -608,10 +574,10 @@ static void members_of_examples(
         if (fieldscribe_is_placed(all, &jumo_controller_examples_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             jumo_controller_examples_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("value_00ce", value_00ce_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("proportional_band_1_set_2", proportional_band_1_set_2_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("setpoint_1", setpoint_1_raw, uint32_t, )
-            FIELDSCRIBE_MEMBER("setpoint_2", setpoint_2_raw, uint32_t, )
+            FIELDSCRIBE_MEMBER_RAW(value_00ce, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(proportional_band_1_set_2, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_1, uint32_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_2, uint32_t)
         }
     }
 }
@@ -628,10 +594,10 @@ static void members_of_command_words(
         if (fieldscribe_is_placed(all, &jumo_controller_command_words_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             jumo_controller_command_words_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("program_controller_commands", program_controller_commands_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("controller_commands", controller_commands_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("operation_commands", operation_commands_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("timer_commands", timer_commands_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER_RAW(program_controller_commands, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(controller_commands, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(operation_commands, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(timer_commands, uint16_t)
         }
     }
 }

@@ -21,10 +21,7 @@ static void point_control_word(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_control_word_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_control_word_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_control_word_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_control_word, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_control_word_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_control_word, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_control_word_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, control_word, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
         NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U)
@@ -87,10 +84,7 @@ static void point_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_1, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_setpoint_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_1_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
@@ -105,10 +99,7 @@ static void point_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_2, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_setpoint_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_2_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_3(fieldscribe_vector *v)
@@ -123,10 +114,7 @@ static void point_setpoint_3(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_3, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_setpoint_3_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_3, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_3_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_3, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_4(fieldscribe_vector *v)
@@ -141,10 +129,7 @@ static void point_setpoint_4(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_4, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_setpoint_4_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_4, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_4_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_4, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_5(fieldscribe_vector *v)
@@ -159,10 +144,7 @@ static void point_setpoint_5(fieldscribe_vector *v)
     FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_setpoint_5, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_setpoint_5_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", nord_sk5xxe_device, nord_sk5xxe_write_setpoint_5, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_setpoint_5_decode(raw), true))
+    FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_5, int32_t, uint16_t, PLAIN)
 }
 
 static void point_status_word(fieldscribe_vector *v)
@@ -174,8 +156,7 @@ static void point_status_word(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_status_word_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_status_word_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_status_word, int32_t, uint16_t, value, FIELDSCRIBE_ALONE,
-        (value = nord_sk5xxe_status_word_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, status_word, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
         NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
@@ -235,8 +216,7 @@ static void point_actual_value_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_1_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_1_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_1_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_2(fieldscribe_vector *v)
@@ -248,8 +228,7 @@ static void point_actual_value_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_2_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_2_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_2, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_2_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_3(fieldscribe_vector *v)
@@ -261,8 +240,7 @@ static void point_actual_value_3(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_3_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_3_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_3, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_3_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_3, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_4(fieldscribe_vector *v)
@@ -274,8 +252,7 @@ static void point_actual_value_4(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_4_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_4_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_4, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_4_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_4, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_5(fieldscribe_vector *v)
@@ -287,8 +264,7 @@ static void point_actual_value_5(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_5_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_5_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(nord_sk5xxe_device, nord_sk5xxe_read_actual_value_5, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = nord_sk5xxe_actual_value_5_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_5, int32_t, uint16_t, PLAIN)
 }
 
 static const fieldscribe_status_name statuses[] = {
@@ -340,18 +316,18 @@ static void members_of_process_data(
         if (fieldscribe_is_placed(all, &nord_sk5xxe_process_data_blocks[block], what, words, at % 2U == 0U ? 0x00 :
             0xA5)) {
             nord_sk5xxe_process_data_group_decode(block, all, &group);
-            FIELDSCRIBE_MEMBER("control_word", control_word_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("setpoint_1", setpoint_1_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("setpoint_2", setpoint_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("setpoint_3", setpoint_3_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("setpoint_4", setpoint_4_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("setpoint_5", setpoint_5_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("status_word", status_word_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("actual_value_1", actual_value_1_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("actual_value_2", actual_value_2_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("actual_value_3", actual_value_3_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("actual_value_4", actual_value_4_raw, uint16_t, )
-            FIELDSCRIBE_MEMBER("actual_value_5", actual_value_5_raw, uint16_t, )
+            FIELDSCRIBE_MEMBER_RAW(control_word, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_1, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_3, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_4, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(setpoint_5, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(status_word, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(actual_value_1, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(actual_value_2, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(actual_value_3, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(actual_value_4, uint16_t)
+            FIELDSCRIBE_MEMBER_RAW(actual_value_5, uint16_t)
         }
     }
 }

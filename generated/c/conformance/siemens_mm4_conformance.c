@@ -44,12 +44,9 @@ static void point_user_access_level(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_user_access_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_user_access_level_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_user_access_level, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_user_access_level, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_user_access_level, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_user_access_level_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
 }
 
 static void point_inverter_status_word(fieldscribe_vector *v)
@@ -60,8 +57,7 @@ static void point_inverter_status_word(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(siemens_mm4_inverter_status_word_frame, false, 0x0000U, 0x0000U)
     FIELDSCRIBE_READ(siemens_mm4_inverter_status_word_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_inverter_status_word, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_inverter_status_word_decode(raw), 0))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, inverter_status_word, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
         SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
         SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) !=
@@ -137,12 +133,9 @@ static void point_command_source(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_command_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_command_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_command_source_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_command_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_command_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_command_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_command_source_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_p0731_source(fieldscribe_vector *v)
@@ -159,12 +152,9 @@ static void point_p0731_source(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_p0731_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_p0731_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_p0731_source_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_p0731_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_p0731_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_p0731_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_p0731_source_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_p0731_source_source_parameter((uint32_t)fieldscribe_bits(v,
         "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
     FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_p0731_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
@@ -188,12 +178,9 @@ static void point_main_setpoint_source(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_main_setpoint_source, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_main_setpoint_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_main_setpoint_source, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_main_setpoint_source_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
 }
 
 static void point_maximum_frequency(fieldscribe_vector *v)
@@ -209,8 +196,7 @@ static void point_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_maximum_frequency_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_maximum_frequency_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_maximum_frequency, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (int)siemens_mm4_maximum_frequency_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, maximum_frequency, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_jog_time_selection_source(fieldscribe_vector *v)
@@ -227,12 +213,9 @@ static void point_jog_time_selection_source(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_jog_time_selection_source_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_jog_time_selection_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_jog_time_selection_source, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_jog_time_selection_source, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_jog_time_selection_source_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_jog_time_selection_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER)
@@ -254,12 +237,9 @@ static void point_dc_braking_source(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_dc_braking_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_dc_braking_source_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_dc_braking_source_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_dc_braking_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_dc_braking_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_dc_braking_source, int64_t, uint32_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_dc_braking_source_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_dc_braking_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER)
@@ -283,12 +263,9 @@ static void point_output_phase_sequence(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_output_phase_sequence, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_output_phase_sequence, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_output_phase_sequence, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_output_phase_sequence_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
 }
 
 static void point_reference_frequency(fieldscribe_vector *v)
@@ -304,8 +281,7 @@ static void point_reference_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_reference_frequency_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_reference_frequency_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_reference_frequency, int64_t, uint32_t, count,
-        FIELDSCRIBE_ALONE, (int)siemens_mm4_reference_frequency_decode_count(raw FIELDSCRIBE_ALONE, &count))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, reference_frequency, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_uss_normalisation_rs485(fieldscribe_vector *v)
@@ -327,12 +303,9 @@ static void point_uss_normalisation_rs485(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_normalisation_rs485, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_normalisation_rs485, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_normalisation_rs485, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs485_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_normalisation_rs232(fieldscribe_vector *v)
@@ -354,12 +327,9 @@ static void point_uss_normalisation_rs232(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_normalisation_rs232, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_normalisation_rs232, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_normalisation_rs232, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_normalisation_rs232_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
@@ -378,12 +348,9 @@ static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_baud_rate_index_0, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_baud_rate_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_baud_rate_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_0_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
@@ -402,12 +369,9 @@ static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_baud_rate_index_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_baud_rate_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_baud_rate_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_baud_rate_index_1_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_slave_address_index_0(fieldscribe_vector *v)
@@ -426,12 +390,9 @@ static void point_uss_slave_address_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_slave_address_index_0, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_slave_address_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_slave_address_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_0_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_slave_address_index_1(fieldscribe_vector *v)
@@ -450,12 +411,9 @@ static void point_uss_slave_address_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_slave_address_index_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_slave_address_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_slave_address_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_slave_address_index_1_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
@@ -474,12 +432,9 @@ static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm410, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm410_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
@@ -498,12 +453,9 @@ static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm420, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm420_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
@@ -522,12 +474,9 @@ static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm430, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm430_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
@@ -546,12 +495,9 @@ static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_0_mm440, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_0_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_0_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_0_mm440_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
@@ -570,12 +516,9 @@ static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm410, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm410, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm410_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
@@ -594,12 +537,9 @@ static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm420, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm420, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm420_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
@@ -618,12 +558,9 @@ static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm430, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm430, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm430_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
@@ -642,12 +579,9 @@ static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pzd_length_index_1_mm440, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pzd_length_index_1_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pzd_length_index_1_mm440, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pzd_length_index_1_mm440_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
@@ -671,12 +605,9 @@ static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pkw_length_index_0, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pkw_length_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pkw_length_index_0, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_0_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
@@ -700,12 +631,9 @@ static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_pkw_length_index_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_pkw_length_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_pkw_length_index_1, int32_t, uint16_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_pkw_length_index_1_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
@@ -724,14 +652,9 @@ static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_telegram_off_time_index_0, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE, &value))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_telegram_off_time_index_0, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE,
-        &value) == 0)
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_telegram_off_time_index_0, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_0_decode(raw FIELDSCRIBE_ALONE,
-        &value) == 0)
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF,
         SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_0, uint16_t)
@@ -753,14 +676,9 @@ static void point_uss_telegram_off_time_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, u16, uint16_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_telegram_off_time_index_1, int32_t, uint16_t, value,
-        FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE, &value))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_telegram_off_time_index_1, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE,
-        &value) == 0)
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_telegram_off_time_index_1, int32_t,
-        uint16_t, value, FIELDSCRIBE_ALONE, (int)siemens_mm4_uss_telegram_off_time_index_1_decode(raw FIELDSCRIBE_ALONE,
-        &value) == 0)
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF,
         SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_1, uint16_t)
@@ -782,12 +700,9 @@ static void point_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_0, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_0_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
@@ -812,12 +727,9 @@ static void point_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_1, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_1_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
@@ -842,12 +754,9 @@ static void point_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_2, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_2_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
@@ -872,12 +781,9 @@ static void point_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs232_answer_source_index_3, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs232_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs232_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs232_answer_source_index_3_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs232_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
@@ -902,12 +808,9 @@ static void point_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_0, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_0, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_0_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
@@ -932,12 +835,9 @@ static void point_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_1, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_1, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_1_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
@@ -962,12 +862,9 @@ static void point_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_2, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_2, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_2_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
@@ -992,12 +889,9 @@ static void point_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
     FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, u32, uint32_t)
-    FIELDSCRIBE_CALL_READ(siemens_mm4_device, siemens_mm4_read_uss_rs485_answer_source_index_3, int64_t, uint32_t,
-        value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), 0))
-    FIELDSCRIBE_CALL_WRITE("write", siemens_mm4_device, siemens_mm4_write_uss_rs485_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), true))
-    FIELDSCRIBE_CALL_WRITE("store", siemens_mm4_device, siemens_mm4_store_uss_rs485_answer_source_index_3, int64_t,
-        uint32_t, value, FIELDSCRIBE_ALONE, (value = siemens_mm4_uss_rs485_answer_source_index_3_decode(raw), true))
+    FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
+    FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_WIDE_FLAG("source_parameter",
         siemens_mm4_uss_rs485_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)

@@ -1045,10 +1045,10 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 }
 
 /*
- * A point in one call: what its frames and its codec do. `decoded` stores what `raw` means in `number` and gives the
- * status of that; `valued` stores it, too, and says whether the number may stand for `raw`.
+ * A point in one call: what its frames and its codec do. `decode` stores what `raw` means in `number`, `encode` what
+ * that is written as in `again`; each gives a status. A number is written if it stands for that raw number alone.
  */
-#define FIELDSCRIBE_CALL_READ(device_type, call, type, raw_type, number, with, decoded)          \
+#define FIELDSCRIBE_CALL_READ_BY(device_type, call, type, raw_type, with, decode)                \
     if (fieldscribe_asks(v, "read")) {                                                           \
         device_type device = {fieldscribe_called_unit(v)};                                       \
         int converted = 0;                                                                       \
@@ -1060,24 +1060,46 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         status = (int)call(&device with, &read);                                                 \
         if (fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {                          \
             const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                           \
-            converted = decoded;                                                                 \
+            converted = decode;                                                                  \
         }                                                                                        \
         fieldscribe_is_called(v, &device.unit, status, converted);                               \
         fieldscribe_agree(v, memcmp(&read, &number, sizeof read) == 0);                          \
     }
 
-#define FIELDSCRIBE_CALL_WRITE(kind, device_type, call, type, raw_type, number, with, valued)    \
+#define FIELDSCRIBE_CALL_WRITE_BY(kind, device_type, call, type, raw_type, with, decode, encode) \
     if (fieldscribe_asks(v, kind)) {                                                             \
         device_type device = {fieldscribe_called_unit(v)};                                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        raw_type again = raw;                                                                    \
+        raw_type again = (raw_type)0;                                                            \
         type number = (type)0;                                                                   \
-        (void)again;                                                                             \
-        if (valued) {                                                                            \
+        if (decode == 0 && encode == 0 && again == raw) {                                        \
             const int status = (int)call(&device with, number);                                  \
             fieldscribe_is_called(v, &device.unit, status, 0);                                   \
         }                                                                                        \
     }
+
+/* The same of a point that needs no other: the number is the raw number, or its decoding or count, which may fail. */
+#define FIELDSCRIBE_CALL_READ(device, item, type, raw_type, means)                               \
+    FIELDSCRIBE_CALL_READ_BY(device##_device, device##_read_##item, type, raw_type, ,            \
+        FIELDSCRIBE_DECODE_##means(device##_##item, type))
+#define FIELDSCRIBE_CALL_WRITE(kind, device, item, type, raw_type, means)                        \
+    FIELDSCRIBE_CALL_WRITE_BY(#kind, device##_device, device##_##kind##_##item, type, raw_type, , \
+        FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
+#define FIELDSCRIBE_CALLS(device, item, type, raw_type, means)                                   \
+    FIELDSCRIBE_CALL_READ_BY(device##_device, device##_read_##item, type, raw_type, ,            \
+        FIELDSCRIBE_DECODE_##means(device##_##item, type))                                       \
+    FIELDSCRIBE_CALL_WRITE_BY("write", device##_device, device##_write_##item, type, raw_type, , \
+        FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
+#define FIELDSCRIBE_DECODE_RAW(point, type) (number = (type)raw, 0)
+#define FIELDSCRIBE_DECODE_PLAIN(point, type) (number = (type)point##_decode(raw), 0)
+#define FIELDSCRIBE_DECODE_COUNT_OF(point, type) (number = (type)point##_decode_count(raw), 0)
+#define FIELDSCRIBE_DECODE_TRY_PLAIN(point, type) (int)point##_decode(raw, &number)
+#define FIELDSCRIBE_DECODE_TRY_COUNT_OF(point, type) (int)point##_decode_count(raw, &number)
+#define FIELDSCRIBE_ENCODE_RAW(point, raw_type) (again = (raw_type)number, 0)
+#define FIELDSCRIBE_ENCODE_PLAIN(point, raw_type) (again = (raw_type)number, 0)
+#define FIELDSCRIBE_ENCODE_COUNT_OF(point, raw_type) (int)point##_encode_count(number, &again)
+#define FIELDSCRIBE_ENCODE_TRY_PLAIN(point, raw_type) (int)point##_encode(number, &again)
+#define FIELDSCRIBE_ENCODE_TRY_COUNT_OF(point, raw_type) (int)point##_encode_count(number, &again)
 
 /* Whether bytes are those of the step that are to be sent. */
 static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, const uint8_t *bytes, size_t length)

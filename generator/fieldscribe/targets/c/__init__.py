@@ -41,15 +41,18 @@ def outputs(
     if not exchanges and not frames_of(device).HAS_FACTS:
         return
     texts = {name: section.text(render, scope if exchanges else None) for name, section in sections.items()}
-    yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
+    frames_text = framed(render, f"c/{device.family}.h.j2", context, texts)
+    del texts  # megabytes of a large device, which are in the text above
+    yield f"c/{device.id}_{device.family}.h", frames_text
     if rows and (macros := "".join(section.rows(scope) for section in sections.values())):
         yield f"c/{device.id}_rows.h", framed(render, f"c/{device.family}_rows.h.j2", context, {"rows": macros})
     if tests:
         from fieldscribe.targets.c.conformance import adapters_text, suite_context
 
         suite = {**context, "suite": suite_context(device, points, scope)}
-        adapters = {"adapters": adapters_text(points, scope, sections.values(), render)}
-        program = framed(render, f"c/{device.family}_conformance.c.j2", suite, adapters)
+        adapters = adapters_text(points, scope, sections.values(), render)
+        program = framed(render, f"c/{device.family}_conformance.c.j2", suite, {"adapters": adapters})
+        del adapters
         yield f"c/conformance/{device.id}_conformance.c", program
 
 

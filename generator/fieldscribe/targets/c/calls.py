@@ -62,26 +62,34 @@ def call_cases(
     """
     if view.shape == "text":
         return
-    point, device, (value, kind, tail) = view.point, f"{scope.prefix}_device", _value(view)
-    scale = point.scale_arguments if view.shape == "ruled" and tail else ()
-    decoded = called(f"{view.function}_decode{tail}", f"raw {arguments(scale)}".rstrip(), f"&{value}")
+    point, item, (value, kind, tail) = view.point, view.fields.item, _value(view)
     fails = tail is not None and _decoding(view, value, tail, ())[0] == "DECODE"
-    if not fails:
-        decoded = f"{value} = " + (f"({kind})raw" if tail is None else called(f"{view.function}_decode{tail}", "raw"))
-    types = f"{kind}, {view.raw_type}"
+    means = f"{'TRY_' if fails else ''}{'RAW' if tail is None else 'COUNT_OF' if tail else 'PLAIN'}"
+    scale = point.scale_arguments if view.shape == "ruled" and tail else ()
+    names = point.arguments if tail is not None else point.limit_arguments
+    writes = [verb for verb in ("write", "store") if getattr(transfer, verb)]
+    writes = writes if tail is None or (point.readable and not point.info.floating) else []
+    if not (scale or names):
+        what = f"{scope.prefix}, {item}, {kind}, {view.raw_type}, {means}"
+        if transfer.read and writes == ["write"]:
+            yield f"CALLS({what})"
+            return
+        yield from ([f"CALL_READ({what})"] if transfer.read else [])
+        yield from (f"CALL_WRITE({verb}, {what})" for verb in writes)
+        return
+    decode = f"FIELDSCRIBE_DECODE_{means}({view.function}, {kind})"
+    encode = f"FIELDSCRIBE_ENCODE_RAW({view.function}, {view.raw_type})"
+    if fails:
+        decode = f"(int){view.function}_decode{tail}(raw {arguments(scale)}, &number)"
+    if fails or tail == "_count":
+        encode = f"(int){view.function}_encode{tail}(number {arguments(names)}, &again)"
+    handle, types = f"{scope.prefix}_device", f"{kind}, {view.raw_type}"
     if transfer.read:
-        result = f"(int){decoded}" if fails else f"({decoded}, 0)"
-        item = f"{scope.prefix}_read_{view.fields.item}"
-        yield f"CALL_READ({device}, {item}, {types}, {value}, {arguments(scale)}, {result})"
-    for verb, to in (("write", transfer.write), ("store", transfer.store)):
-        if to and (tail is None or (point.readable and not point.info.floating)):
-            names = point.arguments if tail is not None else point.limit_arguments
-            result = f"(int){decoded} == 0" if fails else f"({decoded}, true)"
-            if tail == "_count":  # not every raw number is a whole count
-                encoded = called(f"{view.function}_encode{tail}", f"{value} {arguments(names)}", "&again")
-                result = f"{result} && (int){encoded} == 0 && again == raw"
-            item = f"{scope.prefix}_{verb}_{view.fields.item}"
-            yield f'CALL_WRITE("{verb}", {device}, {item}, {types}, {value}, {arguments(names)}, {result})'
+        call = f"{scope.prefix}_read_{item}"
+        yield f"CALL_READ_BY({handle}, {call}, {types}, {arguments(scale)}, {decode})"
+    for verb in writes:
+        call = f"{scope.prefix}_{verb}_{item}"
+        yield f'CALL_WRITE_BY("{verb}", {handle}, {call}, {types}, {arguments(names)}, {decode}, {encode})'
 
 
 def _several(view: PointView) -> str:

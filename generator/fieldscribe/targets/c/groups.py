@@ -108,11 +108,11 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
     for point, view, _ in (each for part in values.parts for each in part.points):
         item, kind = point.item, raw_type(point)
         if point.text is not None:
-            yield f'MEMBER_TEXT("{item}", {item}_text)'
+            yield f"MEMBER_TEXT({item})"
         elif _is_plainly_counted(point, view):
-            yield f'MEMBER("{item}", {item}_count, {kind}, {scope.prefix}_{item}_decode_count)'
+            yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})"
         else:
-            yield f'MEMBER("{item}", {item}_raw, {kind}, )'
+            yield f"MEMBER_RAW({item}, {kind})"
 
 
 def _raw(point: Point, name: str, word: str) -> str:
