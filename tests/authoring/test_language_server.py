@@ -128,7 +128,7 @@ def test_hover_says_what_a_key_means(server: LanguageServer, folder: Path) -> No
     [
         ("  scael: value = raw * 0.1\n", "Property scael is not allowed."),
         ("  access: wr\n", 'Value is not accepted. Valid values: "r", "w", "rw", "none".'),
-        ("  type: uint16\n", "Value is not accepted. Valid values: "),
+        ("  type: uint16\n", "String does not match the pattern of "),
         ("  title: {de: Drehzahl}\n", 'Missing property "en".'),
         ("  line: -1\n", "Value is below the minimum of 1."),
         ("- {at: 3}\n", 'Missing property "name".'),

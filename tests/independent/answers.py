@@ -17,13 +17,16 @@ YES = ("yes", "true")
 Settings = dict[str, int]
 """Raw numbers of other points, by item."""
 
-_WIDTHS = {"bit": 1, "text": 16, "u8": 8, "s8": 8, "u16": 16, "s16": 16, "u32": 32, "s32": 32, "u64": 64, "s64": 64}
-_WIDTHS |= {"f32": 32, "f64": 64}
 _BIT_SPACES = ("coil", "discrete")
 
 
 class UnknownError(Exception):
     """This reader does not work that out."""
+
+
+def _width_of(kind: str) -> int:
+    """How many bits a type has; of a text, one word."""
+    return {"bit": 1, "text": 16}.get(kind) or int(kind[1:])
 
 
 class Point:
@@ -54,7 +57,7 @@ class Point:
     @cached_property
     def width(self) -> int:
         """How many bits the raw number has."""
-        return self.bits[0] - self.bits[1] + 1 if self.bits else _WIDTHS[self.type]
+        return self.bits[0] - self.bits[1] + 1 if self.bits else _width_of(self.type)
 
     @cached_property
     def outer(self) -> tuple[int, int]:
@@ -70,7 +73,7 @@ class Point:
         if last:
             start, end = number(first), number(last)
             return list(range(start, end + 1)) if start <= end else list(range(start, end - 1, -1))
-        count = int(self.row["characters"]) // 2 if self.type == "text" else max(1, _WIDTHS[self.type] // 16)
+        count = int(self.row["characters"]) // 2 if self.type == "text" else -(-_width_of(self.type) // 16)
         if self.device.family == "uss" and self.row["space"] == "parameter":
             return [number(first)]
         ascending = list(range(number(first), number(first) + count))
@@ -79,7 +82,8 @@ class Point:
     @property
     def _order(self) -> str:
         words = self.device.words
-        shared = words.get(self.type, "high first") if isinstance(words, dict) else words
+        wider = f"{self.type[0]}{next((width for width in (16, 32, 64) if width >= _width_of(self.type)), 0)}"
+        shared = words.get(wider, "high first") if isinstance(words, dict) else words
         return str(self.row.get("words", shared))
 
     @cached_property
@@ -97,6 +101,10 @@ class Point:
     @cached_property
     def entries(self) -> dict[int, str]:
         """The names of numbers, of a digit where the point is digits."""
+        if self.type in ("f32", "f64") and "enum" in self.row:
+            form = ">f" if self.type == "f32" else ">d"
+            rows: Row = self.row["enum"]
+            return {int.from_bytes(struct.pack(form, float(key)), "big"): _name(entry) for key, entry in rows.items()}
         return self.device_entries(self.row.get("enum") or self.row.get("digits", {}).get("enum", {}))
 
     def device_entries(self, enum: Row | str) -> dict[int, str]:

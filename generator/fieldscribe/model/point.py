@@ -153,6 +153,7 @@ class Point:
     specials_of = _Shared(lambda point: point.shape.specials_of)
     text = _Shared(lambda point: point.shape.text)
     digits = _Shared(lambda point: point.shape.digits)
+    patterns = _Shared(lambda point: point.shape.patterns)
     fixed = _Shared(lambda point: point.shape.fixed)
     info = _Shared(lambda point: point.shape.info)
     form = _Shared(lambda point: point.shape.form)

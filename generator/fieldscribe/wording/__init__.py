@@ -237,7 +237,7 @@ def _case_text(case: ScaleCase, points: Points | None) -> str:
 
 def range_text(point: Point, points: Points | None = None, *, unit: bool = True) -> str:
     """Return which values may be written, in the unit: `0..400 Hz`; empty if only raw numbers are known."""
-    if _is_unbounded(point) or point.shape.patterns:
+    if _is_unbounded(point) or point.patterns:
         return ""
     if point.info.floating or point.allowed.units:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
@@ -249,7 +249,7 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
 
 def raw_range_text(point: Point, points: RenamedPoints | None = None) -> str:
     """Return which raw numbers may be written: `0..4000`; empty where the limits are values, as of f32 and f64."""
-    nothing = point.info.floating or point.allowed.units or point.text is not None or point.shape.patterns
+    nothing = point.info.floating or point.allowed.units or point.text is not None or point.patterns
     return "" if nothing or _is_unbounded(point) else ranges_text(point, SAME, points, "")
 
 
