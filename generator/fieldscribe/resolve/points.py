@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from fieldscribe.arithmetic.exact import float_of, pattern_of
+from fieldscribe.arithmetic.exact import float_of
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
@@ -26,7 +26,7 @@ from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_fr
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.telegrams import SPACE, Telegrams
-from fieldscribe.resolve.values import integer, number
+from fieldscribe.resolve.values import integer, number, pattern
 
 _MOST_NAMES = 12
 _CITING = {*keys_of(SOURCE), "source"}
@@ -254,7 +254,8 @@ def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction
             return None, None
         value = number(stated, span, scope.report)
         if value is not None and facts.pattern_bits:
-            return value, pattern_of(value, facts.pattern_bits)
+            raw = pattern(value, facts.pattern_bits, span, scope.report)
+            return None if raw is None else value, raw
         exact = None if value is None or rule is None else rule.at(value)
         return value, exact.numerator if exact is not None and exact.denominator == 1 else None
     raw = None if facts.layer("default") is None else _default_raw(scope, facts, shape)

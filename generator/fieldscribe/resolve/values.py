@@ -8,6 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
@@ -45,6 +46,16 @@ def number(value: Any, span: Span, report: Report) -> Fraction | None:
         return parse_number(str(value))
     except NumberError as error:
         report.error("bad-number", error.message, span, error.hint)
+        return None
+
+
+def pattern(value: Fraction | None, bits: int, span: Span, report: Report) -> int | None:
+    """Return the pattern of a floating-point number; None for none, or after a finding."""
+    try:
+        return None if value is None else pattern_of(value, bits)
+    except OverflowError:
+        message = f"a floating-point number of {bits} bits cannot be so large"
+        report.error("range-outside-type", message, span, "correct the number, or the type")
         return None
 
 

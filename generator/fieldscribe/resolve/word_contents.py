@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
@@ -16,7 +15,7 @@ from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Text
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
-from fieldscribe.resolve.values import bit_range, integer, number
+from fieldscribe.resolve.values import bit_range, integer, number, pattern
 from fieldscribe.schema_types import TEXTS
 from fieldscribe.wording.exact import number_text
 
@@ -82,7 +81,7 @@ def _entry(scope: Scope, node: Map, key: str, value: Any, floating: int) -> Entr
     quantity = None if isinstance(value, str) else value.get("quantity")
     if floating:
         exact = number(key, node.key_span(key), scope.report)
-        raw = None if exact is None else pattern_of(exact, floating)
+        raw = pattern(exact, floating, node.key_span(key), scope.report)
         quantity = quantity or (None if exact is None else number_text(exact))
     else:
         raw = integer(key, node.key_span(key), scope.report)
