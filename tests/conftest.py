@@ -9,8 +9,12 @@ from pathlib import Path
 from typing import TypeVar
 
 import pytest
+from hypothesis import settings
 from support.c_device import Folders
 from support.small_drive import Output
+
+settings.register_profile("patient", settings.default, deadline=None)
+settings.load_profile("patient")  # a busy machine is no failure
 
 T = TypeVar("T")
 UNTOLD = 2.0
