@@ -801,15 +801,15 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_part(fieldscribe_vector *v, const char *par
     }
 
 /* What identifies a device, or a variant of it: a raw number or a text. */
-#define FIELDSCRIBE_IDENTITY_RAW(constant) fieldscribe_is_number(v, "raw", (uint64_t)(constant))
-#define FIELDSCRIBE_IDENTITY_TEXT(constant) fieldscribe_is_text(v, "text", constant)
-#define FIELDSCRIBE_IDENTITY(identity, point, is)                                                \
-    if (fieldscribe_asks_of(v, "identity", "name", identity)) {                                  \
+#define FIELDSCRIBE_IDENTIFICATION_RAW(constant) fieldscribe_is_number(v, "raw", (uint64_t)(constant))
+#define FIELDSCRIBE_IDENTIFICATION_TEXT(constant) fieldscribe_is_text(v, "text", constant)
+#define FIELDSCRIBE_IDENTIFICATION(identification, point, is)                                                \
+    if (fieldscribe_asks_of(v, "identification", "name", identification)) {                                  \
         fieldscribe_is_text(v, "of", point);                                                     \
-        FIELDSCRIBE_IDENTITY_##is;                                                               \
+        FIELDSCRIBE_IDENTIFICATION_##is;                                                               \
     }
-#define FIELDSCRIBE_IDENTITY_OF(identity, axis, value)                                           \
-    if (fieldscribe_asks_of(v, "identity", "name", identity)) {                                  \
+#define FIELDSCRIBE_IDENTIFICATION_OF(identification, axis, value)                                           \
+    if (fieldscribe_asks_of(v, "identification", "name", identification)) {                                  \
         fieldscribe_is_text_pair(v, "variant", axis, value);                                     \
         fieldscribe_are_all_pairs(v, "variant");                                                 \
     }
@@ -1318,7 +1318,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
-        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identity")) {
+        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identification")) {
         v->suite->run_code(v);
     } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);

@@ -50,24 +50,26 @@ Clauses = tuple[Clause, ...]
 """Clauses of which one holds."""
 
 OPPOSITES: Mapping[str, str] = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+"""The test that is true where another is not."""
 
 MOST_CLAUSES = 64
+"""The most clauses of a condition that is written out."""
 
-Test = TypeVar("Test")
+Part = TypeVar("Part")
 
 
 class TooManyClausesError(ValueError):
     """Written out, a condition has more than MOST_CLAUSES clauses."""
 
 
-def any_of(parts: Iterable[tuple[Test, ...]]) -> tuple[Test, ...]:
+def any_of(parts: Iterable[tuple[Part, ...]]) -> tuple[Part, ...]:
     """Return the clauses of which one holds if one part is true."""
     return tuple(clause for clauses in parts for clause in clauses)
 
 
-def all_of(parts: Iterable[tuple[tuple[Test, ...], ...]]) -> tuple[tuple[Test, ...], ...]:
+def all_of(parts: Iterable[tuple[tuple[Part, ...], ...]]) -> tuple[tuple[Part, ...], ...]:
     """Return the clauses of which one holds if all parts are true. Raises TooManyClausesError."""
-    clauses: tuple[tuple[Test, ...], ...] = ((),)
+    clauses: tuple[tuple[Part, ...], ...] = ((),)
     for part in parts:
         if len(clauses) * len(part) > MOST_CLAUSES:
             raise TooManyClausesError(f"written out, this is more than {MOST_CLAUSES} cases")
@@ -82,7 +84,8 @@ def opposite(clauses: Clauses) -> Clauses:
 
 def _opposite(comparison: Comparison) -> Clauses:
     if comparison.test == "in":
-        return (tuple(Comparison(comparison.of, "!=", (each,)) for each in comparison.than),)  # type: ignore[arg-type]
+        unequal = (replace(comparison, test="!=", than=(each,)) for each in comparison.than)  # type: ignore[arg-type]  # alike
+        return (tuple(unequal),)
     return ((replace(comparison, test=OPPOSITES[comparison.test]),),)
 
 

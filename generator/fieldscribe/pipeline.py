@@ -156,7 +156,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
-    from fieldscribe.resolve.identities import identities_of
+    from fieldscribe.resolve.identifications import identifications_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
     from fieldscribe.resolve.symbols import symbols_of
@@ -172,7 +172,9 @@ def _checked(files: Files, report: Report) -> Analysis:
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, symbols, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, symbols, bus)
-    identities = identities_of(scope, symbols, points)
-    analysis = Analysis(scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata, identities)
+    identifications = identifications_of(scope, symbols, points)
+    analysis = Analysis(
+        scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata, identifications
+    )
     run_checks(analysis)
     return analysis

@@ -29,7 +29,7 @@ MANY, FEW = 10_000, 1_000
 STREAMED = 50_000
 CODE = "c,python,rust"
 ALL = "c,python,rust,docs,vectors"
-MOST_MEBIBYTES = 130
+MOST_MEBIBYTES = 125
 
 
 @dataclass

@@ -110,13 +110,12 @@ def documented(package: Package, vector: Vector) -> bool:
     return str(one) == told and found == tuple(vector[key] for key in ("space", "address", "words", "index"))
 
 
-def identity(package: Package, vector: Vector) -> bool:
+def identification(package: Package, vector: Vector) -> bool:
     """What a point holds in this device, or in a variant."""
     held = vector["raw"] if vector["text"] is None else vector["text"]
     variant = next(iter(vector["variant"].items()), None) if vector["variant"] else None
-    return any(
-        one.point == vector["of"] and held in one.values and one.variant == variant for one in package.device.IDENTITIES
-    )
+    rows = package.device.IDENTIFICATIONS
+    return any(one.point == vector["of"] and held in one.values and one.variant == variant for one in rows)
 
 
 def block(package: Package, vector: Vector) -> bool:
@@ -150,7 +149,7 @@ CHECKS: Mapping[str, Check] = {
     "alias": alias,
     "left_out": left_out,
     "documented": documented,
-    "identity": identity,
+    "identification": identification,
     "block": block,
     "group": group,
     "code": code,

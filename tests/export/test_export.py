@@ -31,7 +31,7 @@ encoding persistence conditions title note source errata was reserved generated 
 """The keys of format 6: another key, or one less, is another format."""
 TOP_KEYS = (
     *("format", "device", "version", "family", "vendor", "model", "title", "note", "documents", "variants", "limits"),
-    *("groups", "points", "commands", "identities", "messages", "telegrams", "frames", "codes", "errata"),
+    *("groups", "points", "commands", "identifications", "messages", "telegrams", "frames", "codes", "errata"),
 )
 
 

@@ -100,7 +100,7 @@ class AnyDevice(Session):
     def identify(self) -> dict[str, str]:
         """Read what tells this device from others; return the value of each variant axis that what it holds fits.
 
-        An axis of which no value fits is left out. Raises IdentityError for another device.
+        An axis of which no value fits is left out. Raises OtherDeviceError for another device.
         """
         return self._run(self._identify_steps())
 
@@ -178,7 +178,7 @@ class AnyAsyncDevice(Session):
     async def identify(self) -> dict[str, str]:
         """Read what tells this device from others; return the value of each variant axis that what it holds fits.
 
-        An axis of which no value fits is left out. Raises IdentityError for another device.
+        An axis of which no value fits is left out. Raises OtherDeviceError for another device.
         """
         return await self._run(self._identify_steps())
 

@@ -99,7 +99,7 @@ class Documented(Record):
         return f"{self.reason}; `read_at` reaches its words at {where}{index}, `write_at` at {written}"
 
 
-class Identity(Record):
+class Identification(Record):
     """What a point holds in a device, or in one of its variants: one of `values`, raw numbers or texts."""
 
     point: str

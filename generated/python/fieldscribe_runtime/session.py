@@ -21,7 +21,7 @@ from .errors import (
     EchoError,
     ExceptionReplyError,
     FieldscribeError,
-    IdentityError,
+    OtherDeviceError,
     RequestError,
 )
 from .points import Decoding, Encoding, Point
@@ -32,7 +32,7 @@ from .table import NamedPoints, check_variants
 from .traffic import Traffic
 
 if TYPE_CHECKING:
-    from .facts import Identity, Place
+    from .facts import Identification, Place
     from .rules import Raws
 
 T = TypeVar("T")
@@ -319,15 +319,15 @@ class Session(NamedPoints, ABC):
         """Read what tells the device from others, then what tells its variants, until one value of each axis fits."""
         held: dict[str, int | str] = {}
         variants: dict[str, str] = {}
-        for variant, rows in groupby(self.IDENTITIES, lambda row: row.variant):
+        for variant, rows in groupby(self.IDENTIFICATIONS, lambda row: row.variant):
             misfit = None if variant and variant[0] in variants else (yield from self._misfit_steps(rows, held))
             if variant and misfit is None:
                 variants.setdefault(*variant)
             elif not variant and misfit is not None:
-                raise IdentityError(misfit)
+                raise OtherDeviceError(misfit)
         return variants
 
-    def _misfit_steps(self, rows: Iterable[Identity], held: dict[str, int | str]) -> Steps[str | None]:
+    def _misfit_steps(self, rows: Iterable[Identification], held: dict[str, int | str]) -> Steps[str | None]:
         """Return what a point holds in place of what is wanted; None if all fit."""
         for row in rows:
             name, values = row.point, row.values

@@ -48,7 +48,7 @@ def schema_text() -> str:
         "flag": ("A bit, or several, inside a word.", FLAG),
         "flag_value": ("One number of a flag with a name.", FLAG_VALUE),
         "digits": ("The decimal digits of a word.", DIGITS),
-        "identity": ("What a point holds in the device or in one of its variants.", devices.IDENTITY),
+        "identification": ("What a point holds in the device or in one of its variants.", devices.IDENTIFICATION),
         "command": ("A named write of a constant.", devices.COMMAND),
         "message": ("A layout of eight bytes with an identifier.", devices.MESSAGE),
         "telegram": ("A layout of words that is sent again and again.", devices.TELEGRAM),

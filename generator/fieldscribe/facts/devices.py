@@ -74,10 +74,10 @@ def _errata(device: Exported) -> Iterator[Exported]:
         yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
 
 
-def _identities(device: Exported) -> Iterator[Exported]:
+def _identifications(device: Exported) -> Iterator[Exported]:
     """What identifies the device, by variant and point."""
-    for identity in device["identities"]:
-        yield {**identity, "name": f"{identity['variant'] or device['device']}: {identity['point']}"}
+    for identification in device["identifications"]:
+        yield {**identification, "name": f"{identification['variant'] or device['device']}: {identification['point']}"}
 
 
 def _open(erratum: Erratum, _: object) -> Mapping[str, str]:
@@ -128,13 +128,13 @@ COMMAND: FactTable = (
     Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, BEHAVIOUR, refers="point"),
     SOURCE,
 )
-IDENTITY: FactTable = (
+IDENTIFICATION: FactTable = (
     Fact(
         "variant",
         "The variant that it tells: `axis=value`; null: the device.",
         TEXT_OR_NULL,
         BEHAVIOUR,
-        value=lambda identity, _: None if identity.variant is None else str(identity.variant),
+        value=lambda identification, _: None if identification.variant is None else str(identification.variant),
     ),
     Fact("point", "The point to read.", STRING, BEHAVIOUR, refers="point"),
     Fact("raws", "The raw numbers of which it holds one.", list_of(INTEGER), BEHAVIOUR),
@@ -374,9 +374,9 @@ def device_table(own_family: str) -> FactTable:
             "commands", "Named constant writes.", _parts("command", COMMAND, "space", "address", "function", "value")
         ),
         _list(
-            "identities",
+            "identifications",
             "What tells the device and its variants, in the order of reading.",
-            _parts("identity", IDENTITY, listed=_identities, change=BEHAVIOUR),
+            _parts("identification", IDENTIFICATION, listed=_identifications, change=BEHAVIOUR),
         ),
         _list("messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "direction", "layout")),
         _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),

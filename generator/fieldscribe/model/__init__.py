@@ -12,7 +12,7 @@ from fieldscribe.model.device import (
     FamilyFacts,
     Frame,
     Group,
-    Identity,
+    Identification,
     Message,
     Named,
     Role,

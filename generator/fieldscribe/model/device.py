@@ -144,7 +144,7 @@ class Command:
 
 
 @dataclass(frozen=True, slots=True)
-class Identity:
+class Identification:
     """What a point holds in this device, or in one variant of it: one of `raws`, or one of `texts` if it is a text."""
 
     variant: Variant | None
@@ -251,7 +251,7 @@ class Device:
     digest: str
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
-    identities: tuple[Identity, ...] = ()
+    identifications: tuple[Identification, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
 
     @property

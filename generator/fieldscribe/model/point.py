@@ -83,8 +83,8 @@ class Terms:
 
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
     `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
-    place of a type: empty if it leaves the type open, None if there is a type. `view_of` names
-    a point that has the same words. `certainty` says where the facts come from, None if it is the manual.
+    place of a type: empty if it leaves the type open, None if there is a type. `view_of` names a point that has the
+    same words. `certainty` says where the facts come from, None if it is the manual.
     """
 
     group: str

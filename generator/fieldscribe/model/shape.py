@@ -13,16 +13,15 @@ from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
 class Shape:
     """What the raw numbers of points are: their type, their meaning, and whether they can be read and written.
 
-    `type` is the one that code holds the raw number in. `width` is the number of its bits: all of the type, or those of
-    a bit group or of a narrower wire type. `scale` is None if the
-    raw number is the value. `decimals` k fixes the unit of the integer path, 10^-k units; it is None if the counts do
-    not fit 64 bits, and then the point has no integer path. `encodes_values` is False if raw numbers or the products of
-    the scale exceed 53 bits: then values are only decoded. `most_raw` is the greatest raw number that a run-time scale
-    can compute with, if the type holds larger ones: those are an overflow. `specials` are no quantities; `specials_of`
-    names the type, group or format of those that the point shares with others. `display` is the number of decimals that
-    people see, None if the description gives none; no computation depends on it.
-
-    `patterns` is True if an enum names floating-point numbers: raw numbers are their patterns.
+    `type` is the one that code holds the raw number in. `width` is the number of its bits: all of the type, or
+    those of a bit group or of a narrower wire type. `scale` is None if the raw number is the value. `decimals` k
+    fixes the unit of the integer path, 10^-k units; it is None if the counts do not fit 64 bits, and then the point
+    has no integer path. `encodes_values` is False if raw numbers or the products of the scale exceed 53 bits: then
+    values are only decoded. `most_raw` is the greatest raw number that a run-time scale can compute with, if the
+    type holds larger ones: those are an overflow. `specials` are no quantities; `specials_of` names the type, group
+    or format of those that the point shares with others. `display` is the number of decimals that people see, None
+    if the description gives none; no computation depends on it. `patterns` is True if an enum names floating-point
+    numbers: raw numbers are their patterns.
 
     Equal shapes are one object, so that the facts derived below are computed once.
     """

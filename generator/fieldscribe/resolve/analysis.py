@@ -13,7 +13,7 @@ from typing import Any
 from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Identity, Message, Point
+from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Identification, Message, Point
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, same
@@ -41,7 +41,7 @@ class Analysis:
     commands: tuple[Command, ...]
     located_frames: list[LocatedFrame]
     errata: list[LocatedErratum]
-    identities: tuple[Identity, ...]
+    identifications: tuple[Identification, ...]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)
 
@@ -135,7 +135,7 @@ class Analysis:
             errata=tuple(located.erratum for located in self.errata),
             digest="",
             messages=self.messages,
-            identities=self.identities,
+            identifications=self.identifications,
             telegrams=tuple(telegram for telegram, _ in self.places.telegrams.values()),
         )
 

@@ -67,19 +67,19 @@ def check_identification(package: Package) -> None:
     runtime = package.runtime
     text = runtime.ReadOnly(runtime.Text(4), at=runtime.holding(1, 2))
     maker, kind, size = (runtime.ReadOnly(runtime.Integer(runtime.U16), at=runtime.holding(at)) for at in (3, 4, 5))
-    identities = (
-        runtime.Identity("maker", (7,)),
-        runtime.Identity("kind", (1, 2)),
-        runtime.Identity("text", ("AB",), ("model", "a")),
-        runtime.Identity("text", ("AC", "AD"), ("model", "b")),
-        runtime.Identity("kind", (2,), ("model", "b")),
-        runtime.Identity("size", (1,), ("size", "x")),
-        runtime.Identity("size", (2,), ("size", "y")),
+    identifications = (
+        runtime.Identification("maker", (7,)),
+        runtime.Identification("kind", (1, 2)),
+        runtime.Identification("text", ("AB",), ("model", "a")),
+        runtime.Identification("text", ("AC", "AD"), ("model", "b")),
+        runtime.Identification("kind", (2,), ("model", "b")),
+        runtime.Identification("size", (1,), ("size", "x")),
+        runtime.Identification("size", (2,), ("size", "y")),
     )
     points = {
         "PROFILE": runtime.Profile(functions={3: 8}),
         "VARIANTS": {"model": ("a", "b", "c"), "size": ("x", "y")},
-        "IDENTITIES": identities,
+        "IDENTIFICATIONS": identifications,
         "text": text,
         "maker": maker,
         "kind": kind,
@@ -98,7 +98,7 @@ def check_identification(package: Package) -> None:
         assert now(held("AD  ", 2, 2).identify()) == {"model": "b", "size": "y"}
         assert now(held("AD  ", 1, 3).identify()) == {}
         other = refusal(lambda device: now(device.identify()), held("AB  ", 1, 1, maker=8))
-        assert (type(other), str(other)) == (runtime.IdentityError, "maker is 8, not 7")
+        assert (type(other), str(other)) == (runtime.OtherDeviceError, "maker is 8, not 7")
         other = refusal(lambda device: now(device.identify()), held("AB  ", 3, 1))
         assert str(other) == "kind is 3, not 1 or 2"
         refused = line({})

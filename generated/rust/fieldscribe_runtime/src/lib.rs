@@ -26,7 +26,7 @@ mod error;
 pub mod flags;
 pub mod form;
 mod given;
-mod identity;
+mod identification;
 mod info;
 mod macros;
 pub mod modbus;
@@ -51,7 +51,7 @@ pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;
 pub use given::Given;
-pub use identity::{Held, Identity};
+pub use identification::{Held, Identification};
 pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,

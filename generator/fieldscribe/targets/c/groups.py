@@ -113,6 +113,9 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
             yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})"
         else:
             yield f"MEMBER_RAW({item}, {kind})"
+        for old in point.old_items if point.text is None else ():
+            end = "count" if _is_plainly_counted(point, view) else "raw"
+            yield f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})'
 
 
 def _raw(point: Point, name: str, word: str) -> str:

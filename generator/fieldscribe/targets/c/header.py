@@ -41,7 +41,7 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "numbers": Version.of(device.version),
         "digest": device.digest[:16],
         "line": line_defines(device, scope),
-        "identities": list(identity_defines(device, scope)),
+        "identifications": list(identification_defines(device, scope)),
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
         "statuses": STATUSES,
@@ -56,7 +56,7 @@ def line_defines(device: Device, scope: HeaderScope) -> list[tuple[str, str, str
     return [(name, f"{scope.upper}_{upper(name)}", f"{number}U") for name, number in numbers.items()]
 
 
-class IdentityDefine(NamedTuple):
+class IdentificationDefine(NamedTuple):
     """A macro that says what a point holds: its name in vectors, and the point and the variant that it is about."""
 
     name: str
@@ -66,19 +66,24 @@ class IdentityDefine(NamedTuple):
     variant: Variant | None
 
     @property
-    def is_text(self) -> bool:
-        """Return True if the point holds a text."""
-        return self.literal.startswith('"')
+    def check(self) -> str:
+        """Return the macro of the conformance program that holds the literal: of a text, or of a raw number."""
+        kind = "TEXT" if self.literal.startswith('"') else "RAW"
+        return f"{kind}({self.macro})"
 
 
-def identity_defines(device: Device, scope: HeaderScope) -> Iterator[IdentityDefine]:
+def identification_defines(device: Device, scope: HeaderScope) -> Iterator[IdentificationDefine]:
     """Yield what identifies the device and its variants."""
-    for identity in device.identities:
-        variant = "" if identity.variant is None else f"{identity.variant.axis}_{identity.variant.value}_"
-        literals = [*map(signed, identity.raws), *map(c_string, identity.texts)]
+    for identification in device.identifications:
+        variant = (
+            "" if identification.variant is None else f"{identification.variant.axis}_{identification.variant.value}_"
+        )
+        literals = [*map(signed, identification.raws), *map(c_string, identification.texts)]
         for number, literal in enumerate(literals, 1):
-            name = f"identify_{variant}{identity.point}" + (f"_{number}" if len(literals) > 1 else "")
-            yield IdentityDefine(name, f"{scope.upper}_{upper(name)}", literal, identity.point, identity.variant)
+            name = f"identify_{variant}{identification.point}" + (f"_{number}" if len(literals) > 1 else "")
+            yield IdentificationDefine(
+                name, f"{scope.upper}_{upper(name)}", literal, identification.point, identification.variant
+            )
 
 
 def telegrams_of(device: Device, scope: HeaderScope) -> list[str]:

@@ -11,7 +11,7 @@ from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import (
     STATUSES,
     aliases_of,
-    identity_defines,
+    identification_defines,
     line_defines,
     remark_defines,
     telegrams_of,
@@ -58,7 +58,7 @@ def _identifiers(device: Device) -> Iterator[Named]:
     yield _OWN, [f"{scope.prefix}_{name}" for name in _TYPES]
     yield _OWN, [f"{scope.upper}_{name}" for name in (*STATUSES, *_MACROS)]
     yield Owner("target", "times and settings of the line"), [macro for _, macro, _ in line_defines(device, scope)]
-    yield Owner("target", "what identifies the device"), [each.macro for each in identity_defines(device, scope)]
+    yield Owner("target", "what identifies the device"), [each.macro for each in identification_defines(device, scope)]
     for telegram, name in zip(device.telegrams, telegrams_of(device, scope), strict=True):
         yield Owner("telegram", telegram.name), (name, f"{name}_WORDS")
     yield from _of_points(device, points, scope)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.model import Command, Device, Document, Erratum, Frame, Identity, Named, Point
+from fieldscribe.model import Command, Device, Document, Erratum, Frame, Identification, Named, Point
 from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import (
@@ -62,7 +62,7 @@ class PageView:
     note: str
     facts: str
     documents: str
-    identities: str
+    identifications: str
     numberings: tuple[str, ...]
     shares_words: bool
     has_telegrams: bool
@@ -92,7 +92,7 @@ def page_of(scope: DocsScope) -> PageView:
         note=paragraph(wording.title_text(device.note)) if device.note else "",
         facts=by_rows(("Fact", "Value"), _facts(device)),
         documents=_documents(device),
-        identities=_identities(scope),
+        identifications=_identifications(scope),
         numberings=tuple(
             f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
             + (f" {_COMPUTED}" if key in computed else "")
@@ -135,15 +135,16 @@ def _documents(device: Device) -> str:
     return table(device.documents, columns)
 
 
-def _identities(scope: DocsScope) -> str:
-    columns: Columns[Identity] = {
-        "Of": lambda identity: cell(str(identity.variant or "the device")),
-        "Point": lambda identity: narrow_link("point", identity.point),
-        "Holds": lambda identity: _lines(
-            *(_meaning_of(scope.by_name[identity.point], raw) for raw in identity.raws), *map(code, identity.texts)
+def _identifications(scope: DocsScope) -> str:
+    columns: Columns[Identification] = {
+        "Of": lambda identification: cell(str(identification.variant or "the device")),
+        "Point": lambda identification: narrow_link("point", identification.point),
+        "Holds": lambda identification: _lines(
+            *(_meaning_of(scope.by_name[identification.point], raw) for raw in identification.raws),
+            *map(code, identification.texts),
         ),
     }
-    return table(scope.device.identities, columns, always=columns)
+    return table(scope.device.identifications, columns, always=columns)
 
 
 def _frames(scope: DocsScope) -> str:

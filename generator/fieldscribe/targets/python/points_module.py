@@ -51,10 +51,10 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     readable = dict.fromkeys(
         [python_string(point.group) for point in device.points if point.generated and point.readable]
     )
-    profile, blocks, identities = (
+    profile, blocks, identifications = (
         family.profile(device, scope),
         family.blocks(device, scope),
-        _identities(device, scope),
+        _identifications(device, scope),
     )
     return {
         "imports": _imports(scope.used - {"enums"}, family),
@@ -64,7 +64,9 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         "group_names": "" if not readable else laid_out(assigned("Group", Group("Literal[", tuple(readable), "]")), 0),
         "blocks": "" if blocks is None else laid_out(blocks, 4),
         "variants": laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
-        "identities": laid_out(assigned("IDENTITIES: ClassVar", identities), 4) if device.identities else "",
+        "identifications": laid_out(assigned("IDENTIFICATIONS: ClassVar", identifications), 4)
+        if device.identifications
+        else "",
         "documented": laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         "groups": [(titles.get(group, comment(group)), "".join(texts)) for group, texts in groups.items() if texts],
         "commands": commands,
@@ -101,14 +103,14 @@ def _open_points(device: Device) -> Iterable[str]:
         )
 
 
-def _identities(device: Device, scope: PackageScope) -> Group:
+def _identifications(device: Device, scope: PackageScope) -> Group:
     """Return what identifies the device and its variants."""
     entries = []
-    for identity in device.identities:
-        values = Group("(", (*map(str, identity.raws), *map(python_string, identity.texts)))
-        variant = () if identity.variant is None else (identity.variant.axis, identity.variant.value)
+    for identification in device.identifications:
+        values = Group("(", (*map(str, identification.raws), *map(python_string, identification.texts)))
+        variant = () if identification.variant is None else (identification.variant.axis, identification.variant.value)
         axis = (Group("(", tuple(map(python_string, variant))),) if variant else ()
-        entries.append(call(scope.runtime("Identity"), (python_string(identity.point), values, *axis)))
+        entries.append(call(scope.runtime("Identification"), (python_string(identification.point), values, *axis)))
     return Group("(", tuple(entries))
 
 

@@ -105,7 +105,7 @@ def collect(device: Device) -> Lines:
         exchange.wire.opens(lines)
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
-    _identities(lines, device)
+    _identifications(lines, device)
     lines.add_limits(first_unit=device.bus.units[0], last_unit=device.bus.units[1])
     part.limits(lines, device.bus)
     sizes = [("line", name, number) for name, number in device.bus.line_numbers.items()]
@@ -131,15 +131,21 @@ def collect(device: Device) -> Lines:
     return lines
 
 
-def _identities(lines: Lines, device: Device) -> None:
+def _identifications(lines: Lines, device: Device) -> None:
     """Add what identifies the device and its variants, each alternative alone."""
-    for identity in device.identities:
-        variant = identity.variant
-        name = "_".join(("identify", *(() if variant is None else (variant.axis, variant.value)), identity.point))
+    for identification in device.identifications:
+        variant = identification.variant
+        name = "_".join(("identify", *(() if variant is None else (variant.axis, variant.value)), identification.point))
         axis = None if variant is None else {variant.axis: variant.value}
-        held = [*((raw, None) for raw in identity.raws), *((None, line(words)) for words in identity.texts)]
+        held = [*((raw, None) for raw in identification.raws), *((None, line(words)) for words in identification.texts)]
         for number, alternative in enumerate(held, 1):
-            lines.add("identity", f"{name}_{number}" if len(held) > 1 else name, identity.point, *alternative, axis)
+            lines.add(
+                "identification",
+                f"{name}_{number}" if len(held) > 1 else name,
+                identification.point,
+                *alternative,
+                axis,
+            )
 
 
 _WITHOUT_LIMITS = ("float", "text", "digits")

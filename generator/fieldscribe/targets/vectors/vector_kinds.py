@@ -58,7 +58,7 @@ KINDS = {
     "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
     "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
     # what identifies the device and its variants, each alternative alone
-    "identity": "name:word of:word raw:int? text:text? variant:pairs?",
+    "identification": "name:word of:word raw:int? text:text? variant:pairs?",
     # old names of a point
     "alias": "only:c.python old:word new:word",
     # the values of an axis of variants, and what is only documented

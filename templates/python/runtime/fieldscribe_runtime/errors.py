@@ -121,7 +121,7 @@ class AbsentError(AccessError, AttributeError):
     """
 
 
-class IdentityError(FieldscribeError):
+class OtherDeviceError(FieldscribeError):
     """What answers is another device: a point holds something else than the description says."""
 
     status = "other_device"

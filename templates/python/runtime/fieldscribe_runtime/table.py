@@ -22,7 +22,7 @@ from .points import Decoding, Point
 from .special import Special
 
 if TYPE_CHECKING:
-    from .facts import Documented, Identity
+    from .facts import Documented, Identification
 
 
 def check_unit(unit: int, units: tuple[int, int]) -> None:
@@ -64,7 +64,7 @@ class PointTable:
     BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
     """Planned reads by group, where the family plans."""
     VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-    IDENTITIES: ClassVar[tuple[Identity, ...]] = ()
+    IDENTIFICATIONS: ClassVar[tuple[Identification, ...]] = ()
     DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
     """Points that are no attributes, by name, with the reason."""
 

@@ -30,7 +30,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
-    Encodable, Error, Flags, Held, Identity, Point, Points, Raw, Readable, Reading, Refused, Space,
+    Encodable, Error, Flags, Held, Identification, Point, Points, Raw, Readable, Reading, Refused, Space,
     Text, Whole, Writable,
 };
 
@@ -270,7 +270,7 @@ impl<'a> Vector<'a> {
             "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
             "can_taken" | "can_carrier" => return self.text("telegram"),
-            "documented" | "identity" => return self.text("name"),
+            "documented" | "identification" => return self.text("name"),
             _ => return self.text("point"),
         };
         [self.text("point"), part].join(" ")
@@ -689,9 +689,9 @@ pub fn documented(vector: &Vector, found: &Documented) -> Outcome {
 }
 
 /// What identifies the device or a variant, an alternative at a time.
-pub fn identity(vector: &Vector, rows: &[Identity]) -> Option<Outcome> {
+pub fn identification(vector: &Vector, rows: &[Identification]) -> Option<Outcome> {
     let axis = vector.pairs("variant");
-    let is_row = |row: &&Identity| {
+    let is_row = |row: &&Identification| {
         let (axis_of_row, value) = row.variant.unzip();
         let held = match row.holds {
             Held::Raw(raw) => vector.number("raw") == Some(raw),

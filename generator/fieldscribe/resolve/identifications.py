@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.model import Identity, Point, Variant
+from fieldscribe.model import Identification, Point, Variant
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer
 
 
-def identities_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, Point]) -> tuple[Identity, ...]:
+def identifications_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, Point]) -> tuple[Identification, ...]:
     """Return what identifies the device, then its variants, in the author's order; report what cannot be read."""
     stated: list[tuple[Variant | None, Map | None]] = [(None, scope.header.get("identify"))]
     stated += [
@@ -20,16 +20,16 @@ def identities_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, Point
         for value, facts in entry["values"].items()
     ]
     return tuple(
-        identity
+        identification
         for variant, node in stated
         if node is not None
-        for identity in _identities(scope, symbols, points, variant, node)
+        for identification in _identifications(scope, symbols, points, variant, node)
     )
 
 
-def _identities(
+def _identifications(
     scope: Scope, symbols: SymbolTable, points: Mapping[str, Point], variant: Variant | None, node: Map
-) -> Iterator[Identity]:
+) -> Iterator[Identification]:
     for word, held in node.items():
         facts = symbols.find(word)
         if facts is None:
@@ -49,7 +49,7 @@ def _identities(
             if any(len(str(item)) > longest for _, item in items):
                 hint = f"a text of it has at most {longest} characters"
                 scope.report.error("identify", f"`{point.name}` cannot hold this text", node.span(word), hint)
-            yield Identity(variant, point.name, (), tuple(str(item) for _, item in items))
+            yield Identification(variant, point.name, (), tuple(str(item) for _, item in items))
             continue
         names = {} if point.enum is None else {entry.name: entry.raw for entry in point.enum.entries}
         raws = [
@@ -62,4 +62,4 @@ def _identities(
         if outside is not None:
             message, hint = f"`{point.name}` cannot hold {outside}", f"write {point.held[0]}..{point.held[1]}"
             scope.report.error("identify", message, node.span(word), hint)
-        yield Identity(variant, point.name, tuple(raw for raw in raws if raw is not None), ())
+        yield Identification(variant, point.name, tuple(raw for raw in raws if raw is not None), ())

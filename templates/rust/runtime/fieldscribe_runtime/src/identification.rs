@@ -3,7 +3,7 @@
 
 /// What a point holds in a device, or in one of its variants; several rows of one point and variant are alternatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Identity {
+pub struct Identification {
     /// The name of the point.
     pub point: &'static str,
     /// The axis and the value of the variant that it tells; `None` for the device.
@@ -21,14 +21,14 @@ pub enum Held {
     Text(&'static str),
 }
 
-/// The rows of [`Identity`] in the order of reading.
+/// The rows of [`Identification`] in the order of reading.
 #[macro_export]
 #[doc(hidden)]
-macro_rules! identities {
+macro_rules! identifications {
     ($($point:literal $(of $axis:literal $value:literal)? holds $kind:ident $held:literal;)*) => {
-        &[$($crate::Identity {
+        &[$($crate::Identification {
             point: $point,
-            variant: $crate::identities!(@ $($axis $value)?),
+            variant: $crate::identifications!(@ $($axis $value)?),
             holds: $crate::Held::$kind($held),
         }),*]
     };
