@@ -30,8 +30,8 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
-    Encodable, Error, Flags, Held, Identification, Point, Points, Raw, Readable, Reading, Refused, Space,
-    Text, Whole, Writable,
+    Encodable, Error, Flags, Held, Identification, Point, Points, Raw, Readable, Reading, Refused,
+    Space, Text, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
