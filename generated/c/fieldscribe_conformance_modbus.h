@@ -32,15 +32,6 @@ static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_
     return (const fieldscribe_tables *)v->suite->family;
 }
 
-static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
-{
-    static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
-        "overflow", "special", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value", "bad_framing",
-        "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
-        "wrong_function", "exception", "bad_byte_count", "echo_mismatch", "noise"};
-    return names[(size_t)status];
-}
-
 static inline fieldscribe_modbus_framing fieldscribe_framing(fieldscribe_vector *v)
 {
     return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
@@ -145,7 +136,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
     numbered.values = NULL; /* an answer is held against the request alone */
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, reply);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
     fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
     return status;
 }
@@ -188,7 +179,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_called(
 {
     const fieldscribe_modbus_status exchanged =
         converted == 0 ? (fieldscribe_modbus_status)status : FIELDSCRIBE_MODBUS_OK;
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(exchanged));
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(exchanged));
     fieldscribe_agree(v, converted == 0 || converted == status);
     fieldscribe_agree(v, fieldscribe_done == fieldscribe_steps(v) && unit->transaction == fieldscribe_done);
     fieldscribe_agree(v, (unit->exception != 0U) == (exchanged == FIELDSCRIBE_MODBUS_EXCEPTION));
@@ -419,7 +410,7 @@ static void fieldscribe_run_build(fieldscribe_vector *v)
     fieldscribe_fill(built, sizeof built);
     status =
         fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &request, built, sizeof built, &length);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
     fieldscribe_agree(v, length <= sizeof built);
     if (length <= sizeof built) {
         fieldscribe_is_bytes(v, "bytes", built, length);
@@ -533,7 +524,7 @@ static void fieldscribe_sends_nothing(fieldscribe_vector *v)
     memset(&stream, 0, sizeof stream);
     if (!fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {
         const fieldscribe_modbus_status status = fieldscribe_asks_line(v, framing, &request, &stream, &reply);
-        fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+        fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
         fieldscribe_agree(v, stream.sent_count == 0U && reply.count == 0U && reply.exception == 0U);
     }
 }
@@ -591,7 +582,7 @@ static void fieldscribe_run_reply(fieldscribe_vector *v)
     const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
     fieldscribe_fill(read, sizeof read);
     status = fieldscribe_modbus_parse(framing, &request, bytes, length, &reply);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
     fieldscribe_agree(v, reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST);
     if (reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST) {
         fieldscribe_is_words(v, "values_out", read, reply.count);

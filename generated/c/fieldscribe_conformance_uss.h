@@ -19,15 +19,6 @@ static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_
     return (const fieldscribe_tables *)v->suite->family;
 }
 
-static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
-{
-    static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
-        "overflow", "special", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index", "bad_value",
-        "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter", "no_answer",
-        "refused", "no_rights", "wrong_response", "noise"};
-    return names[(size_t)status];
-}
-
 static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
 {
     fieldscribe_uss_link link;
@@ -82,7 +73,7 @@ FIELDSCRIBE_ONCE fieldscribe_uss_status fieldscribe_ask(fieldscribe_vector *v, s
     fieldscribe_sends(v, sent, bytes, length);
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_uss_parse(fieldscribe_tables_of(v)->profile, &link, request, bytes, length, reply);
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_name(status));
     return status;
 }
 
@@ -129,7 +120,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_called(
     fieldscribe_vector *v, const fieldscribe_uss_unit *unit, int status, int converted)
 {
     const fieldscribe_uss_status exchanged = converted == 0 ? (fieldscribe_uss_status)status : FIELDSCRIBE_USS_OK;
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(exchanged));
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_name(exchanged));
     fieldscribe_agree(v, converted == 0 || converted == status);
     fieldscribe_agree(v, fieldscribe_done == fieldscribe_steps(v));
     fieldscribe_agree(v, unit->error != 0x7FU && (unit->error == 0U || exchanged == FIELDSCRIBE_USS_REFUSED));
@@ -275,7 +266,7 @@ static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
 static void fieldscribe_is_telegram(
     fieldscribe_vector *v, fieldscribe_uss_status status, const uint8_t *built, size_t size, size_t length)
 {
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_name(status));
     fieldscribe_agree(v, length <= size);
     if (length <= size) {
         fieldscribe_is_bytes(v, "bytes", built, length);
@@ -439,7 +430,7 @@ static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
     fieldscribe_uss_status status;
     fieldscribe_fill(words, sizeof words);
     status = fieldscribe_uss_parse(profile, &link, &request, bytes, length, &reply);
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_name(status));
     fieldscribe_is_count(v, "response", reply.response);
     fieldscribe_is_count(v, "width", reply.width);
     fieldscribe_is_count(v, "value", reply.value);

@@ -344,3 +344,8 @@ void prove_received_text(uint16_t count)
         }
     }
 }
+
+void prove_status_name(unsigned status)
+{
+    (void)fieldscribe_can_status_name((fieldscribe_can_status)status);
+}

@@ -779,3 +779,8 @@ void prove_write_row(int64_t wanted)
     writing.count = layout.words;
     (void)fieldscribe_modbus_write_row(&unit, &row, wanted);
 }
+
+void prove_status_name(unsigned status)
+{
+    (void)fieldscribe_modbus_status_name((fieldscribe_modbus_status)status);
+}

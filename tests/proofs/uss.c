@@ -510,3 +510,8 @@ void prove_converted(fieldscribe_status status)
 {
     (void)fieldscribe_uss_converted(status);
 }
+
+void prove_status_name(unsigned status)
+{
+    (void)fieldscribe_uss_status_name((fieldscribe_uss_status)status);
+}

@@ -62,6 +62,9 @@ typedef enum fieldscribe_can_status {
     FIELDSCRIBE_CAN_BUFFER_TOO_SMALL /* the caller's words do not hold the result */
 } fieldscribe_can_status;
 
+/* The name of a status in small letters, for a log: "wrong_id"; "unknown" for another number. */
+const char *fieldscribe_can_status_name(fieldscribe_can_status status);
+
 /* A data frame; of `length` bytes (which a stranger may make larger than 8) the first eight are in `data`. */
 typedef struct fieldscribe_can_frame {
     uint32_t id;
@@ -321,6 +324,14 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(const f
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_CAN_IMPLEMENTED)
 #define FIELDSCRIBE_CAN_IMPLEMENTED
+
+const char *fieldscribe_can_status_name(fieldscribe_can_status status)
+{
+    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
+        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn",
+        "buffer_too_small"};
+    return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
+}
 
 uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit)
 {

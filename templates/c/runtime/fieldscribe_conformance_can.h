@@ -32,14 +32,6 @@ static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_
     return (const fieldscribe_tables *)v->suite->family;
 }
 
-FIELDSCRIBE_ONCE const char *fieldscribe_can_status_text(fieldscribe_can_status status)
-{
-    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
-        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn",
-        "buffer_too_small"};
-    return names[(size_t)status];
-}
-
 /* Frames are their identifier in four bytes and their data. */
 static inline fieldscribe_can_frame fieldscribe_frame_of(const char *field)
 {
@@ -63,7 +55,7 @@ static inline void fieldscribe_sends_frame(fieldscribe_vector *v, const char *se
 static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_status status)
 {
     const bool answers = status == FIELDSCRIBE_CAN_OK || status == FIELDSCRIBE_CAN_ECHO_MISMATCH;
-    fieldscribe_is_text(v, "status", answers ? fieldscribe_can_status_text(status) : "timeout");
+    fieldscribe_is_text(v, "status", answers ? fieldscribe_can_status_name(status) : "timeout");
 }
 
 /* The answer of a unit that was not asked changes nothing; and where nobody answers, no frame is an answer. */
@@ -208,7 +200,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
             words, (frame).layout->words - 1U) == FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);             \
         status = fieldscribe_can_received(                                                       \
             (const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words, (frame).layout->words); \
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
             fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
@@ -230,7 +222,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
         fieldscribe_untouched(v, words, sizeof words);                                           \
         status = fieldscribe_can_received_text(                                                  \
             (const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words, macro##_WORDS); \
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
         fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
     }
@@ -283,7 +275,7 @@ static void fieldscribe_run_can_build(fieldscribe_vector *v)
     fieldscribe_fill(&frame, sizeof frame);
     if (message != NULL) {
         status = fieldscribe_can_build(fieldscribe_tables_of(v)->profile, message, &content, &frame);
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));
         if (status == FIELDSCRIBE_CAN_OK) {
             fieldscribe_is_number(v, "id", frame.id);
             fieldscribe_agree(v, frame.length == FIELDSCRIBE_CAN_BYTES);
@@ -305,7 +297,7 @@ static void fieldscribe_run_can_parse(fieldscribe_vector *v)
     if (message != NULL) {
         content.unit = fieldscribe_at_most(v, "unit", UINT32_MAX);
         status = fieldscribe_can_parse(message, &frame, &content);
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));
         fieldscribe_is_count(v, "address", content.address);
         fieldscribe_is_count(v, "raw", content.raw);
     }

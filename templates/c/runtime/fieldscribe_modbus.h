@@ -55,6 +55,9 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_NOISE           /* of asking: bytes came, and no answer among them, or too many before it */
 } fieldscribe_modbus_status;
 
+/* The name of a status in small letters, for a log: "bad_crc"; "unknown" for another number. */
+const char *fieldscribe_modbus_status_name(fieldscribe_modbus_status status);
+
 typedef enum fieldscribe_modbus_framing {
     FIELDSCRIBE_MODBUS_RTU,
     FIELDSCRIBE_MODBUS_TCP
@@ -296,6 +299,8 @@ typedef struct fieldscribe_modbus_unit {
     uint16_t transaction; /* of the next request; over TCP alone */
     bool late;            /* of the next request: the answer to the last one may still come */
 } fieldscribe_modbus_unit;
+/* A unit that has not been asked yet. */
+#define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, 0U, false}
 
 /* One word (or coil) of a unit. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
@@ -408,6 +413,15 @@ FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_MODBUS_IMPLEMENTED)
 #define FIELDSCRIBE_MODBUS_IMPLEMENTED
+
+const char *fieldscribe_modbus_status_name(fieldscribe_modbus_status status)
+{
+    static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
+        "overflow", "special", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value", "bad_framing",
+        "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
+        "wrong_function", "exception", "bad_byte_count", "echo_mismatch", "noise"};
+    return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
+}
 
 uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {

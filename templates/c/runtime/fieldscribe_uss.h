@@ -99,6 +99,9 @@ typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_NOISE            /* of asking: bytes came, and no answer among them, or too many before it */
 } fieldscribe_uss_status;
 
+/* The name of a status in small letters, for a log: "no_answer"; "unknown" for another number. */
+const char *fieldscribe_uss_status_name(fieldscribe_uss_status status);
+
 /* How master and device are set: words of the parameter part (0, 3, 4 or 127), and of the process data. */
 typedef struct fieldscribe_uss_link {
     uint8_t pkw;
@@ -354,6 +357,8 @@ typedef struct fieldscribe_uss_unit {
     uint8_t number;
     uint16_t error; /* the device's error if the last call returned REFUSED, else 0 */
 } fieldscribe_uss_unit;
+/* A unit that has not been asked yet. */
+#define FIELDSCRIBE_USS_UNIT(line, ask, sent, heard, number) {(line), (ask), (sent), (heard), (number), 0U}
 
 /* Exchanges process data alone. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_exchange_words(fieldscribe_uss_unit *unit);
@@ -463,6 +468,15 @@ FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t l
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_USS_IMPLEMENTED)
 #define FIELDSCRIBE_USS_IMPLEMENTED
+
+const char *fieldscribe_uss_status_name(fieldscribe_uss_status status)
+{
+    static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
+        "overflow", "special", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index", "bad_value",
+        "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter", "no_answer",
+        "refused", "no_rights", "wrong_response", "noise"};
+    return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
+}
 
 fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit)
 {

@@ -76,7 +76,7 @@ int ask(uint8_t unit, monitor *values)
         } \
     }
 
-static hitachi_l200_device drive = {{&line, &fieldscribe_modbus_ask_rtu, 5U, 0U, 0U, false}};
+static hitachi_l200_device drive = {FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_modbus_ask_rtu, 5U)};
 static volatile fieldscribe_modbus_status sink;
 void points(void);
 

@@ -99,7 +99,7 @@ static int64_t sample(const fieldscribe_modbus_row *row, int64_t at)
 
 int main(void)
 {
-    DEVICE_device drive = {{&line, &ask, 1U, 0U, 0U, false}};
+    DEVICE_device drive = {FIELDSCRIBE_MODBUS_UNIT(&line, &ask, 1U)};
     size_t high;
     size_t low;
     int64_t number = 0;
