@@ -21,7 +21,11 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
+    from argparse import _ArgumentGroup
+
     from fieldscribe.model import Device
+
+    Parser = ArgumentParser | _ArgumentGroup
 
 LOCAL = Path("descriptions")
 """The usual folder of a project's descriptions."""
@@ -63,7 +67,7 @@ def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), remark: str =
     )
 
 
-def add_repeated(parser: ArgumentParser, name: str, metavar: str, help_text: str, **more: Any) -> None:
+def add_repeated(parser: Parser, name: str, metavar: str, help_text: str, **more: Any) -> None:
     """Add an option whose values make a list, because it may be repeated."""
     help_text += "; may be repeated"
     parser.add_argument(name, action="append", default=[], metavar=metavar, help=help_text, **more)
@@ -240,3 +244,13 @@ def _lines_of(name: str) -> list[str] | None:
         return split_lines(read_regular(name, MOST_BYTES).data.decode("utf-8-sig", "replace"))
     except (OSError, ValueError):
         return None
+
+
+def write_draft(text: str, out: Path | None) -> None:
+    """Write to a new file, or to standard output; a file that appeared meanwhile is not overwritten."""
+    if out is None:
+        sys.stdout.write(text)
+        return
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with open(out, "x", encoding="utf-8", newline="\n") as stream:
+        stream.write(text)
