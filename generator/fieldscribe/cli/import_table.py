@@ -14,7 +14,7 @@ from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.families import FAMILIES, families
 from fieldscribe.importing import Draft, compilable, draft
 from fieldscribe.importing.draft_points import Options
-from fieldscribe.importing.draft_text import Head
+from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.headings import ROLES
 from fieldscribe.importing.readers import FORMATS, read_tables
 from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
@@ -66,8 +66,13 @@ def run(arguments: Namespace) -> int:
     if not drafted.groups:
         raise _nothing_drafted(arguments, drafted)
     digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
-    head = Head(arguments.device or "draft", arguments.file.name, digest, drafted.family.name, arguments.language)
-    write_draft(compilable(drafted, head, with_head=arguments.device is not None), arguments.out)
+    head = Head(
+        arguments.device or "draft",
+        [Document(arguments.file.name, digest)],
+        drafted.family.name,
+        arguments.language,
+    )
+    write_draft(compilable(drafted.groups, head, with_head=arguments.device is not None), arguments.out)
     return FINE
 
 

@@ -137,13 +137,13 @@ def _give_names(groups: Iterable[DraftGroup]) -> None:
             point.name = of_points.give(name, otherwise if point.code else place)
 
 
-def compilable(draft: Draft, head: Head, *, with_head: bool) -> str:
-    """Return the draft as YAML that compiles, below the head of a device or as groups alone.
+def compilable(groups: Sequence[DraftGroup], head: Head, *, with_head: bool) -> str:
+    """Return the drafted groups as YAML that compiles, below the head of a device or as groups alone.
 
     Facts that the compiler rejects become questions, until it rejects none.
     """
     while True:
-        top, head_lines, group_lines = draft_lines(draft.groups, head)
+        top, head_lines, group_lines = draft_lines(groups, head)
         lines = [*top, *head_lines, *group_lines]
         if not _withdraw_rejected(lines):
             shown = lines if with_head else [*top, *group_lines[1:]]

@@ -23,25 +23,45 @@ _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
     *("at", "bits", "access", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
-    *("default_in_units", "enum", "flags", "reserved"),
+    *("default_in_units", "enum", "open", "flags", "characters", "words", "special", "changes", "when"),
+    *("indices", "reserved", "note"),
 )
 """The order of a point's facts."""
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
-    """What the draft says of the device, and of the file that it was made from; the language is that of its titles."""
+class Document(NamedTuple):
+    """A file that the draft was made from."""
 
-    device: str
     file: str
     sha256: str
+    name: str = "manual"
+    title: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """What the draft says of the device, and of the files that it was made from; the language is that of its titles.
+
+    `facts` are further lines of the head, `kind` is what the files hold.
+    """
+
+    device: str
+    documents: Sequence[Document]
     family: str
-    language: str
+    language: str = "en"
+    vendor: str = ""
+    model: str = ""
+    title: str = ""
+    facts: Sequence[str] = ()
+    kind: str = "tables"
 
 
 @dataclass(slots=True)
 class DraftPoint:
-    """A point of the draft: its facts as YAML text by key, and the questions that a person must settle."""
+    """A point of the draft: its facts as YAML text by key, and the questions that a person must settle.
+
+    Line 0: the file has no lines to name.
+    """
 
     line: int
     space: str
@@ -87,7 +107,7 @@ class DraftPoint:
 
 @dataclass(slots=True)
 class DraftGroup:
-    """The points below one heading in one space, and comments about its tables."""
+    """The points below one heading in one space, further facts that they share, and comments about its tables."""
 
     title: str
     space: str
@@ -95,6 +115,8 @@ class DraftGroup:
     points: list[DraftPoint] = field(default_factory=list)
     comments: list[str] = field(default_factory=list)
     name: str = ""
+    document: str = "manual"
+    facts: dict[str, str] = field(default_factory=dict)
 
 
 class Line(NamedTuple):
@@ -167,11 +189,11 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
     """Return the comments at the top, the head of a device, and a document for each group."""
     points = [point for group in groups for point in group.points]
     questions = sum(len(point.questions) for point in points)
-    counts = f"{counted(len(points), 'point')} from tables, with {counted(questions, 'question')} at points"
+    counts = f"{counted(len(points), 'point')} from {head.kind}, with {counted(questions, 'question')} at points"
     top = [f"# A draft of {counts}: settle what `# ?` asks, then take it out."]
     if head.language != "en":
         top.append(comment(f"titles are in the manual's language ({head.language}): give English names and titles"))
-    if not any("type" in point.facts for point in points):
+    if head.kind == "tables" and not any("type" in point.facts for point in points):
         top.append(comment("no types are printed: a point is u16 unless it says otherwise"))
     body = [line for group in groups for line in (Line("---"), *_group_lines(group, head.language))]
     return [Line(text) for text in top], [Line(text) for text in _head_lines(head, groups)], body
@@ -180,18 +202,24 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
 def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:
     """Yield the head of the device, with a bus that reaches the spaces of its groups."""
     yield from ("fieldscribe: 1", f"device: {head.device}", "version: 0.1.0")
-    yield f"vendor: Unknown  {comment('who makes it')}"
-    yield f"model: Unknown  {comment('its name at the maker')}"
-    yield f"title: {scalar(head.device.replace('_', ' ').capitalize())}  {comment('what it is')}"
+    yield f"vendor: {_known(head.vendor, 'Unknown', 'who makes it')}"
+    yield f"model: {_known(head.model, 'Unknown', 'its name at the maker')}"
+    yield f"title: {_known(head.title, head.device.replace('_', ' ').capitalize(), 'what it is')}"
     yield f"family: {head.family}"
+    yield from head.facts
     yield "documents:"
-    yield f"  manual:  {comment('its title')}"
-    yield f"    title: {scalar(head.file)}"
-    yield f"    language: {head.language}"
-    yield f"    file: {scalar(head.file)}"
-    yield f"    sha256: {head.sha256}"
+    for document in head.documents:
+        yield f"  {document.name}:{'' if document.title else '  ' + comment('its title')}"
+        yield f"    title: {scalar(document.title or document.file)}"
+        yield f"    language: {head.language}"
+        yield f"    file: {scalar(document.file)}"
+        yield f"    sha256: {document.sha256}"
     yield comment("framings, unit addresses and functions, with the most of each request")
     yield from family(head.family).part("description").bus_of({group.space for group in groups}).splitlines()
+
+
+def _known(text: str, otherwise: str, question: str) -> str:
+    return scalar(text) if text else f"{scalar(otherwise)}  {comment(question)}"
 
 
 def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
@@ -201,7 +229,8 @@ def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
     yield Line(f"title: {_titles(group.title, language)}")
     yield Line(f"space: {group.space}")
     yield Line(f"access: {access}" if access else comment("not every row prints an access; without the key it is rw"))
-    yield Line(f"source: {{document: manual, section: {scalar(group.section or group.title)}}}")
+    yield Line(f"source: {{document: {group.document}, section: {scalar(group.section or group.title)}}}")
+    yield from (Line(f"{key}: {value}") for key, value in group.facts.items())
     references = {_numbering(point.reference[1]): point.reference[0] for point in group.points if point.reference}
     if references:
         numberings = ", ".join(f"{name}: wire + {base}" for name, base in references.items())
@@ -232,7 +261,8 @@ def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: st
             yield from ((key, text) for text in further)
     if point.section and point.section != group.section:
         yield "section", f"section: {scalar(point.section)}"
-    yield "line", f"line: {point.line}"
+    if point.line:
+        yield "line", f"line: {point.line}"
     if point.reference and point.facts["at"] != "~":
         yield "printed", f"printed: {{{_numbering(point.reference[1])}: {point.reference[1]}}}"
     yield from (("", comment(question)) for question in point.questions)
