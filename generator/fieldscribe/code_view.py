@@ -57,6 +57,8 @@ def for_code(device: Device) -> Device:
         errata=tuple(replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata),
         messages=_without_texts(device.messages),
         telegrams=_without_texts(device.telegrams),
+        given=_without_texts(device.given),
+        found=None if device.found is None else _without_texts((device.found,))[0],
     )
 
 

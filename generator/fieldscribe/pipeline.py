@@ -152,6 +152,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     """Resolve and check a device; if there are errors, it must not be compiled."""
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.bases import read_bases
     from fieldscribe.resolve.bus import bus_of, commands_of, reader_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
@@ -163,6 +164,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)
+    read_bases(scope)
     expanded = expand(scope)
     symbols = symbols_of(scope, expanded)
     bus = bus_of(scope)

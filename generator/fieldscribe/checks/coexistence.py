@@ -11,14 +11,14 @@ from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
 
 WordKey = tuple[str, str | None, int, int]
-"""Space, telegram, index (0 where addresses of the space have no index) and address."""
+"""Space, telegram or base, index (0 where addresses of the space have no index) and address."""
 
 
 def word_key(analysis: Analysis, point: Point, address: int) -> WordKey:
     """Return what tells the word of a point at an address from all other words of the device."""
     terms = point.terms
     index = point.index if point.index and terms.space in analysis.scope.family.indexed else 0
-    return terms.space, terms.telegram, index, address
+    return terms.space, terms.telegram or terms.base, index, address
 
 
 class Coexistence:

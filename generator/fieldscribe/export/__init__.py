@@ -49,6 +49,12 @@ def schema_text() -> str:
         "flag_value": ("One number of a flag with a name.", FLAG_VALUE),
         "digits": ("The decimal digits of a word.", DIGITS),
         "identification": ("What a point holds in the device or in one of its variants.", devices.IDENTIFICATION),
+        "given": ("A number that a client is given when it opens the device.", devices.GIVEN),
+        "found": (
+            "A chain of blocks behind a marker. A block starts with its id and the number of words behind these two.",
+            devices.FOUND,
+        ),
+        "base": ("What addresses count from: a found block, or offset plus multiples of given numbers.", devices.BASE),
         "command": ("A named write of a constant.", devices.COMMAND),
         "message": ("A layout of eight bytes with an identifier.", devices.MESSAGE),
         "telegram": ("A layout of words that is sent again and again.", devices.TELEGRAM),

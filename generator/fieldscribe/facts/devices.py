@@ -80,6 +80,11 @@ def _identifications(device: Exported) -> Iterator[Exported]:
         yield {**identification, "name": f"{identification['variant'] or device['device']}: {identification['point']}"}
 
 
+def _found(device: Exported) -> Iterator[Exported]:
+    """The chain of blocks, if there is one."""
+    return iter([device["found"]] if device["found"] else ())
+
+
 def _open(erratum: Erratum, _: object) -> Mapping[str, str]:
     return dict(erratum.leaves_open)
 
@@ -139,6 +144,27 @@ IDENTIFICATION: FactTable = (
     Fact("point", "The point to read.", STRING, BEHAVIOUR, refers="point"),
     Fact("raws", "The raw numbers of which it holds one.", list_of(INTEGER), BEHAVIOUR),
     Fact("texts", "The texts of which it holds one.", TEXTS, BEHAVIOUR),
+)
+GIVEN: FactTable = (
+    NAME,
+    TITLE,
+    Fact("low", "The least number.", INTEGER, BEHAVIOUR),
+    Fact("high", "The greatest number.", INTEGER, BEHAVIOUR),
+)
+FOUND: FactTable = (
+    NAME,
+    TITLE,
+    Fact("space", "The space of the blocks.", STRING, WIRE),
+    Fact("marker", "The text before the first block, two characters a word.", STRING, WIRE),
+    Fact("places", "The addresses where it may stand, in the order of the search.", list_of(ADDRESS), WIRE),
+    Fact("end", "What stands in place of an id behind the last block.", INTEGER, WIRE),
+)
+BASE: FactTable = (
+    NAME,
+    Fact("formula", "How the author writes it.", STRING, DOCS),
+    Fact("offset", "What is added to the multiples of given numbers.", INTEGER, WIRE),
+    Fact("terms", "The factors of given numbers.", map_of(INTEGER), WIRE, value=lambda base, _: dict(base.terms)),
+    Fact("block", "The id of the found block; null: no block.", INTEGER_OR_NULL, WIRE),
 )
 _SENDER = Fact(
     "direction",
@@ -378,6 +404,15 @@ def device_table(own_family: str) -> FactTable:
             "What tells the device and its variants, in the order of reading.",
             _parts("identification", IDENTIFICATION, listed=_identifications, change=BEHAVIOUR),
         ),
+        _list("given", "Numbers that a client is given.", _parts("given", GIVEN, listed=partial(_named, "given"))),
+        Fact(
+            "found",
+            "The chain of blocks that a client searches for; null: none.",
+            null_or(ref("found")),
+            table=FOUND,
+            views=(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE),),
+        ),
+        _list("bases", "What addresses count from, if not from 0.", _parts("base", BASE, "formula")),
         _list("messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "direction", "layout")),
         _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),
         _list("frames", "The worked frames of the manual.", _parts("frame", frame, "bytes", change=DOCS)),

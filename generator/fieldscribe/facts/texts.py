@@ -33,6 +33,12 @@ def address_text(point: Point, context: Context) -> str:
     return f"{wording.address_text(first)}{index}, space {point.space}"
 
 
+def base_text(point: Point, context: Context) -> str:
+    """Return what the addresses count from."""
+    base = context.device.base_of(point)
+    return "" if base is None else wording.base_text(base)
+
+
 def index_text(point: Point, context: Context) -> str:
     """Return the index where it is not beside the address."""
     return "" if point.index is None or _index_travels(point, context) else str(point.index)

@@ -120,6 +120,8 @@ class Family:
     """The space of commands that do not name one; None where the family has no commands."""
     writes_elsewhere: bool = False
     """True if a point may be written at another address than it is read from."""
+    has_bases: bool = False
+    """True if addresses may count from a base that is given or found."""
     chooses_memory: bool = False
     """True if a request chooses the memory in which the device keeps the value."""
     options: tuple[Option, ...] = ()

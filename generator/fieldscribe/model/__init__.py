@@ -2,6 +2,7 @@
 
 from fieldscribe.model.device import (
     About,
+    Base,
     Block,
     Bus,
     Code,
@@ -10,7 +11,9 @@ from fieldscribe.model.device import (
     Document,
     Erratum,
     FamilyFacts,
+    Found,
     Frame,
+    Given,
     Group,
     Identification,
     Message,

@@ -154,6 +154,58 @@ class Identification:
 
 
 @dataclass(frozen=True, slots=True)
+class Given:
+    """A number that a client is given when it opens the device, such as the slot of a module."""
+
+    name: str
+    title: Titles
+    low: int
+    high: int
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A chain of blocks that a client searches for: `marker` stands at one of `places`, and the first block behind it.
+
+    A block starts with its id and its length: the number of words that follow these two. Behind it stands the next
+    block; `end` in place of an id ends the chain.
+    """
+
+    name: str
+    title: Titles
+    space: str
+    marker: str
+    places: tuple[int, ...]
+    end: int
+
+    @property
+    def words(self) -> tuple[int, ...]:
+        """Return the words of the marker."""
+        data = self.marker.encode("ascii")
+        return tuple(data[at] << 8 | data[at + 1] for at in range(0, len(data), 2))
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """What addresses of a group count from: the start of a found block, or `offset` plus multiples of given numbers.
+
+    `terms` has pairs of a given number and its factor; `block` is the id of the block.
+    """
+
+    name: str
+    formula: str
+    offset: int
+    terms: tuple[tuple[str, int], ...]
+    block: int | None
+
+    def at(self, given: Mapping[str, int]) -> int:
+        """Return the base for these numbers; that of a found block stands under the name of the base."""
+        if self.block is not None:
+            return given[self.name]
+        return self.offset + sum(given[name] * factor for name, factor in self.terms)
+
+
+@dataclass(frozen=True, slots=True)
 class Code:
     """A number of the protocol with a name: a function or an exception.
 
@@ -180,6 +232,7 @@ class Block:
     address: int
     count: int
     points: tuple[str, ...]
+    base: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,7 +305,14 @@ class Device:
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
     identifications: tuple[Identification, ...] = ()
+    given: tuple[Given, ...] = ()
+    found: Found | None = None
+    bases: tuple[Base, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
+
+    def base_of(self, point: Point) -> Base | None:
+        """Return what the addresses of a point count from; None if they count from 0."""
+        return next((base for base in self.bases if base.name == point.terms.base), None)
 
     @property
     def doubts(self) -> tuple[Erratum, ...]:

@@ -84,7 +84,8 @@ class Terms:
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
     `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
     place of a type: empty if it leaves the type open, None if there is a type. `view_of` names a point that has the
-    same words. `certainty` says where the facts come from, None if it is the manual.
+    same words. `certainty` says where the facts come from, None if it is the manual. `base` names what the addresses
+    count from, None if that is 0; a point that repeats `to_end` exists where the found block is long enough.
     """
 
     group: str
@@ -106,6 +107,8 @@ class Terms:
     untyped: str | None = None
     view_of: str | None = None
     certainty: str | None = None
+    base: str | None = None
+    to_end: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,6 +188,8 @@ class Point:
     untyped = _Shared(lambda point: point.terms.untyped)
     view_of = _Shared(lambda point: point.terms.view_of)
     certainty = _Shared(lambda point: point.terms.certainty)
+    base = _Shared(lambda point: point.terms.base)
+    to_end = _Shared(lambda point: point.terms.to_end)
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
     addresses = _Shared(lambda point: point.place.addresses)
     references = _Shared(lambda point: point.place.references)

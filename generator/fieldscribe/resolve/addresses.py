@@ -14,6 +14,7 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Place
+from fieldscribe.resolve.bases import last_address
 from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
@@ -109,7 +110,8 @@ class Places:
         if encoding.type == "text" or encoding.space == SPACE or "addressing" in group or group.broken or facts.failed:
             return _FROM_ROW
         words = self._count(facts, encoding)
-        return _Layout(words, self._low_first(facts, encoding.type), self.scope.family.last_address - words + 1)
+        last = self._last_address(facts)
+        return _Layout(words, self._low_first(facts, encoding.type), last - words + 1)
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
@@ -141,9 +143,14 @@ class Places:
     def _last(self, facts: PointFacts, space: str) -> int | None:
         """Return the last address of the space, or the last word of the telegram; None after a finding."""
         if space != SPACE:
-            return self.scope.family.last_address
+            return self._last_address(facts)
         telegram = telegram_of(self.scope, self.telegrams, facts)
         return None if telegram is None else telegram[0].words - 1
+
+    def _last_address(self, facts: PointFacts) -> int:
+        """Return the last address of a point, counted from the base of its group."""
+        base = self.scope.base_of(facts.group)
+        return self.scope.family.last_address if base is None else last_address(base, self.scope.given)
 
     def _words(self, facts: PointFacts, encoding: Encoding, raw: object, key: str) -> tuple[int, ...]:
         """Return the words of a number in ascending order. Raises FactError."""
@@ -327,6 +334,9 @@ def _outside(facts: PointFacts, key: str, address: int, last: int, *, single: bo
     if facts.get("space") == SPACE:
         message = f"word {address} lies outside the telegram, whose words are 0..{last}"
         hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
+    elif single and "base" in facts.group and address > last:
+        message = f"the address {address} lies outside 0..{last}, counted from `base: {facts.group['base']}`"
+        hint = "with the greatest base it would be more than 65535: correct it, or the range under `given`"
     elif single:
         message = f"the address {address} lies outside 0..{last}"
         hint = f"`{key}` is the number on the wire; the numbers for people (40001) go under `printed`"

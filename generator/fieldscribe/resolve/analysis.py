@@ -136,6 +136,9 @@ class Analysis:
             digest="",
             messages=self.messages,
             identifications=self.identifications,
+            given=tuple(scope.given.values()),
+            found=scope.found,
+            bases=tuple({base.name: base for base in scope.bases.values()}.values()),
             telegrams=tuple(telegram for telegram, _ in self.places.telegrams.values()),
         )
 

@@ -34,8 +34,7 @@ _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 
 def condition_of(facts: PointFacts, scales: Scales) -> Condition | None:
     """Return the condition for the point to exist; None if it always does, or after a finding."""
-    text = facts.get("when")
-    if text is None:
+    if not facts.conditions:
         return None
     clauses = _clauses_of(facts, scales, (facts,))
     if clauses:
@@ -45,10 +44,18 @@ def condition_of(facts: PointFacts, scales: Scales) -> Condition | None:
 
 
 def _clauses_of(facts: PointFacts, scales: Scales, asking: tuple[PointFacts, ...]) -> Clauses:
-    """Return the clauses of a point's `when`; none after a finding. `asking` are the points whose `when` needs them."""
-    text = facts.get("when")
-    written = Written(text, facts.span("when"))
-    report = scales.symbols.scope.report
+    """Return the clauses of a point's conditions; none after a finding. `asking` are the points that need them."""
+    parts = [_clauses(facts, scales, Written(text, facts.span(key)), asking) for text, key in facts.conditions]
+    try:
+        return all_of(parts)
+    except TooManyClausesError as error:
+        formula_finding(FormulaError(str(error), 0, "simplify it"), facts.span("when"), scales.symbols.scope.report)
+        return ()
+
+
+def _clauses(facts: PointFacts, scales: Scales, written: Written, asking: tuple[PointFacts, ...]) -> Clauses:
+    """Return the clauses of a condition; none after a finding."""
+    text, report = written.text, scales.symbols.scope.report
     try:
         stated = parse_condition(text)
     except FormulaError as error:
@@ -103,7 +110,7 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
         raise FormulaError(
             f"`{name}` has `{versions}`, which no condition can tell", column, f"write `{versions}` at this point, too"
         )
-    if any(point.variant is None and point.get("when") is None for point in points):
+    if any(point.variant is None and not point.conditions for point in points):
         raise FormulaError(f"`{name}` always exists", column, "leave this out, or name a point that has `when`")
     parts = [_clauses_of_point(scales, point, (*asking, point)) for point in points]
     if not all(parts):
@@ -112,7 +119,7 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
 
 
 def _clauses_of_point(scales: Scales, point: PointFacts, asking: tuple[PointFacts, ...]) -> Clauses:
-    clauses = ((),) if point.get("when") is None else _clauses_of(point, scales, asking)
+    clauses = _clauses_of(point, scales, asking)
     variant = point.variant
     own = () if variant is None else (conditions.Comparison(variant.axis, "==", (variant.value,)),)
     return tuple(own + clause for clause in clauses)

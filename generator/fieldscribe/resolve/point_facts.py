@@ -5,6 +5,7 @@ Also sets and arrays: which points a row stands for if it has `sets`, `indices` 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -32,6 +33,11 @@ _RIVALS = {
 """Pairs of keys for the same fact: the one in a nearer layer hides the other one in farther layers."""
 
 
+TO_END = "to end"
+"""The value of `indices` for what repeats to the end of a found block."""
+
+_COUNTED = re.compile(rf"{TO_END}|(?P<low>[0-9]{{1,5}})\.\.(?P<point>[A-Za-z_]\w*(?<![hH])|[g-zG-Z_]\w*)")
+"""`to end`, or an interval whose last number a point holds."""
 _SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
 _INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 
@@ -50,6 +56,8 @@ class Element:
     indices: int
     suffix: str
     counted: tuple[str, ...]
+    exists: tuple[tuple[str, str], ...] = ()
+    """Conditions for the element to exist, each with the key that says so: `1..phases` gives `phases >= 2`."""
 
     def values(self, number: int) -> Mapping[str, Fraction]:
         """Return the names that an addressing rule may use; outside sets and arrays the set and the index are 1."""
@@ -189,6 +197,13 @@ class PointFacts:
         return self.node.span("name" if "name" in self.node else None)
 
     @property
+    def conditions(self) -> tuple[tuple[str, str], ...]:
+        """Return the conditions for the point to exist, each with the key that says so."""
+        when = self.get("when")
+        stated = () if when is None else ((str(when), "when"),)
+        return stated if self.element is None else stated + self.element.exists
+
+    @property
     def suffix(self) -> str:
         """Return what this element adds to the name of its row, such as `_set_2`."""
         return "" if self.element is None else self.element.suffix
@@ -240,7 +255,19 @@ def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
         return []
     counted = tuple(key for key in ("sets", "indices") if row.layer(key) is not None and not (rows and key == "sets"))
     return [
-        Element(set_number, sets.count, index, indices.count, sets.suffix(set_number) + indices.suffix(index), counted)
+        Element(
+            set_number,
+            sets.count,
+            index,
+            indices.count,
+            sets.suffix(set_number) + indices.suffix(index),
+            counted,
+            tuple(
+                (f"{axis.counter} >= {number}", key)
+                for key, axis, number in (("sets", sets, set_number), ("indices", indices, index))
+                if axis.counter
+            ),
+        )
         for set_number in sets.used
         for index in indices.used
     ]
@@ -253,6 +280,8 @@ class _Axis:
     count: int
     used: tuple[int | None, ...]
     word: str
+    counter: str = ""
+    """The point that holds the last number, if one does."""
 
     def suffix(self, number: int | None) -> str:
         return f"_{self.word}_{number}" if self.word else ""
@@ -264,8 +293,11 @@ def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | 
     raw = row.get(plural)
     if raw is None:
         return _Axis(1, (own_number,), "")
-    span, text = row.span(plural), str(raw)
-    if ".." in text:
+    span, text, counter = row.span(plural), str(raw), ""
+    if (counted := _COUNTED.fullmatch(text)) is not None:
+        most = _most(scope, row, plural, text)
+        counter, ends = counted["point"] or "", None if most is None else (int(counted["low"] or 1), most)
+    elif ".." in text:
         ends = interval(text, span, scope.report)
     else:
         count = integer(raw, span, scope.report)
@@ -279,9 +311,23 @@ def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | 
         return None
     if own_number is None:
         used = range(low, min(high, low + MOST_ELEMENTS) + 1)
-        return _Axis(high - low + 1, tuple(used), singular)
+        return _Axis(high - low + 1, tuple(used), singular, counter)
     if not low <= own_number <= high:
         message = f"there is no {singular} {own_number} in {low}..{high}"
         scope.report.error("wrong-choice", message, row.span(singular), f"correct `{singular}` or `{plural}`")
         return None
-    return _Axis(high - low + 1, (own_number,), "")
+    return _Axis(high - low + 1, (own_number,), "", counter)
+
+
+def _most(scope: Scope, row: PointFacts, plural: str, text: str) -> int | None:
+    """Return the greatest index of a row whose number of elements the device decides; None after a finding."""
+    most: int | None = row.get("most")
+    if text == TO_END and (plural != "indices" or "block" not in row.group):
+        message, hint = "nothing ends here: the group counts from no found block", "write `block: …` at the group"
+        scope.report.error("missing-key", message, row.span(plural), hint)
+    elif most is None:
+        hint = f"add `most: 20`, the greatest {'index' if plural == 'indices' else 'set'} to describe"
+        scope.report.error("missing-key", f"`{plural}: {text}` has no end", row.span(plural), hint)
+    else:
+        return most
+    return None

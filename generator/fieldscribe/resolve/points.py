@@ -19,7 +19,7 @@ from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.encodings import Encoding, Encodings
 from fieldscribe.resolve.memo import FactKeys, Memo, hashable
-from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.point_facts import TO_END, PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
@@ -138,12 +138,14 @@ class _Points:
             untyped=_untyped(scope, facts),
             view_of=_view_of(facts, self._scales.symbols),
             certainty=_certainty(scope, facts),
+            base=None if (base := scope.base_of(facts.group)) is None else base.name,
+            to_end=facts.get("indices") == TO_END,
         )
 
 
 def _are_general(terms: Terms) -> bool:
-    """Return True if points of a kind share these terms: they name no other points."""
-    return terms.when is None and not terms.changes_with and terms.view_of is None
+    """Return True if points of a kind share these terms: they name no other points, and are no part of a block."""
+    return terms.when is None and not terms.changes_with and terms.view_of is None and not terms.to_end
 
 
 def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:

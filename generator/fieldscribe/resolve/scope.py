@@ -17,7 +17,7 @@ from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.units import shipped_unit
-from fieldscribe.model import Document, Enum, Source, Titles, Unit
+from fieldscribe.model import Base, Document, Enum, Found, Given, Source, Titles, Unit
 
 _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
@@ -45,6 +45,14 @@ class Scope:
     named_enums: dict[str, Map] = field(default_factory=dict)
     enums: dict[tuple[str, int, bool], Enum] = field(default_factory=dict)
     documents: dict[str, Document] = field(default_factory=dict)
+    given: Mapping[str, Given] = field(default_factory=dict)
+    found: Found | None = None
+    bases: dict[int, Base] = field(default_factory=dict)
+    """What the addresses of a group count from, by the id of the group; `read_bases` adds it."""
+
+    def base_of(self, group: Map) -> Base | None:
+        """Return what the addresses of a group count from; None if that is 0."""
+        return self.bases.get(id(group))
 
     @property
     def header(self) -> Map:

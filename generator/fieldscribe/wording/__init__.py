@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from fieldscribe.arithmetic.exact import SAME
-from fieldscribe.model import Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Titles
+from fieldscribe.model import Base, Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Titles
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
@@ -31,6 +31,11 @@ def label(point: Point) -> str:
 def address_text(address: int) -> str:
     """Return a wire address in both notations: `1028h (4136)`."""
     return f"{hex_text(address)} ({address})"
+
+
+def base_text(base: Base) -> str:
+    """Return what addresses count from: `slot * 1000`, or `block 103 of models`."""
+    return line(base.formula) if base.block is None else f"block {base.block} of {base.name.rpartition('_')[0]}"
 
 
 def words_text(point: Point) -> str:

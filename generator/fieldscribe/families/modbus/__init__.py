@@ -19,6 +19,7 @@ FAMILY = Family(
     codes=(Codes("functions", "function", "function", emitted=False), Codes("exceptions", "exception", "exception")),
     commands_in="holding",
     writes_elsewhere=True,
+    has_bases=True,
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from fieldscribe.families.modbus import BROADCAST, FUNCTIONS, SPACES, ModbusBus, profile_of
 from fieldscribe.language.nodes import Map
@@ -44,6 +44,8 @@ class ModbusReading(FamilyReader):
 
 READING = ModbusReading()
 
+_LaneKey = tuple[str, str | None, int]
+"""A space, what its addresses count from, and the element of what repeats to the end of a block, else -1."""
 _Place = tuple[str, str, tuple[int, ...]]
 """The name of a point, its space, and the addresses from which it is read."""
 
@@ -70,15 +72,16 @@ def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[
     most = profile_of(bus).most
     lanes = _lanes(points, variants)
     blocks: list[Block] = []
-    for space, functions in SPACES.items():
-        if space in lanes and functions.read in most:
-            blocks.extend(_blocks(space, functions.read, lanes[space], bus.gaps.get(space, ()), most[functions.read]))
+    for (space, base, _), lane in lanes.items():
+        read, gaps = SPACES[space].read, () if base else bus.gaps.get(space, ())
+        if read in most:
+            blocks.extend(replace(block, base=base) for block in _blocks(space, read, lane, gaps, most[read]))
     order = {space: index for index, space in enumerate(SPACES)}
     return tuple(sorted(blocks, key=lambda block: (order[block.space], block.address, block.function)))
 
 
-def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[str, _Lane]:
-    lanes: defaultdict[str, _Lane] = defaultdict(_Lane)
+def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[_LaneKey, _Lane]:
+    lanes: defaultdict[_LaneKey, _Lane] = defaultdict(_Lane)
     variants_at: dict[_Place, set[Variant]] = {}
     for point in points:
         if point.variant is not None and point.readable:
@@ -87,11 +90,12 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
         addresses, space = point.place.addresses, point.terms.space
         if not point.shape.readable or not addresses or space not in SPACES:
             continue
+        lane = lanes[space, point.terms.base, (point.index or 0) if point.terms.to_end else -1]
         if _always_there(point, variants_at, variants):
-            lanes[space].crossable.update(addresses)
+            lane.crossable.update(addresses)
         low, end = min(addresses), max(addresses) + 1
         if point.generated and end - low == len(addresses):
-            lanes[space].spans.append((low, end, point.name))
+            lane.spans.append((low, end, point.name))
     return lanes
 
 

@@ -16,6 +16,8 @@ _PROPERTY = Shape(
     [3],
     *(Text(200), NUMBER),
 )
+_GIVEN = Place("", "", "One number.", [{"range": "1..15"}])
+_FOUND = Place("", "", "One chain of blocks.", [{"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}])
 _HELD = Shape("One of several.", [3], Whole(), Text(250))
 _VALUE = Place(
     "", "", "One value of the axis, and its properties.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY}
@@ -64,6 +66,49 @@ HEADS = (
         [{"signature": "MAP12E", "hardware": [3, 4]}],
         by(forms.ANY, Shape("What the point holds.", ["MAP12E", 3], Whole(), Text(250), Items(_HELD, 1)), least=1),
     ),
+    Key(
+        "given",
+        DEVICE,
+        "Numbers that a client is given when it opens a device, by name; a `base` may count with them.",
+        [{"slot": {"range": "1..15"}}],
+        by(forms.NAME, _GIVEN.shape, least=1),
+    ),
+    Key("range", _GIVEN, "What the number can be.", ["1..15"], Text(40), required=True),
+    Key(
+        "found",
+        DEVICE,
+        "A chain of blocks that a client searches for, by its name. Each block starts with its id and its length.",
+        [{"models": {"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}}],
+        by(forms.NAME, _FOUND.shape, least=1),
+    ),
+    Key(
+        "text", _FOUND, "What stands before the first block, two characters a word.", ["SunS"], Text(16), required=True
+    ),
+    Key(
+        "at",
+        _FOUND,
+        "The addresses where it may stand, in the order of the search.",
+        [[40000, 0, 50000]],
+        Items(Shape("An address.", [40000], Whole(), Text(40)), 1),
+        required=True,
+    ),
+    Key(
+        "then",
+        _FOUND,
+        "The words that each block starts with. The length counts the words behind them.",
+        [["id", "length"]],
+        Items(Shape("A word.", ["id"], one_of("id", "length")), 2),
+        required=True,
+    ),
+    Key("space", _FOUND, "The space of the blocks; `holding` unless it is another.", ["input"], Text(40)),
+    Key(
+        "end",
+        _FOUND,
+        "What stands in place of an id behind the last block; FFFFh unless it is another.",
+        ["FFFFh"],
+        Whole(0, 65535),
+        Text(40),
+    ),
     Key("group", GROUP, NAME, required=True),
     Key(
         "points",
@@ -90,6 +135,21 @@ HEADS = (
         "The formula of an address: of `number` (what `at` says), index, set, sets and indices.",
         ["number * 64 + (index - 1) * sets + (set - 1)"],
         Text(200),
+    ),
+    Key(
+        "base",
+        GROUP,
+        "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it.",
+        ["slot * 1000"],
+        Text(200),
+    ),
+    Key(
+        "block",
+        GROUP,
+        "The found block that the addresses count from, by its id: its first word is 0.",
+        [103],
+        Whole(0, 65535),
+        Text(40),
     ),
     Key(
         "numbering",
@@ -159,7 +219,7 @@ SECTIONS = (
         [{"voltage": {"values": {"200V": {}, "400V": {}}}}],
         by(forms.NAME, _AXIS.shape),
     ),
-    Key("title", (_AXIS, _VALUE), TITLE),
+    Key("title", (_AXIS, _VALUE, _GIVEN, _FOUND), TITLE),
     Key(
         "values",
         _AXIS,

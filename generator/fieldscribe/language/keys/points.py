@@ -76,11 +76,19 @@ WHICH = (
     Key(
         "indices",
         POINT,
-        "The elements of the array: a count from 1, or `0..1`. Each becomes a point `<name>_index_N`.",
-        [3, "0..1"],
+        "The elements of the array: a count from 1, or `0..1`. Each becomes a point `<name>_index_N`. `1..phases`: the "
+        "point `phases` holds the last index; `to end`: up to the end of the found block.",
+        [3, "0..1", "1..phases", "to end"],
         Whole(),
         Text(40),
         identity=True,
+    ),
+    Key(
+        "most",
+        POINT,
+        "The greatest index that is described, if the device decides how many elements there are.",
+        [20],
+        Whole(1, 4096),
     ),
     Key(
         "set",

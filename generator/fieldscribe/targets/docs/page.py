@@ -9,7 +9,7 @@ from typing import NamedTuple
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.model import Command, Device, Document, Erratum, Frame, Identification, Named, Point
+from fieldscribe.model import Base, Command, Device, Document, Erratum, Found, Frame, Identification, Named, Point
 from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import (
@@ -63,6 +63,8 @@ class PageView:
     facts: str
     documents: str
     identifications: str
+    bases: str
+    found: str
     numberings: tuple[str, ...]
     shares_words: bool
     has_telegrams: bool
@@ -93,6 +95,8 @@ def page_of(scope: DocsScope) -> PageView:
         facts=by_rows(("Fact", "Value"), _facts(device)),
         documents=_documents(device),
         identifications=_identifications(scope),
+        bases=_bases(device),
+        found="" if device.found is None else _found(device.found),
         numberings=tuple(
             f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
             + (f" {_COMPUTED}" if key in computed else "")
@@ -145,6 +149,36 @@ def _identifications(scope: DocsScope) -> str:
         ),
     }
     return table(scope.device.identifications, columns, always=columns)
+
+
+def _bases(device: Device) -> str:
+    """The table of what addresses count from, with the numbers that a client is given."""
+    given = {each.name: each for each in device.given}
+    columns: Columns[Base] = {
+        "Base": lambda base: cell(wording.base_text(base)),
+        "Given": lambda base: _lines(
+            *(
+                cell(f"{name}: {given[name].low}..{given[name].high}, {wording.title_text(given[name].title)}")
+                for name, _ in base.terms
+            )
+        ),
+        "Groups": lambda base: ", ".join(
+            link("group", name)
+            for name in dict.fromkeys(point.group for point in device.points if point.base == base.name)
+        ),
+    }
+    return table(device.bases, columns, always=("Base", "Groups"))
+
+
+def _found(found: Found) -> str:
+    """How to find the blocks."""
+    places = ", ".join(map(wording.address_text, found.places))
+    return cell(
+        f"{wording.title_text(found.title)}: read {counted(len(found.words), 'word')} of the space {found.space} at "
+        f"{places}, until the text there is {found.marker}. Behind it stands the first block. A block starts with its "
+        f"id and its length, the number of words behind these two; then comes the next block. The id "
+        f"{hex_text(found.end)} ends the chain. Addresses in a block count from its id."
+    )
 
 
 def _frames(scope: DocsScope) -> str:
@@ -252,19 +286,21 @@ class _Place(NamedTuple):
 def map_views(device: Device) -> Iterator[MapView]:
     """Yield the map of each space and of each telegram, in the order of their first points."""
     numbers_at = family(device.family).numbers
-    spaces: dict[tuple[str, str], list[_Place]] = {}
+    spaces: dict[tuple[str, str, str], list[_Place]] = {}
+    bases = {base.name: f", counted from {wording.base_text(base)}" for base in device.bases}
     for point in device.points:
         if point.addresses:
-            spaces.setdefault((point.terms.space, point.terms.telegram or ""), []).append(
-                _of_point(point, numbers_at(point.space, min(point.addresses)))
-            )
+            numbers = {} if point.terms.base else numbers_at(point.space, min(point.addresses))
+            key = point.terms.space, point.terms.telegram or "", point.terms.base or ""
+            spaces.setdefault(key, []).append(_of_point(point, numbers))
     for command in device.commands:
-        spaces.setdefault((command.space, ""), []).append(
+        spaces.setdefault((command.space, "", ""), []).append(
             _of_command(command, numbers_at(command.space, command.address))
         )
-    for (space, telegram), places in spaces.items():
-        heading = cell(f"Telegram {telegram}" if telegram else space.capitalize())
-        yield MapView(anchor("map", telegram or space), heading, _table(sorted(places, key=lambda place: place.order)))
+    for (space, telegram, base), places in spaces.items():
+        heading = cell(f"Telegram {telegram}" if telegram else space.capitalize() + bases.get(base, ""))
+        where = f"{space}_{base}" if base else telegram or space
+        yield MapView(anchor("map", where), heading, _table(sorted(places, key=lambda place: place.order)))
 
 
 def _of_point(point: Point, numbers: Mapping[str, int]) -> _Place:

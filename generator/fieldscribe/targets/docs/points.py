@@ -84,6 +84,8 @@ def _group_view(group: Group, points: list[Point], rows: _Rows) -> GroupView:
     source = source_text(group.source, rows.scope.several)
     facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
     facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
+    base = rows.scope.device.base_of(points[0]) if points else None
+    facts += [] if base is None else [f"addresses count from {wording.base_text(base)}"]
     facts += [f"source: {source}"] if source else []
     lists = _Lists()
     return GroupView(

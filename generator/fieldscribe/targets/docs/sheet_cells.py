@@ -72,7 +72,8 @@ def references(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
             known[name] = str(number)
         else:
             others.append(f"{name} {number}")
-    numbers = sheet.numbers_at(point.space, min(place.addresses)) if place.addresses else {}
+    counts = bool(place.addresses) and point.base is None  # from a base, the number is in no frame
+    numbers = sheet.numbers_at(point.space, min(place.addresses)) if counts else {}
     computed = {name: str(number) for name, number in numbers.items() if name not in place.references}
     known |= computed
     return known["modicon"], known["reference"], " ".join(computed), sheet.encode(", ".join(others))

@@ -1,0 +1,155 @@
+"""Resolves what addresses count from: `given` and `found` at the head, `base` and `block` at groups."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from itertools import product
+from math import prod
+
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Base, Found, Given
+from fieldscribe.resolve.scope import Scope, humanised, titles
+from fieldscribe.resolve.values import FactError, formula_value, integer, interval
+
+_MOST_BASES = 65536
+"""The most bases of a group: all of them are worked out."""
+_LAST = 65535
+_USUAL_SPACE, _USUAL_END = "holding", 0xFFFF
+
+
+def read_bases(scope: Scope) -> None:
+    """Add to the scope what is given and found, and the base of each group that has one."""
+    header, report = scope.header, scope.report
+    for key in ("given", "found"):
+        if key in header and not scope.family.has_bases:
+            message = f"a device of the family {scope.family.name} has no bases of addresses"
+            report.error("wrong-choice", message, header.key_span(key), f"leave `{key}` out")
+            return
+    scope.given = {given.name: given for given in _given(scope, header.get("given", {}))}
+    scope.found = _found(scope, header.get("found", {}))
+    names: dict[str, str] = {}
+    for group in scope.groups:
+        try:
+            base = _base_of(scope, group)
+        except FactError as error:
+            error.report(report)
+            scope.bases[id(group)] = Base(str(group["group"]), "", 0, (), None)  # its points meet no others
+            continue
+        if base is not None:
+            name = next((known for known, formula in names.items() if formula == base.formula), base.name)
+            number = 2
+            while names.setdefault(name, base.formula) != base.formula:
+                name, number = f"{base.name}_{number}", number + 1
+            scope.bases[id(group)] = Base(name, base.formula, base.offset, base.terms, base.block)
+
+
+def _given(scope: Scope, nodes: Map) -> Iterator[Given]:
+    for name, node in nodes.items():
+        ends = interval(str(node["range"]), node.span("range"), scope.report)
+        if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST:
+            message = f"`{name}` lies outside 0..{_LAST}"
+            scope.report.error("wrong-choice", message, node.span("range"), "correct the range")
+        elif ends is not None:
+            yield Given(name, titles(node.get("title"), humanised(name)), *ends)
+
+
+def _found(scope: Scope, nodes: Map) -> Found | None:
+    """Return the chain of blocks; report what cannot be searched for."""
+    report = scope.report
+    for name, node in list(nodes.items())[1:]:
+        message, hint = f"`{name}` is a second chain of blocks", "a device has one chain: describe it once"
+        report.error("two-meanings", message, nodes.key_span(name), hint)
+        del node
+    for name, node in nodes.items():
+        text, places, space = str(node["text"]), node["at"], str(node.get("space", _USUAL_SPACE))
+        if not text or len(text) % 2 or not text.isascii() or not text.isprintable():
+            hint = "write an even number of ASCII characters: two stand in a word"
+            report.error("text-length", f"`{text}` fills no whole words", node.span("text"), hint)
+            return None
+        if space not in scope.family.spaces or scope.family.spaces[space] != "word":
+            known = [word for word, holds in scope.family.spaces.items() if holds == "word"]
+            scope.unknown("space", space, node.span("space"), known)
+            return None
+        if list(node["then"]) != ["id", "length"]:
+            hint = "write `then: [id, length]`"
+            report.error("wrong-choice", "a block starts with its id and its length", node.span("then"), hint)
+        numbers = [integer(place, places.span(at), report) for at, place in enumerate(places)]
+        end = integer(node.get("end", _USUAL_END), node.span("end"), report)
+        for at, number in enumerate(numbers):
+            if number is not None and not 0 <= number <= _LAST - len(text) // 2 - 1:
+                hint = "the text and the first block behind it end at 65535 or before"
+                report.error("address-outside-space", f"the address {number} is too high", places.span(at), hint)
+        known_places = tuple(dict.fromkeys(number for number in numbers if number is not None))
+        title = titles(node.get("title"), humanised(name))
+        return Found(name, title, space, text, known_places, _USUAL_END if end is None else end)
+    return None
+
+
+def _base_of(scope: Scope, group: Map) -> Base | None:
+    """Return the base of a group; None if its addresses count from 0. Raises FactError."""
+    formula, block = group.get("base"), group.get("block")
+    if formula is None and block is None:
+        return None
+    if not scope.family.has_bases:
+        key = "base" if block is None else "block"
+        message = f"addresses of the family {scope.family.name} count from 0"
+        raise FactError("wrong-choice", message, group.key_span(key), f"leave `{key}` out")
+    if formula is not None and block is not None:
+        hint = "leave one of them out"
+        raise FactError("two-meanings", "the group has a `base` and a `block`", group.key_span("block"), hint)
+    if formula is not None:
+        return _by_formula(scope, group, str(formula))
+    number, found = integer(block, group.span("block"), scope.report), scope.found
+    if number is None or (found is None and scope.header.get("found")):
+        raise FactError  # it has a finding
+    if found is None:
+        hint = "declare how the blocks are found: `found` at the head of device.yaml"
+        raise FactError("missing-key", "nothing says where blocks are", group.key_span("block"), hint)
+    if group["space"] != found.space:
+        hint = f"the blocks of `{found.name}` are in the space `{found.space}`"
+        raise FactError("two-meanings", f"no block is in `{group['space']}`", group.span("block"), hint)
+    if number == found.end:
+        hint = "a block has another id"
+        raise FactError("wrong-choice", f"{number} ends the chain `{found.name}`", group.span("block"), hint)
+    return Base(f"{found.name}_{number}", f"{found.name} {number}", 0, (), number)
+
+
+def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
+    """Return the base that a formula of given numbers makes; it lies in 0..65535 for all of them. Raises FactError."""
+    span, given = group.span("base"), scope.given
+    if not given and scope.header.get("given"):
+        raise FactError  # they have findings
+    unknown = f"given are: {', '.join(given)}" if given else "declare the number under `given`, at the head"
+
+    def value(numbers: Mapping[str, int]) -> Fraction:
+        return formula_value(formula, {name: Fraction(number) for name, number in numbers.items()}, span, unknown)
+
+    lowest = {name: each.low for name, each in given.items()}
+    start = value(lowest)
+    steps = {name: value({**lowest, name: each.low + 1}) - start for name, each in given.items()}
+    terms = tuple((name, int(step)) for name, step in steps.items() if step)
+    offset = start - sum(lowest[name] * step for name, step in steps.items())
+    used = {name: range(given[name].low, given[name].high + 1) for name, _ in terms}
+    if prod(map(len, used.values())) > _MOST_BASES:
+        hint = f"a group has at most {_MOST_BASES} bases: narrow the ranges under `given`"
+        raise FactError("too-many-items", f"`{formula}` gives too many bases", span, hint)
+    base = Base("_".join(used) or "base", formula, int(offset), terms, None)
+    whole = all(number.denominator == 1 for number in (offset, *steps.values()))
+    ends = product(*((numbers[0], numbers[-1], numbers[len(numbers) // 2]) for numbers in used.values()))
+    for numbers in ends:
+        chosen = lowest | dict(zip(used, numbers, strict=True))
+        if not whole or value(chosen) != base.at(chosen):
+            hint = "write it as a sum of multiples, such as `slot * 1000 + 200`"
+            raise FactError("bad-formula", f"`{formula}` does not rise in whole steps", span, hint)
+        if not 0 <= base.at(chosen) <= _LAST:
+            where = ", ".join(f"{name} {number}" for name, number in zip(used, numbers, strict=True))
+            message = f"the base is {base.at(chosen)} for {where or 'all devices'}"
+            raise FactError("address-outside-space", message, span, "correct the formula, or the range under `given`")
+    return base
+
+
+def last_address(base: Base, given: Mapping[str, Given]) -> int:
+    """Return the last address that may count from a base, whatever is given."""
+    ends = [(factor * (given[name].high if factor > 0 else given[name].low)) for name, factor in base.terms]
+    return _LAST - base.offset - sum(ends)
