@@ -14,6 +14,7 @@ from fieldscribe.cli import main
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, together, write
+from support.places import has_text
 
 MANUAL = """# Drive protocol
 
@@ -230,10 +231,12 @@ DEVICES = sorted(path.parent.name for path in descriptions_dir().glob("*/device.
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_descriptions_cite_their_manuals_truly(device: str, capsys: pytest.CaptureFixture[str]) -> None:
     manuals = os.environ.get("FIELDSCRIBE_MANUALS")
     if not manuals:
         pytest.skip("set FIELDSCRIBE_MANUALS to the folder with the manuals' texts")
+    if not has_text(device, Path(manuals)):
+        pytest.skip(f"{manuals} has no text of {device}")
     code = main(["audit", device, "--manual", manuals])
     assert code == 0, capsys.readouterr().out
 

@@ -42,6 +42,17 @@ def test_every_description_was_read_twice() -> None:
 
 SLIPS = [
     (
+        "eastron_sdm630",
+        "settings.yaml",
+        {
+            "1: {name: single_phase": "3: {name: single_phase",
+            "3: {name: three_phase_four": "1: {name: three_phase_four",
+        },
+        "enum 1065353216",
+    ),
+    ("eastron_sdm630", "measurements.yaml", {"unit: kvarh": "unit: kWh"}, "unit"),
+    ("eastron_sdm630", "measurements.yaml", {"!= single_phase_two_wire": "== three_phase_four_wire"}, "when"),
+    (
         "hitachi_l200",
         "coils.yaml",
         {"0: {name: forward": "0: {name: reverse", "1: {name: reverse": "1: {name: forward"},

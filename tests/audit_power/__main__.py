@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 from fieldscribe.resources import descriptions_dir
+from support.places import has_text
 
 from audit_power.measure import measure
 
@@ -23,7 +24,8 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=200, help="the most facts to change of each manual")
     parser.add_argument("devices", nargs="*")
     arguments = parser.parse_args()
-    devices = arguments.devices or sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
+    known = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
+    devices = arguments.devices or [device for device in known if has_text(device, arguments.manuals)]
     print(f"{'device':<18}{'facts':>7}{'changed':>9}{'reported':>10}{'listed':>9}{'with fact':>11}{'seconds':>9}")
     enough = True
     for device in devices:

@@ -18,6 +18,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from support.places import has_text
+
 from mutants.children import StoppedError, in_child
 from mutants.fact_changes import Edits, changes_of, siblings
 from mutants.facts import Description, Fact, Point, read
@@ -155,7 +157,9 @@ def _check(device: str) -> bool:
 
 
 def _audited(device: str, manuals: Path) -> set[str]:
-    """Everything that the audit reports, each as text."""
+    """Everything that the audit reports, each as text; nothing without the manual's text."""
+    if not has_text(device, manuals):
+        return set()
     _, said = _fieldscribe("audit", f"descriptions/{device}", "--manual", str(manuals), "--format", "json")
     data = json.loads(said)
     return {f"{name} {json.dumps(one)}" for name, found in data.items() if isinstance(found, list) for one in found}

@@ -22,22 +22,23 @@ NOTHING: tuple[object, ...] = (None, "", (), [], {}, False)
 def described(device: Device) -> Iterator[Row]:
     """Every row that the reading of this device must have."""
     codes = {one.name: one.code or one.name for one in device.points}
+    language = device.documents[0].language
     for point in device.points:
-        yield _row("point", point.source.line, place_of(point), of_point(point, codes))
+        yield _row("point", point.source.line, place_of(point), of_point(point, codes, language))
     for enum in {one.name: one for one in map(enum_of, device.points) if one and len(one.entries) > LONG}.values():
-        yield _row("list", None, {"name": enum.name}, {"entries": entries_of(enum.entries)})
+        yield _row("list", None, {"name": enum.name}, {"entries": entries_of(enum.entries, language)})
     for of in ("functions", "exceptions", "responses"):
         for code in device.bus.codes(of):
-            yield _row("code", None, {"of": of, "number": code.number}, _of_code(code))
+            yield _row("code", None, {"of": of, "number": code.number}, _of_code(code, language))
     for frame in device.frames:
         bytes_of = {"bytes": frame.printed.hex(" "), "direction": frame.direction}
         yield _row("frame", frame.source.line, bytes_of, _of_frame(frame))
     for command in device.commands:
-        yield _row("command", command.source.line, {"name": command.name}, _of_command(command))
+        yield _row("command", command.source.line, {"name": command.name}, _of_command(command, language))
     for message in device.messages:
-        yield _row("message", message.source.line, {"name": message.name}, _of_message(message))
+        yield _row("message", message.source.line, {"name": message.name}, _of_message(message, language))
     for telegram in device.telegrams:
-        yield _row("telegram", telegram.source.line, {"name": telegram.name}, _of_telegram(telegram))
+        yield _row("telegram", telegram.source.line, {"name": telegram.name}, _of_telegram(telegram, language))
     for what, value in _of_bus(device).items():
         yield _row("bus", None, {"what": what}, {"value": value})
 
@@ -60,10 +61,10 @@ def _is_nothing(value: object) -> bool:
 # What is no point
 
 
-def _of_code(code: Code) -> Facts:
+def _of_code(code: Code, language: str) -> Facts:
     return {
         "name": code.name,
-        "title": code.title.get("de"),
+        "title": code.title.get(language),
         "most": code.most,
         "unicast_only": code.broadcast is False,
         "answers": list(code.answers),
@@ -83,9 +84,9 @@ def _of_frame(frame: Frame) -> Facts:
     }
 
 
-def _of_command(command: Command) -> Facts:
+def _of_command(command: Command, language: str) -> Facts:
     return {
-        "title": command.title.get("de"),
+        "title": command.title.get(language),
         "space": command.space,
         "address": command.address,
         "function": command.function,
@@ -95,9 +96,9 @@ def _of_command(command: Command) -> Facts:
     }
 
 
-def _of_message(message: Message) -> Facts:
+def _of_message(message: Message, language: str) -> Facts:
     return {
-        "title": message.title.get("de"),
+        "title": message.title.get(language),
         "direction": message.direction,
         "answers": message.answers,
         "can_id": message.identifier,
@@ -106,9 +107,9 @@ def _of_message(message: Message) -> Facts:
     }
 
 
-def _of_telegram(telegram: Telegram) -> Facts:
+def _of_telegram(telegram: Telegram, language: str) -> Facts:
     return {
-        "title": telegram.title.get("de"),
+        "title": telegram.title.get(language),
         "direction": telegram.direction,
         "words": telegram.words,
         "message": telegram.message,

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from fieldscribe.model import Bound, Entry, Enum, Factor, Flag, Linear, Point, Special
+from fieldscribe.wording import condition_text
 
 Facts = dict[str, Any]
 
@@ -31,12 +32,12 @@ def span(high: int, low: int) -> str:
     return str(low) if high == low else f"{high}..{low}"
 
 
-def of_point(point: Point, codes: Mapping[str, str]) -> Facts:
+def of_point(point: Point, codes: Mapping[str, str], language: str) -> Facts:
     return {
         "code": point.code,
         "name": point.name,
-        "title": point.title.get("de"),
-        "type": point.type if point.untyped is None else point.untyped,
+        "title": point.title.get(language),
+        "type": point.shape.wire_type if point.untyped is None else point.untyped,
         "words": list(point.addresses),
         "write_at": [list(place.addresses) for place in point.places[1:]],
         "access": point.access,
@@ -45,20 +46,20 @@ def of_point(point: Point, codes: Mapping[str, str]) -> Facts:
         "range": _ranges(point, codes),
         "default": None if point.default is None else str(point.default),
         "steps": [list(one) for one in point.steps],
-        **_names(point),
+        **_names(point, language),
         "characters": point.text.characters if point.text else None,
         **_around(point),
     }
 
 
-def _names(point: Point) -> Facts:
+def _names(point: Point, language: str) -> Facts:
     enum = enum_of(point)
     return {
-        "enum": enum and (enum.name if len(enum.entries) > LONG else entries_of(enum.entries)),
+        "enum": enum and (enum.name if len(enum.entries) > LONG else entries_of(enum.entries, language)),
         "open": enum is not None and not enum.closed,
         "digits": point.digits.count if point.digits else None,
-        "flags": {span(one.low + one.width - 1, one.low): _flag(one) for one in point.flags},
-        "special": {span(one.high, one.low): _special(one) for one in point.specials},
+        "flags": {span(one.low + one.width - 1, one.low): _flag(one, language) for one in point.flags},
+        "special": {span(one.high, one.low): _special(one, language) for one in point.specials},
         "fixed": _fixed(point),
     }
 
@@ -73,7 +74,7 @@ def _around(point: Point) -> Facts:
         "changes_with": list(point.changes_with),
         "keeps": point.keeps,
         "conditions": list(point.conditions),
-        "when": None if point.when is None else str(point.when),
+        "when": condition_text(point.when),
         "since": [one for one in (point.since, point.until) if one is not None],
         "reserved": point.reserved,
         "documented_only": not point.generated,
@@ -84,21 +85,22 @@ def enum_of(point: Point) -> Enum | None:
     return point.digits.enum if point.digits else point.enum
 
 
-def entries_of(entries: Iterable[Entry]) -> Facts:
-    return {str(one.raw): [*_names_of(one), *([one.quantity] if one.quantity else [])] for one in entries}
+def entries_of(entries: Iterable[Entry], language: str) -> Facts:
+    return {str(one.raw): [*_names_of(one, language), *([one.quantity] if one.quantity else [])] for one in entries}
 
 
-def _names_of(one: Entry | Flag | Special) -> list[str | None]:
-    return [one.name, one.title.get("de")]
+def _names_of(one: Entry | Flag | Special, language: str) -> list[str | None]:
+    return [one.name, one.title.get(language)]
 
 
-def _flag(flag: Flag) -> list[Any]:
-    return [*_names_of(flag), entries_of(flag.values) or flag.active, *([] if flag.active else ["active at 0"])]
+def _flag(flag: Flag, language: str) -> list[Any]:
+    meaning = entries_of(flag.values, language) or flag.active
+    return [*_names_of(flag, language), meaning, *([] if flag.active else ["active at 0"])]
 
 
-def _special(special: Special) -> list[Any]:
+def _special(special: Special, language: str) -> list[Any]:
     told = {"no value": special.no_value, "writable": special.writable}
-    return [*_names_of(special), *(word for word, holds in told.items() if holds)]
+    return [*_names_of(special, language), *(word for word, holds in told.items() if holds)]
 
 
 def _fixed(point: Point) -> Facts:

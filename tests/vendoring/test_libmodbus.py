@@ -17,7 +17,7 @@ from support.loaded_once import load_device
 from support.places import ROOT
 from support.toolchains import libmodbus, succeed, tool
 
-DEVICES = ("hitachi_l200", "jumo_controller", "nord_sk5xxe")
+DEVICES = ("eastron_sdm630", "hitachi_l200", "jumo_controller", "nord_sk5xxe")
 PAGE = ROOT / "descriptions/using/c-libmodbus.md"
 CALLS = """
 #include <stdio.h>

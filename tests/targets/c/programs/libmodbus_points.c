@@ -1,6 +1,7 @@
 /* Reads each point of a server, writes those that may be written and reads them back: `points.inc` has the tables. */
 #define _POSIX_C_SOURCE 200112L
 #define FIELDSCRIBE_IMPLEMENTATION
+#include "eastron_sdm630_modbus.h"
 #include "hitachi_l200_modbus.h"
 #include "jumo_controller_modbus.h"
 #include "nord_sk5xxe_modbus.h"
