@@ -73,7 +73,8 @@ class Point:
         if last:
             start, end = number(first), number(last)
             return list(range(start, end + 1)) if start <= end else list(range(start, end - 1, -1))
-        count = int(self.row["characters"]) // 2 if self.type == "text" else -(-_width_of(self.type) // 16)
+        held = int(self.row.get("per_word", "2")) if self.type == "text" else 16
+        count = -(-int(self.row["characters"] if self.type == "text" else _width_of(self.type)) // held)
         if self.device.family == "uss" and self.row["space"] == "parameter":
             return [number(first)]
         ascending = list(range(number(first), number(first) + count))

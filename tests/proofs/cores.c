@@ -249,6 +249,13 @@ void prove_text(void)
     }
     (void)fieldscribe_is_printable(a_u8, coin != 0U);
     (void)fieldscribe_text_of_words(words, TEXT, text);
+    for (length = 0U; length <= sizeof given; ++length) {
+        status = fieldscribe_packed_words_of_text(given, length, coin != 0U, words, TEXT, 1U, coin != 0U, a_u8);
+        status = fieldscribe_packed_words_of_text(given, length, coin != 0U, words, 2U * TEXT - 1U, 2U, coin != 0U, a_u8);
+    }
+    (void)fieldscribe_packed_shift(TEXT, 2U, coin != 0U);
+    (void)fieldscribe_packed_text_of_words(words, TEXT, 1U, coin != 0U, a_u8, text);
+    (void)fieldscribe_packed_text_of_words(words, 2U * TEXT - 1U, 2U, coin != 0U, a_u8, text);
     (void)status;
 }
 

@@ -23,34 +23,68 @@ _WRITABLE = {"ascii": _ASCII, "latin-1": _ASCII | frozenset(range(0xA0, 0x100))}
 
 
 class Text(Form[str, str]):
-    """Characters, two in a word, padded with spaces; the raw number is all words, the first one highest."""
+    """Characters in words; the raw number is all words, the first one highest.
 
-    def __init__(self, characters: int, encoding: str = "ascii") -> None:
+    A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. Blanks fill the
+    text up, or zeros (`padding`), the first of which ends it.
+    """
+
+    def __init__(
+        self,
+        characters: int,
+        encoding: str = "ascii",
+        *,
+        per_word: int = 2,
+        padding: int = 0x20,
+        low_first: bool = False,
+    ) -> None:
         self.characters = characters
         self.encoding = encoding
-        self.wire = Type(8 * characters)
+        self.per_word = per_word
+        self.padding = padding
+        self.low_first = low_first
+        self.wire = Type(16 * -(-characters // per_word))
         self._writable = _WRITABLE[encoding]
 
     def decode(self, raw: int, raws: Raws) -> str:
         """Return the characters without the spaces behind them; each byte is one, whatever it is."""
-        data = raw.to_bytes(self.characters, "big")
-        return data.rstrip(b" ").decode("latin-1")
+        return self._codes(raw).rstrip(b" ").decode("latin-1")
 
     def converted(self, value: str, raws: Raws) -> int | None:
         """Return the words of a text that fits and has only printable characters."""
         if not isinstance(value, str) or len(value) > self.characters:
             return None
         try:
-            data = value.ljust(self.characters).encode("latin-1")
+            codes = value.rstrip(" ").encode("latin-1")
         except UnicodeEncodeError:
             return None
-        return int.from_bytes(data, "big") if self._writable.issuperset(data) else None
+        if not self._writable.issuperset(codes):
+            return None
+        size = self.wire.bits // 8
+        data = bytearray(size)
+        step = 3 - self.per_word
+        data[step - 1 :: step] = codes.ljust(size // step, bytes((self.padding,)))
+        return int.from_bytes(self._in_order(data), "big")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """Return the same words if they hold only printable characters."""
         if not 0 <= raw < 1 << self.wire.bits:
             return None
-        return raw if self._writable.issuperset(raw.to_bytes(self.characters, "big")) else None
+        return raw if self._writable.issuperset(self._codes(raw)) else None
+
+    def _codes(self, raw: int) -> bytes:
+        """Return the characters up to the padding of zeros."""
+        data = self._in_order(raw.to_bytes(self.wire.bits // 8, "big"))
+        step = 3 - self.per_word
+        codes = data[step - 1 :: step][: self.characters]
+        return codes if self.padding else codes.partition(b"\0")[0]
+
+    def _in_order(self, data: bytes | bytearray) -> bytes:
+        """Return the bytes, those of each word swapped where the low one comes first."""
+        ordered = bytearray(data)
+        if self.low_first:
+            ordered[::2], ordered[1::2] = data[1::2], data[::2]
+        return bytes(ordered)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """There is none: raises WrongTypeError."""

@@ -11,6 +11,7 @@ from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.exact import float_of, pattern_of
+from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure
 from fieldscribe.families.frame_results import Bits, bits_label
@@ -85,8 +86,8 @@ class Meanings:
 
 def _naming(point: Point) -> Callable[[int], Meaning] | None:
     """Return the function that names the raw numbers of a point; None if they are quantities."""
-    if point.text is not None:
-        return lambda raw: Meaning(quoted_text(text_of(raw, point.words)), text_of(raw, point.words))
+    if (layout := point.text) is not None:
+        return lambda raw: Meaning(quoted_text(text_of(layout, raw)), text_of(layout, raw))
     if point.enum is not None:
         entries = {entry.raw: wording.entry_meaning(entry) for entry in reversed(point.enum.entries)}
         number = partial(_float_text, point) if point.shape.patterns else str
@@ -181,11 +182,6 @@ def raw_form(point: Point) -> Callable[[int], str]:
     digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
     form = f"raw %d = %0{digits}Xh"
     return lambda raw: form % (raw, raw & mask)
-
-
-def text_of(pattern: int, words: int) -> str:
-    """Return the text in words as an instrument shows it, without padding; each byte is one character."""
-    return pattern.to_bytes(2 * words, "big").rstrip(b" ").decode("latin-1")
 
 
 def quoted_text(text: str) -> str:

@@ -11,6 +11,7 @@ from fractions import Fraction
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.texts import pattern_of_text
 from fieldscribe.arithmetic.words import mask_of, with_fixed
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
@@ -250,4 +251,4 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     if len(typed) > layout.characters:
         message = f"{label(point)} has {layout.characters} characters, here are {len(typed)}"
         raise RefusedError("out_of_range", message)
-    return int.from_bytes(typed.ljust(layout.characters).encode("latin-1"), "big")
+    return pattern_of_text(layout, typed)

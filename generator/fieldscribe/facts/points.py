@@ -116,6 +116,13 @@ DIGITS: FactTable = (
     ),
 )
 
+LAYOUT: FactTable = (
+    Fact("characters", "How many there are.", COUNT),
+    Fact("per_word", "How many stand in a word; a single one in its low byte.", COUNT),
+    Fact("padding", "The byte that fills the text up; a 0 ends it.", COUNT),
+    Fact("low_first", "True if the bytes of each word are swapped.", BOOLEAN),
+)
+
 _REFERENCES = (
     "What the manual prints for people, by numbering (`modicon`, ...).",
     map_of({"type": ["integer", "string"]}),
@@ -497,12 +504,24 @@ POINT: FactTable = (
     ),
     Fact(
         "encoding",
-        "The encoding of a text; two characters stand in a word.",
+        "The encoding of a text.",
         TEXT_OR_NULL,
         WIRE,
         shared="shape",
         value=lambda point, _: None if point.text is None else point.text.encoding,
         follows=("type",),
+    ),
+    Fact(
+        "layout",
+        "How the characters of a text stand in words; null if each word has two, the first in the high byte, and "
+        "blanks fill the text up.",
+        null_or(ref("layout")),
+        WIRE,
+        shared="shape",
+        table=LAYOUT,
+        value=lambda point, _: None if point.text is None or point.text.is_plain else point.text,
+        follows=("type",),
+        yaml=("characters", "per_word", "padding", "bytes"),
     ),
     Fact(
         "persistence",

@@ -91,10 +91,27 @@ class Special:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A text: two characters in each word, the first in the high byte of the first word, padded with spaces."""
+    """How the characters of a text stand in words, the first one in the first word.
+
+    A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. `padding` fills the
+    rest: a blank, or a 0, which ends the text.
+    """
 
     characters: int
     encoding: str
+    per_word: int = 2
+    padding: int = 0x20
+    low_first: bool = False
+
+    @property
+    def words(self) -> int:
+        """Return how many words the text takes."""
+        return -(-self.characters // self.per_word)
+
+    @property
+    def is_plain(self) -> bool:
+        """Return True for whole words of two characters, the first in the high byte, filled with blanks."""
+        return self == Text(2 * self.words, self.encoding)
 
 
 @dataclass(frozen=True, slots=True)

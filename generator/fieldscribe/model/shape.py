@@ -57,7 +57,7 @@ class Shape:
     @cached_property
     def words(self) -> int:
         """Return how many 16-bit words (or single bits) a point takes; a bit group lies in one word."""
-        return -(-self.width // 16) if self.text is None else self.text.characters // 2
+        return -(-self.width // 16) if self.text is None else self.text.words
 
     @cached_property
     def wire_type(self) -> str:

@@ -20,6 +20,7 @@ from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
+from fieldscribe.resolve.word_contents import layout_of
 from fieldscribe.wording.exact import number_text
 
 WIRE = "wire"
@@ -182,8 +183,8 @@ class Places:
 
         Raises FactError.
         """
-        characters: int | None = facts.get("characters")
-        if characters is None or "characters" in facts.failed:
+        layout = layout_of(self.scope, facts)
+        if not layout.characters or "characters" in facts.failed:
             raise FactError
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
         if dots:
@@ -194,10 +195,11 @@ class Places:
             words = tuple(range(first, final + step, step))
         else:
             first = self._address(facts, raw, key)
-            words = tuple(range(first, first + characters // 2))
-        if 2 * len(words) != characters:
-            message = f"{len(words)} words hold {2 * len(words)} characters, not {characters}"
-            hint = f"two characters stand in a word: correct `{key}` or `characters`"
+            words = tuple(range(first, first + layout.words))
+        if len(words) != layout.words:
+            message = f"{len(words)} words hold {layout.per_word * len(words)} characters, not {layout.characters}"
+            stand = "two characters stand" if layout.per_word > 1 else "one character stands"
+            hint = f"{stand} in a word: correct `{key}` or `characters`"
             raise FactError("text-length", message, facts.span(key), hint)
         return words
 

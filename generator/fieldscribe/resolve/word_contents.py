@@ -20,7 +20,7 @@ from fieldscribe.schema_types import TEXTS
 from fieldscribe.wording.exact import number_text
 
 WORD_BITS = 16
-_MOST_CHARACTERS = 250
+_MOST_WORDS = 125
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
 _OF_TEXTS = facts_of(POINT, TEXTS)
@@ -136,26 +136,38 @@ def text_of(scope: Scope, facts: PointFacts) -> Text | None:
     """Return the layout of a text; None for another type, or after a finding."""
     if not facts.text:
         for key in _OF_TEXTS:
-            if facts.get(key) is not None and "type" not in facts.failed:
+            inherited = facts.layer(key) is facts.group
+            if facts.get(key) is not None and not inherited and "type" not in facts.failed:
                 hint = "add `type: text`, or leave it out"
                 scope.report.error("text-fact", f"`{key}` is for texts", facts.span(key), hint)
         return None
-    characters: int | None = facts.get("characters")
-    if characters is not None and characters % 2 == 0 and characters <= _MOST_CHARACTERS:
-        return Text(characters, str(facts.get("encoding", _DEFAULT_ENCODING)))
-    if characters is None and "characters" not in facts.failed:
-        message, hint = f"`{facts.name}` does not say how long the text is", "add `characters: …`, two for each word"
+    layout, span = layout_of(scope, facts), facts.span("characters")
+    if "characters" in facts.failed:
+        return None
+    if facts.get("characters") is None:
+        message, hint = f"`{facts.name}` does not say how long the text is", "add `characters: …`"
         scope.report.error("missing-key", message, facts.span("type"), hint)
-    elif characters is not None and characters % 2:
-        message = f"{characters} characters leave half a word"
-        hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"
-        scope.report.error("text-length", message, facts.span("characters"), hint)
-    elif characters is not None:
-        message = f"{characters} characters are more than 125 words hold, the most that travel at once"
-        hint = f"make it several texts of at most {_MOST_CHARACTERS} characters"
-        scope.report.error("text-length", message, facts.span("characters"), hint)
+    elif layout.words <= _MOST_WORDS:
+        return layout
+    else:
+        message = f"{layout.characters} characters are more than {_MOST_WORDS} words hold, the most that travel at once"
+        hint = f"make it several texts of at most {_MOST_WORDS * layout.per_word} characters"
+        scope.report.error("text-length", message, span, hint)
     facts.failed.add("characters")
     return None
+
+
+def layout_of(scope: Scope, facts: PointFacts) -> Text:
+    """Return how the characters of a text stand in words: by its own facts, its group, or `types` of group or device.
+
+    Without `characters` it has none.
+    """
+    holders = [holder.get("types", {}).get("text", {}) for holder in (facts.group, scope.header)]
+    found = {key: value for holder in reversed(holders) for key, value in holder.items()}
+    found |= {key: facts.get(key) for key in ("bytes", *_OF_TEXTS) if facts.get(key) is not None}
+    padding, low_first = int(found.get("padding", "20h")[:2], 16), found.get("bytes") == "low first"
+    encoding, per_word = str(found.get("encoding", _DEFAULT_ENCODING)), int(found.get("per_word", 2))
+    return Text(found.get("characters", 0), encoding, per_word, padding, low_first)
 
 
 def digits_of(scope: Scope, facts: PointFacts) -> Digits | None:

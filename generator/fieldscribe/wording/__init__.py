@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from fieldscribe.arithmetic.exact import SAME
-from fieldscribe.model import Base, Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Titles
-from fieldscribe.text import line
+from fieldscribe.model import Base, Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Text, Titles
+from fieldscribe.text import counted, line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
 from fieldscribe.wording.rules import clause_text as clause_text
@@ -95,10 +95,18 @@ def type_text(point: Point) -> str:
     if point.untyped is not None:
         return point.untyped or "not settled by the manual"
     if point.text is not None:
-        return f"text, {point.text.characters} characters, {point.text.encoding}"
+        return f"text, {characters_text(point.text)}"
     if point.digits is not None:
         return f"{point.type}, {point.digits.count} decimal digits"
     return point.shape.wire_type if point.bits is None else f"{point.type}, {_bits_text(*point.bits)}"
+
+
+def characters_text(layout: Text) -> str:
+    """Return what a text holds: `16 characters, ascii`, and how they stand in words if that is not usual."""
+    usual, single = layout.per_word > 1, "one in the high byte" if layout.low_first else "one in the low byte"
+    order = ("low byte first" if layout.low_first else "") if usual else f"{single} of each word"
+    fill = "" if layout.padding else "filled with 00h"
+    return ", ".join(filter(None, (counted(layout.characters, "character"), layout.encoding, order, fill)))
 
 
 def _bits_text(high: int, low: int) -> str:

@@ -1199,6 +1199,63 @@ static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t cou
     return length;
 }
 
+/*
+ * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one the low
+ * byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; where it is 0 the first one ends it.
+ */
+static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool low_first)
+{
+    const bool is_low = (in_word == 1U) || ((at % 2U) != 0U);
+    return (is_low == low_first) ? 8U : 0U;
+}
+
+/* Store a text, fill up, and put a 0 beside a single character. Blanks at the end are not part of the text. */
+FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t length, bool latin, uint16_t *words,
+    size_t most, size_t in_word, bool low_first, unsigned char fill)
+{
+    const unsigned char *const codes = (const unsigned char *)text;
+    size_t end = length;
+    size_t at;
+    if (length > most) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    for (at = 0U; at < length; ++at) {
+        if (!fieldscribe_is_printable(codes[at], latin)) {
+            return FIELDSCRIBE_OUT_OF_RANGE;
+        }
+    }
+    while ((end > 0U) && (codes[end - 1U] == 0x20U)) {
+        --end;
+    }
+    for (at = 0U; at < (most + (most % in_word)); ++at) {
+        const uint32_t code = (uint32_t)((at < end) ? codes[at] : fill) << fieldscribe_packed_shift(at, in_word, low_first);
+        const uint32_t other = ((at % in_word) == 0U) ? 0U : words[at / in_word];
+        words[at / in_word] = (uint16_t)(other | code);
+    }
+    return FIELDSCRIBE_OK;
+}
+
+/* The characters up to the fill, without the blanks at the end, and a 0 behind them; returns how many there are. */
+static inline size_t fieldscribe_packed_text_of_words(
+    const uint16_t *words, size_t most, size_t in_word, bool low_first, unsigned char fill, char *text)
+{
+    unsigned char *const codes = (unsigned char *)text;
+    size_t length = 0U;
+    while (length < most) {
+        const uint32_t shift = fieldscribe_packed_shift(length, in_word, low_first);
+        codes[length] = (unsigned char)(((uint32_t)words[length / in_word] >> shift) & 0xFFU);
+        if ((fill == 0U) && (codes[length] == 0U)) {
+            break;
+        }
+        ++length;
+    }
+    while ((length > 0U) && (text[length - 1U] == ' ')) {
+        --length;
+    }
+    text[length] = '\0';
+    return length;
+}
+
 /* ---- Floating-point patterns ---- */
 
 /* The rank of a bit pattern among all numbers; negative numbers have ranks below 0. */

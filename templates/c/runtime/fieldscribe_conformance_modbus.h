@@ -222,6 +222,12 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
         #item, group.item##_count == device##_##item##_decode_count((raw_type)fieldscribe_bits(v, "raw")))
 #define FIELDSCRIBE_MEMBER_TEXT(item)                                                            \
     FIELDSCRIBE_MEMBER(#item, fieldscribe_is_text_of(group.item##_text, words, what->count))
+#define FIELDSCRIBE_MEMBER_PACKED(device, item)                                                  \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), #item)) {                             \
+        char text[sizeof group.item##_text];                                                     \
+        (void)device##_##item##_decode(words, text);                                             \
+        fieldscribe_agree(v, strcmp(text, group.item##_text) == 0);                              \
+    }
 
 /* A character of words that hold two each, the first in the high byte. */
 static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)

@@ -125,6 +125,7 @@ macro_rules! point {
     (@data ruled $value:ty) => { $crate::data::Form::Ruled($crate::data::ruled::<Self>) };
     (@data floating $value:ty) => { $crate::data::Form::Floating };
     (@data text $value:ty) => { $crate::data::Form::Text };
+    (@data packed $value:ty) => { $crate::data::Form::Text };
     (@data $form:ident $value:ty) => { $crate::data::Form::Plain };
 
     (@coded $codes:tt) => { &<Self as $crate::Coded>::CODES };
@@ -257,6 +258,11 @@ macro_rules! point {
             fn rule($with: Self::Factors) -> Result<$crate::Rule, $crate::Error> {
                 $rule
             }
+        }
+    };
+    (@form packed $name:ident $kind:ident $reach:tt ($($layout:literal),+)) => {
+        impl $crate::form::packed::Packed for $name {
+            const LAYOUT: $crate::text::Layout = $crate::text::Layout::new($($layout),+);
         }
     };
     (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};

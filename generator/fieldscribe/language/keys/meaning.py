@@ -23,6 +23,7 @@ from fieldscribe.schema_types import (
 )
 
 _GROUPED = Places(GROUP, *FACTS, inherited=(GROUP,))
+_OF_TEXTS = Places(GROUP, *FACTS, places.OF_TEXTS, inherited=(GROUP,))
 
 KEYS = (
     Key(
@@ -51,6 +52,14 @@ KEYS = (
         Whole(1, 125),
     ),
     Key("words", _GROUPED, "The order of the words of a value that has several.", ["low first"], WORD_ORDER),
+    Key(
+        "bytes",
+        _OF_TEXTS,
+        "The order of the bytes in a word: low first if the first character of a text stands in the low byte.",
+        ["low first"],
+        WORD_ORDER,
+        of=TEXTS,
+    ),
     Key(
         "range",
         Places(GROUP, *FACTS, places.PRINTED, inherited=(GROUP,)),
@@ -129,16 +138,31 @@ KEYS = (
         by(forms.BITS, places.FLAG.shape, least=1),
         of=WHOLE_NUMBERS,
     ),
+    Key("characters", FACTS, "The number of characters of a text, at most 250.", [16], Whole(1), of=TEXTS),
     Key(
-        "characters",
-        FACTS,
-        "The number of characters of a text: two in each word, at most 250.",
-        [16],
-        Whole(2),
+        "encoding",
+        _OF_TEXTS,
+        "The encoding of a text; ascii by default.",
+        ["ascii"],
+        one_of("ascii", "latin-1"),
         of=TEXTS,
     ),
     Key(
-        "encoding", FACTS, "The encoding of a text; ascii by default.", ["ascii"], one_of("ascii", "latin-1"), of=TEXTS
+        "per_word",
+        _OF_TEXTS,
+        "How many characters of a text stand in a word: 2, or 1 in the low byte beside a 00h.",
+        [1],
+        Whole(1, 2),
+        of=TEXTS,
+    ),
+    Key(
+        "padding",
+        _OF_TEXTS,
+        "What fills the rest of a text: blanks (20h, by default), or 00h, the first of which ends it. Blanks at the "
+        "end are no part of a text that is read.",
+        ["00h"],
+        one_of("20h", "00h"),
+        of=TEXTS,
     ),
     Key("digits", FACTS, places.DIGITS.shape, of=WHOLE_NUMBERS),
     Key("fixed", FACTS, places.FIXED.shape, of=WHOLE_NUMBERS),

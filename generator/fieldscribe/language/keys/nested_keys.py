@@ -37,6 +37,7 @@ KEYS = (
     Key("no_value", places.SPECIAL_CODE, "The code means that there is no value.", ["yes"], *YES_NO),
     Key("writable", places.SPECIAL_CODE, "The code may be written; by default it is only read.", ["yes"], *YES_NO),
     *(Key(name, places.TYPES, places.OF_TYPE.shape) for name in TYPES if name not in ("bit", "text")),
+    Key("text", places.TYPES, places.OF_TEXTS.shape),
     Key("active", places.FLAG, "The value of the bit that makes the name true; 0 for an inverted bit.", [0], _ONE_BIT),
     Key("zero", places.FLAG, "What 0 means, in words.", [{"en": "not ready"}], *in_words("nicht bereit")),
     Key("one", places.FLAG, "What 1 means, in words.", [{"en": "ready"}], *in_words("bereit")),

@@ -156,6 +156,13 @@ OF_TYPE = Place(
     [{"special": {"7FFFh": "fault"}}],
     least=1,
 )
+OF_TEXTS = Place(
+    "of_texts",
+    "What holds for all texts",
+    "Facts that all texts share.",
+    [{"encoding": "latin-1", "padding": "00h"}],
+    least=1,
+)
 FLAG = Place(
     "flag",
     "A flag",
@@ -276,7 +283,22 @@ CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
 
 PLACES = (
     *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, DISPLAY, RECORD, CASE),
-    *(ENTRY, SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
+    *(
+        ENTRY,
+        SPECIAL_CODE,
+        TYPES,
+        OF_TYPE,
+        OF_TEXTS,
+        FLAG,
+        PRINTED,
+        SOURCE,
+        LINES,
+        LOOKED_THROUGH,
+        BUS,
+        CODE,
+        TELEGRAM,
+        MESSAGE,
+    ),
     *(COMMAND, FRAME, ERRATUM),
 )
 """The places that have a table in KEYS.md, in its order."""

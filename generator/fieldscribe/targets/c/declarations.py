@@ -66,7 +66,7 @@ def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
 def range_words(point: Point) -> str:
     """Return the range in the unit, or in raw numbers where values cannot be given."""
     if point.text is not None:
-        return f"{point.text.characters} characters, {point.text.encoding}"
+        return wording.characters_text(point.text)
     if point.digits is not None:
         return f"{point.digits.count} digits, the highest first"
     units = wording.range_text(point)

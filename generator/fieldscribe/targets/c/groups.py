@@ -108,7 +108,7 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
     for point, view, _ in (each for part in values.parts for each in part.points):
         item, kind = point.item, raw_type(point)
         if point.text is not None:
-            yield f"MEMBER_TEXT({item})"
+            yield f"MEMBER_TEXT({item})" if point.text.is_plain else f"MEMBER_PACKED({scope.prefix}, {item})"
         elif _is_plainly_counted(point, view):
             yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})"
         else:

@@ -16,13 +16,17 @@ from fieldscribe.targets.c.views import SpecialView
 def text_functions(point: Point, name: str) -> Iterator[Function]:
     """Yield the conversions of a text."""
     assert point.text is not None
-    words = f"uint16_t words[{point.words}]"
-    latin = "true" if point.text.encoding == "latin-1" else "false"
+    layout, words = point.text, f"uint16_t words[{point.words}]"
+    latin = "true" if layout.encoding == "latin-1" else "false"
+    start, count = "fieldscribe", f"{point.words}U"
+    if not layout.is_plain:
+        low_first = "true" if layout.low_first else "false"
+        start, count = "fieldscribe_packed", f"{layout.characters}U, {layout.per_word}U, {low_first}, {layout.padding}U"
     if point.writable:
-        body = f"return fieldscribe_words_of_text(text, length, {latin}, words, {point.words}U);"
+        body = f"return {start}_words_of_text(text, length, {latin}, words, {count});"
         yield function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body)
     if point.readable:
-        body = f"return fieldscribe_text_of_words(words, {point.words}U, text);"
+        body = f"return {start}_text_of_words(words, {count}, text);"
         parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
         yield function(f"{INLINE} size_t", f"{name}_decode", parameters, body)
 

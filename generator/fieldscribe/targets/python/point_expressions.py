@@ -61,8 +61,11 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     if point.form == "bit":
         return f"{kind}()"
     if point.text is not None:
-        encoding = () if point.text.encoding == "ascii" else (python_string(point.text.encoding),)
-        return call(kind, (str(point.text.characters), *encoding))
+        layout = point.text
+        encoding = [] if layout.encoding == "ascii" else [python_string(layout.encoding)]
+        others = [("per_word=1", layout.per_word == 1), ("padding=0", not layout.padding)]
+        others.append(("low_first=True", layout.low_first))
+        return call(kind, (str(layout.characters), *encoding, *(text for text, differs in others if differs)))
     arguments: list[Node] = [_wire(point, scope)]
     if named:
         scope.runtime("enums")

@@ -112,7 +112,8 @@ def _around_address(point: Point) -> tuple[str, str]:
 def _size(point: Point) -> str:
     """Return how much a text or a word of digits holds; empty for numbers."""
     if point.form == "text" and point.text is not None:
-        return f"{point.text.characters} characters of {rust_code(point.text.encoding)}"
+        count, encoding, *others = wording.characters_text(point.text).split(", ")
+        return ", ".join((f"{count} of {rust_code(encoding)}", *others))
     if point.form == "digits" and point.digits is not None:
         return f"{point.digits.count} decimal digits"
     return ""

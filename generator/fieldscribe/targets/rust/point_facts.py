@@ -53,7 +53,7 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     elif point.form == "float":
         yield from ((ranges,) for ranges in _float_ranges(point))
     elif point.form == "text" and point.text is not None and point.text.encoding == "ascii":
-        yield ("check runtime::form::text::ascii::<Self>;",)
+        yield (f"check runtime::form::{'text' if point.text.is_plain else 'packed'}::ascii::<Self>;",)
     elif point.form == "digits" and point.digits is not None:
         yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
     elif point.form != "text" and len(ranges := point.allowed.fixed) > 1:

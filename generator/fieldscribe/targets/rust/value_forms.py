@@ -9,7 +9,7 @@ from itertools import groupby, takewhile
 from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits
 from fieldscribe.lowered import Lowered, Operand, Rule
-from fieldscribe.model import Limit, Linear, Point, ScaleCase
+from fieldscribe.model import Limit, Linear, Point, ScaleCase, Text
 from fieldscribe.resources import Render
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
@@ -70,7 +70,15 @@ def _form(subject: CratePoint) -> tuple[str, str]:
         return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
     if subject.enum is not None:
         return "named", subject.carried
+    if point.text is not None and not point.text.is_plain:
+        return "packed", _layout(point.text)
     return {"float": "floating", "text": "text", "flags": "flags"}.get(point.form, "plain"), ""
+
+
+def _layout(text: Text) -> str:
+    """Return the layout of a text in other words than plain ones."""
+    padding, low_first = f"0x{text.padding:02X}", "true" if text.low_first else "false"
+    return f"{text.characters}, {text.per_word}, {padding}, {low_first}"
 
 
 def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:

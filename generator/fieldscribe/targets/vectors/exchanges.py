@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, Protocol
 
+from fieldscribe.arithmetic.words import joined
 from fieldscribe.model import Code, Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
 from fieldscribe.targets.vectors.lines import Lines, script_text
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits_of, code_of, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings, ascending
+from fieldscribe.targets.vectors.texts import words_of_text
 
 Script = list[tuple[bytes, bytes]]
 """The requests of an exchange with their answers."""
@@ -164,7 +166,7 @@ def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -
     """Return a typical raw number to write: two thirds up the range, odd if possible; None if it has no limits."""
     shape = encoding.shape
     if shape.text is not None:
-        return int.from_bytes(bytes(0x41 + place % 26 for place in range(shape.text.characters)), "big")
+        return joined(words_of_text(shape.text, bytes(0x41 + place % 26 for place in range(shape.text.characters))))
     if shape.digits is not None:
         known = sorted(entry.raw for entry in shape.digits.enum.entries if entry.raw < 10)
         digits = [known[place % len(known)] for place in range(shape.digits.count)]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from math import inf, isfinite, nan
 from operator import mul
 
-from fieldscribe.model import Digits, Shape
+from fieldscribe.model import Digits, Shape, Text
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import (
@@ -28,9 +28,9 @@ def text(lines: Lines, shape: Shape) -> None:
     """Add vectors of a text: full, shorter, empty, too long, ending in blanks, with bytes that are no characters."""
     if shape.text is None:
         return
-    size = shape.text.characters
+    layout, size = shape.text, shape.text.characters
     alphabet = bytes(0x41 + place % 26 for place in range(size))
-    received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
+    received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B"[:size], bytes(range(size))]
     received += [
         b"\xff\x80\0"[:size].ljust(size),
         b"\0" * size,
@@ -38,17 +38,27 @@ def text(lines: Lines, shape: Shape) -> None:
     ]
     if shape.readable:
         for data in dict.fromkeys(received):
-            lines.add("text_decode", _words(data.ljust(size)), data.rstrip(b" "))
+            seen = data if layout.padding else data.split(b"\0")[0]
+            lines.add("text_decode", words_of_text(layout, data, 0x3F), seen.rstrip(b" "))
     if not shape.writable:
         return
     tried = [*received, alphabet + b"Z", alphabet + b" ", b" ~", b"\x7f", b"\x1f", b"A\0", b"\xe4", b"\xff"]
     for data in dict.fromkeys(tried):
-        good = len(data) <= size and _WRITABLE[shape.text.encoding].issuperset(data)
-        lines.add("text_encode", data, *(("ok", _words(data.ljust(size))) if good else ("out_of_range",)))
+        good = len(data) <= size and _WRITABLE[layout.encoding].issuperset(data)
+        lines.add(
+            "text_encode", data, *(("ok", words_of_text(layout, data.rstrip(b" "))) if good else ("out_of_range",))
+        )
 
 
-def _words(data: bytes) -> list[int]:
-    return [data[at] << 8 | data[at + 1] for at in range(0, len(data), 2)]
+def words_of_text(layout: Text, data: bytes, beside: int | None = None) -> list[int]:
+    """Return the words of a text, filled up; `beside` is in bytes that are no characters of it, None as is written."""
+    codes = [*data, *[layout.padding] * (layout.characters - len(data))]
+    if layout.per_word == 1:
+        pairs = [(beside or 0, code) for code in codes]
+    else:
+        codes += [layout.padding if beside is None else beside]
+        pairs = list(zip(codes[::2], codes[1::2], strict=False))
+    return [low << 8 | high if layout.low_first else high << 8 | low for high, low in pairs]
 
 
 def digits(lines: Lines, shape: Shape) -> None:

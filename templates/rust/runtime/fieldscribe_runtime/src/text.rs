@@ -56,12 +56,7 @@ impl<const N: usize> Text<N> {
     /// The text in words; what is more than `N` characters is not looked at.
     #[must_use]
     pub fn from_words(words: &[u16]) -> Self {
-        let mut found = Self::EMPTY;
-        let received = words.iter().flat_map(|word| word.to_be_bytes());
-        for (place, byte) in found.bytes.iter_mut().zip(received) {
-            *place = byte;
-        }
-        found.measured()
+        Self::collected(words.iter().flat_map(|word| word.to_be_bytes()))
     }
 
     /// The words of the text, filled up with blanks.
@@ -98,6 +93,14 @@ impl<const N: usize> Text<N> {
     /// The characters, those above `7Fh` as Latin-1 has them.
     pub fn chars(&self) -> impl Iterator<Item = char> + '_ {
         self.as_bytes().iter().copied().map(char::from)
+    }
+
+    pub(crate) fn collected(codes: impl Iterator<Item = u8>) -> Self {
+        let mut found = Self::EMPTY;
+        for (place, code) in found.bytes.iter_mut().zip(codes) {
+            *place = code;
+        }
+        found.measured()
     }
 
     fn measured(self) -> Self {
@@ -153,6 +156,58 @@ impl<const N: usize> fmt::Debug for Text<N> {
             write!(formatter, "{}", character.escape_debug())?;
         }
         write!(formatter, "\"")
+    }
+}
+
+/// How the characters of a text stand in words, where that is not two a word, the first in the high byte.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    characters: usize,
+    is_single: bool,
+    padding: u8,
+    is_low_first: bool,
+}
+
+impl Layout {
+    /// The layout of so many characters: one or two a word, filled up with blanks or with zeros, which end the text.
+    #[must_use]
+    pub const fn new(characters: usize, per_word: usize, padding: u8, is_low_first: bool) -> Self {
+        Self {
+            characters,
+            is_single: per_word == 1,
+            padding,
+            is_low_first,
+        }
+    }
+
+    /// The characters in words.
+    pub(crate) fn codes(self, words: &[u16]) -> impl Iterator<Item = u8> + '_ {
+        let codes = words.iter().flat_map(move |word| {
+            let bytes = if self.is_low_first {
+                word.to_le_bytes()
+            } else {
+                word.to_be_bytes()
+            };
+            bytes.into_iter().skip(usize::from(self.is_single))
+        });
+        codes
+            .take(self.characters)
+            .take_while(move |code| self.padding != 0 || *code != 0)
+    }
+
+    /// The words of characters, filled up.
+    pub(crate) fn words<const W: usize>(self, codes: &[u8]) -> [u16; W] {
+        let mut codes = codes.iter().copied();
+        let mut next = move || codes.next().unwrap_or(self.padding);
+        [0; W].map(|_: u16| {
+            let first = if self.is_single { 0 } else { next() };
+            let bytes = [first, next()];
+            if self.is_low_first {
+                u16::from_le_bytes(bytes)
+            } else {
+                u16::from_be_bytes(bytes)
+            }
+        })
     }
 }
 

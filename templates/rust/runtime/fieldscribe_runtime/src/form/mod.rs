@@ -5,6 +5,7 @@ pub mod digits;
 pub mod flags;
 pub mod floating;
 pub mod named;
+pub mod packed;
 pub mod plain;
 pub mod ruled;
 pub mod scaled;
