@@ -68,7 +68,7 @@ def test_true_and_false_are_yes_and_no(folder: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("facts", "message"),
     [
-        ("type: text, characters: 1h", "1 is out of bounds: at least 2"),
+        ("type: text, characters: 0h", "0 is out of bounds: at least 1"),
         ("digits: {count: 0Ah, enum: {0: a}}", "10 is out of bounds: 1 to 5"),
         ("flags: {0: {name: a, active: 2h}}", "2 is none of 0, 1"),
         ("untyped: wide, length: FFh", "255 is out of bounds: 1 to 125"),
