@@ -16,6 +16,7 @@ from .words import Field, Flag
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .facts import Facts
     from .points import Point
     from .rules import Bound
 
@@ -50,8 +51,7 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Special codes", f"{', '.join(point.special)} (as {name}.special.{next(iter(point.special))})"
     if isinstance(point, Encoding) and (text := _range(point)):
         yield "What may be written", text
-    if facts.conditions:
-        yield "To write it takes", ", ".join([condition.replace("_", " ") for condition in facts.conditions])
+    yield from _writing(facts)
     yield from _values(point, name)
     if facts.fixed is not None:
         yield "Bits that are always written", f"{facts.fixed[1]:04X}h in {facts.fixed[0]:04X}h"
@@ -62,6 +62,16 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Only for", f"{facts.only_for[0]} {' or '.join(facts.only_for[1])}"
     if facts.variant is not None:
         yield "Only for", " ".join(facts.variant)
+
+
+def _writing(facts: Facts) -> Iterator[tuple[str, str]]:
+    """Yield the lines on what a writer has to know."""
+    if facts.conditions:
+        yield "To write it takes", ", ".join([condition.replace("_", " ") for condition in facts.conditions])
+    if facts.takes_effect != "at once":
+        yield "A written value takes effect", facts.takes_effect
+    if facts.write_with:
+        yield "Written in one request with", ", ".join(facts.write_with)
 
 
 def _values(point: Point, name: str) -> Iterator[tuple[str, str]]:

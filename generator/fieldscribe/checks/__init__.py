@@ -27,6 +27,7 @@ CHECKS = (
     "write_addresses_are_used",
     "addresses_do_not_overlap",
     "views_share_words",
+    "points_are_written_together",
     "groups_use_what_they_say",
     "enums_fit_their_range",
     "fixed_bits_can_be_written",

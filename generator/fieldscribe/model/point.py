@@ -86,6 +86,8 @@ class Terms:
     place of a type: empty if it leaves the type open, None if there is a type. `view_of` names a point that has the
     same words. `certainty` says where the facts come from, None if it is the manual. `base` names what the addresses
     count from, None if that is 0; a point that repeats `to_end` exists where the found block is long enough.
+    `takes_effect` says when the device uses a written value, None if at once; `write_with` names the points that are
+    written in the same request.
     """
 
     group: str
@@ -109,6 +111,8 @@ class Terms:
     certainty: str | None = None
     base: str | None = None
     to_end: bool = False
+    takes_effect: str | None = None
+    write_with: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,6 +194,8 @@ class Point:
     certainty = _Shared(lambda point: point.terms.certainty)
     base = _Shared(lambda point: point.terms.base)
     to_end = _Shared(lambda point: point.terms.to_end)
+    takes_effect = _Shared(lambda point: point.terms.takes_effect)
+    write_with = _Shared(lambda point: point.terms.write_with)
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
     addresses = _Shared(lambda point: point.place.addresses)
     references = _Shared(lambda point: point.place.references)

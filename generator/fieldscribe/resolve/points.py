@@ -134,18 +134,21 @@ class _Points:
             generated=reason is None,
             reason=reason,
             telegram=facts.group.get("telegram") if encoding.space == SPACE else None,
-            changes_with=_changes_with(facts, self._scales.symbols),
+            changes_with=_other_points(facts, "changes_with", self._scales.symbols),
             untyped=_untyped(scope, facts),
             view_of=_view_of(facts, self._scales.symbols),
             certainty=_certainty(scope, facts),
             base=None if (base := scope.base_of(facts.group)) is None else base.name,
             to_end=facts.get("indices") == TO_END,
+            takes_effect=_takes_effect(facts) if shape.writable else None,
+            write_with=_other_points(facts, "write_with", self._scales.symbols),
         )
 
 
 def _are_general(terms: Terms) -> bool:
     """Return True if points of a kind share these terms: they name no other points, and are no part of a block."""
-    return terms.when is None and not terms.changes_with and terms.view_of is None and not terms.to_end
+    others = terms.changes_with or terms.view_of or terms.write_with
+    return terms.when is None and not others and not terms.to_end
 
 
 def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:
@@ -207,17 +210,23 @@ def _steps(scope: Scope, facts: PointFacts) -> tuple[tuple[int, int], ...]:
     return tuple(sorted(steps.items()))
 
 
-def _changes_with(facts: PointFacts, symbols: SymbolTable) -> tuple[str, ...]:
-    """Return the names of the points whose writing changes this one; report words that name none."""
-    words = facts.get("changes_with")
+def _takes_effect(facts: PointFacts) -> str | None:
+    """Return when the device uses a written value, None if at once."""
+    when = facts.get("takes_effect")
+    return None if when == "at once" else when
+
+
+def _other_points(facts: PointFacts, key: str, symbols: SymbolTable) -> tuple[str, ...]:
+    """Return the names of the points in a list; report words that name none, and the point itself."""
+    words = facts.get(key)
     names: dict[str, None] = {}
     for place, word in enumerate(words if words is not None else ()):
         used = symbols.all(word)
         if not used:
             symbols.unknown(word, words.span(place))
         if facts in used:
-            message = f"`{facts.name}` cannot change with itself"
-            symbols.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
+            message = f"`{facts.name}` cannot stand under its own `{key}`"
+            symbols.scope.report.error("two-meanings", message, words.span(place), "name other points")
         names.update(dict.fromkeys(writer.name for writer in used))
     return tuple(names)
 

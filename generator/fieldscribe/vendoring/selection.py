@@ -137,7 +137,7 @@ def _dependencies(point: Point) -> Iterator[str]:
     if point.when is not None:
         yield from point.when.names
     if point.writable:
-        yield from point.changes_with
+        yield from (*point.changes_with, *point.write_with)
 
 
 def _only_read(point: Point) -> Point:

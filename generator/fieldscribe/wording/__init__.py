@@ -199,6 +199,13 @@ def count_text(point: Point) -> str:
     return with_unit(exact(1, 10 ** (point.decimals or 0)), point)
 
 
+def write_texts(point: Point) -> tuple[str, ...]:
+    """Return what a writer has to know of a point: sentences without a full stop."""
+    effect = () if point.takes_effect is None else (f"a written value takes effect {point.takes_effect}",)
+    together = (f"write it in one request with {', '.join(point.write_with)}",) if point.write_with else ()
+    return effect + together
+
+
 def width_texts(point: Point) -> tuple[str, ...]:
     """Return what a scaled point lacks because its numbers are too wide: sentences without a full stop."""
     if point.form != "scaled" or not point.generated:

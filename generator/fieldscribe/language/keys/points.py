@@ -195,6 +195,20 @@ USING = (
         Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
     ),
     Key(
+        "takes_effect",
+        _EVERYWHERE,
+        "When the device uses a written value: `at once` (the default), or only `after restart`.",
+        ["after restart"],
+        one_of("at once", "after restart"),
+    ),
+    Key(
+        "write_with",
+        FACTS,
+        "Points that the device takes together with this one alone: all are written in one request.",
+        [["minute", "second"]],
+        Items(Shape("A point by code or name.", ["minute"], Text(80)), 1),
+    ),
+    Key(
         "when",
         _EVERYWHERE,
         "The point exists only if this is true: comparisons joined by and, or, not.",

@@ -51,7 +51,7 @@ def _printed(reference: int | str) -> str:
 def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
     if point.when is not None:
         yield f"exists only when {wording.condition_text(point.when, scope.points)}"
-    yield from (*wording.width_texts(point), *wording.overflow_texts(point))
+    yield from (*wording.write_texts(point), *wording.width_texts(point), *wording.overflow_texts(point))
     if point.specials:
         yield wording.codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 from fieldscribe import wording
@@ -119,14 +120,15 @@ class _Rows:
         self.scope = scope
         errata = scope.device.errata
         self._doubts = {each.id: ", ".join(text for _, text in each.leaves_open) for each in errata if each.leaves_open}
-        further = {
+        further: dict[str, Callable[[Point], str]] = {
             "words": lambda point: f"bits: {narrow_link('bits', point.item)}" if point.shape.flags else "",
             "special_of": lambda point: (
                 point.specials_of and f"special codes of {narrow_link('codes', point.specials_of)}"
             ),
             "persistence": self._persistence,
             "when": self._when,
-            "changes_with": _changes_with,
+            "changes_with": partial(_other_points, "read it again after writing", "changes_with"),
+            "write_with": partial(_other_points, "write it in one request with", "write_with"),
             "was": lambda point: "; ".join([f"was {code(old)}" for old in point.was]),
             "note": lambda point: _more_link(point) if self.has_more(point) else _note(point),
             "errata": self._errata,
@@ -234,9 +236,9 @@ def _with_default(point: Point, allowed: str) -> str:
     return f"{allowed}{LINE_BREAK}{default}" if allowed else default
 
 
-def _changes_with(point: Point) -> str:
-    names = ", ".join(narrow_link("point", name) for name in point.changes_with)
-    return names and f"read it again after writing {names}"
+def _other_points(what: str, attribute: str, point: Point) -> str:
+    names = ", ".join(narrow_link("point", name) for name in getattr(point, attribute))
+    return names and f"{what} {names}"
 
 
 def _more_link(point: Point) -> str:

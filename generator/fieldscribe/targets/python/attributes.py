@@ -14,7 +14,7 @@ from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
 from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import codes_text, condition_text, open_text, overflow_texts, range_text
+from fieldscribe.wording import codes_text, condition_text, open_text, overflow_texts, range_text, write_texts
 
 BODY = 8
 """The indentation of an attribute's arguments."""
@@ -171,6 +171,7 @@ def _remarks(point: Point, scope: PackageScope) -> str:
         remarks += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
     if point.keeps and point.writable:
         remarks += f" {_KEEPS.get(point.keeps) or f'`{_keeps(point, scope)}.send()` keeps it'}."
+    remarks += "".join(f" {text[0].upper()}{text[1:]}." for text in write_texts(point))
     if point.specials:
         remarks += f" {codes_text(point)}."
     remarks += "".join(f" O{text[1:]}." for text in overflow_texts(point))
@@ -212,11 +213,21 @@ def _arguments(point: Point, fields: AttributeFields, scope: PackageScope) -> It
         yield f"changes={python_string(point.changes)}"
     if point.changes_with:
         yield Group("changes_with=(", tuple([python_string(name) for name in point.changes_with]))
-    if point.conditions and point.writable:
-        yield Group("conditions=(", tuple([python_string(condition) for condition in point.conditions]))
-    if point.keeps and point.writable:
-        yield f"keeps={python_string(_keeps(point, scope))}"
+    if point.writable:
+        yield from _writing(point, scope)
     yield from _existence(point, scope)
+
+
+def _writing(point: Point, scope: PackageScope) -> Iterator[Node]:
+    """Yield what a writer has to know."""
+    if point.conditions:
+        yield Group("conditions=(", tuple([python_string(condition) for condition in point.conditions]))
+    if point.takes_effect:
+        yield f"takes_effect={python_string(point.takes_effect)}"
+    if point.write_with:
+        yield Group("write_with=(", tuple([python_string(name) for name in point.write_with]))
+    if point.keeps:
+        yield f"keeps={python_string(_keeps(point, scope))}"
 
 
 def _identity(point: Point, fields: AttributeFields, scope: PackageScope) -> Iterator[Node]:

@@ -53,6 +53,7 @@ def _paragraphs(point: Point, lowered: Lowered) -> Iterator[str]:
         yield f"Constant bits when written: {wording.fixed_text(point)}."
     if point.specials:
         yield f"{wording.codes_text(point, '`')}."
+    yield from (f"{rust_code(text[0].upper() + text[1:])}." for text in wording.write_texts(point))
     errata, doubts = lowered.errata_of(point)
     if errata:
         yield f"Errat{'a' if len(errata) > 1 else 'um'}: {', '.join(f'`{name}`' for name in errata)}."

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
         fixed: NotRequired[tuple[int, int]]
         changes: NotRequired[str]
         changes_with: NotRequired[tuple[str, ...]]
+        takes_effect: NotRequired[str]
+        write_with: NotRequired[tuple[str, ...]]
         variant: NotRequired[tuple[str, str]]
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
@@ -157,6 +159,7 @@ class Facts:
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
     it too, such as another point or a firmware. `conditions` name what has to hold before it is written.
+    `takes_effect` says when the device uses a written value, `write_with` names what is written in the same request.
     `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory), `choice` (if it
     is written with `keep=True`, which wears it) or the command that has to follow; empty where the manual does not say.
     """
@@ -178,6 +181,8 @@ class Facts:
     only_for: tuple[str, tuple[str, ...]] | None = None
     uncertain: bool = False
     conditions: tuple[str, ...] = ()
+    takes_effect: str = "at once"
+    write_with: tuple[str, ...] = ()
     keeps: str = ""
     name: str = ""
     item: str = ""

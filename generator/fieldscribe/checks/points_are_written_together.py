@@ -1,0 +1,40 @@
+"""Points that the device takes together alone can be written in one request."""
+
+from __future__ import annotations
+
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+
+
+def check(analysis: Analysis) -> None:
+    """Report points under `write_with` that cannot be written, or not in the request of the point."""
+    together = [resolved for resolved in analysis.resolved if resolved.point.write_with]
+    by_name: dict[str, list[Point]] = {}
+    for resolved in analysis.resolved if together else ():
+        by_name.setdefault(resolved.point.name, []).append(resolved.point)
+    for resolved in together:
+        point, facts = resolved.point, resolved.facts
+        if facts.failed & {"at", "space", "type", "access"}:
+            continue
+        others = [other for name in point.write_with for other in by_name.get(name, ()) if _meet(point, other)]
+        words = {address for each in (point, *others) for address in _written_at(each)}
+        span = facts.span("write_with")
+        if unwritable := [each.name for each in (point, *others) if not each.writable]:
+            message, hint = f"`{unwritable[0]}` cannot be written", "leave it out, or correct its `access`"
+        elif any(other.space != point.space for other in others):
+            message, hint = "the points are not in one space", "name points that one request can write"
+        elif words and max(words) - min(words) >= len(words):
+            message = f"between the words of `{point.name}` and those of the others lie words of none of them"
+            hint = "name all points that the request writes"
+        else:
+            continue
+        analysis.report.error("write-with", message, span, hint)
+
+
+def _meet(point: Point, other: Point) -> bool:
+    """Return True if both can be in the same device."""
+    return point.variant is None or other.variant is None or point.variant == other.variant
+
+
+def _written_at(point: Point) -> tuple[int, ...]:
+    return (point.write_place or point.place).addresses
