@@ -7,7 +7,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from types import ModuleType
 
-from fieldscribe.cli import import_table
+from fieldscribe.cli import import_sunspec, import_table
 from fieldscribe.cli.common import StopError, some_path
 from fieldscribe.importing.headings import ROLES
 
@@ -27,6 +27,7 @@ ends with 1 when the file holds no table of points, has no such column, or canno
 
 KINDS: dict[str, tuple[ModuleType, str]] = {
     "table": (import_table, "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual"),
+    "sunspec": (import_sunspec, "models of SunSpec: a file `model_103.json`, or a folder of them"),
 }
 """The module of each kind of file, with what it reads. It has `add_arguments` for its options alone, and `run`."""
 
@@ -35,7 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("kind", choices=tuple(KINDS), metavar="KIND", help=f"what to import: {', '.join(KINDS)}")
-    add("file", type=some_path, metavar="FILE", help="the file to read")
+    add("file", type=some_path, metavar="FILE", help="the file (or folder) to read")
     add("--device", metavar="ID", help="write a whole device of this name")
     add("--out", type=some_path, metavar="FILE", help="where to write (default: standard output)")
     for kind, (module, reads) in KINDS.items():

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
 from typing import NamedTuple
@@ -22,7 +22,7 @@ _SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+"
 _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|von")
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
-    *("at", "bits", "access", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
+    *("at", "bits", "access", "format", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
     *("default_in_units", "enum", "open", "flags", "characters", "words", "special", "changes", "when"),
     *("indices", "reserved", "note"),
 )
@@ -30,12 +30,13 @@ _KEYS = (
 
 
 class Document(NamedTuple):
-    """A file that the draft was made from."""
+    """A file that the draft was made from; where its points cite lines, the audit compares them."""
 
     file: str
     sha256: str
     name: str = "manual"
     title: str = ""
+    has_lines: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,8 +196,30 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
         top.append(comment(f"titles are in the manual's language ({head.language}): give English names and titles"))
     if head.kind == "tables" and not any("type" in point.facts for point in points):
         top.append(comment("no types are printed: a point is u16 unless it says otherwise"))
-    body = [line for group in groups for line in (Line("---"), *_group_lines(group, head.language))]
+    enums = _shared_enums(points)
+    body = [
+        *([Line("---"), Line("enums:")] if enums else []),
+        *(line for block, (name, point) in enums.items() for line in _enum_lines(block, name, point)),
+        *(line for group in groups for line in (Line("---"), *_group_lines(group, head.language, enums))),
+    ]
     return [Line(text) for text in top], [Line(text) for text in _head_lines(head, groups)], body
+
+
+def _shared_enums(points: Iterable[DraftPoint]) -> dict[str, tuple[str, DraftPoint]]:
+    """Return the enums of several points as YAML, each with its name and its first point."""
+    names = Names()
+    of_points: dict[str, list[DraftPoint]] = {}
+    for point in points:
+        of_points.setdefault(point.facts.get("enum", ""), []).append(point)
+    return {
+        block: (names.give(users[0].name), users[0]) for block, users in of_points.items() if block and len(users) > 1
+    }
+
+
+def _enum_lines(block: str, name: str, point: DraftPoint) -> Iterator[Line]:
+    """Yield an enum that several points share; what is wrong with it is a question at the first."""
+    yield Line(f"  {name}:", point, "enum")
+    yield from (Line(f"  {text}", point, "enum") for text in block[1:].split("\n"))
 
 
 def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:
@@ -212,8 +235,11 @@ def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:
         yield f"  {document.name}:{'' if document.title else '  ' + comment('its title')}"
         yield f"    title: {scalar(document.title or document.file)}"
         yield f"    language: {head.language}"
-        yield f"    file: {scalar(document.file)}"
-        yield f"    sha256: {document.sha256}"
+        if document.has_lines:
+            yield f"    file: {scalar(document.file)}"
+            yield f"    sha256: {document.sha256}"
+        else:
+            yield f"    edition: sha256 {document.sha256}"
     yield comment("framings, unit addresses and functions, with the most of each request")
     yield from family(head.family).part("description").bus_of({group.space for group in groups}).splitlines()
 
@@ -222,7 +248,7 @@ def _known(text: str, otherwise: str, question: str) -> str:
     return scalar(text) if text else f"{scalar(otherwise)}  {comment(question)}"
 
 
-def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
+def _group_lines(group: DraftGroup, language: str, enums: Mapping[str, tuple[str, DraftPoint]]) -> Iterator[Line]:
     accesses = [point.facts.get("access", "") for point in group.points]
     access = "" if "" in accesses else max(sorted(set(accesses)), key=accesses.count)
     yield Line(f"group: {group.name}")
@@ -238,7 +264,7 @@ def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
     yield from (Line(comment(text)) for text in group.comments)
     yield Line("points:")
     for point in group.points:
-        for number, (key, text) in enumerate(_point_lines(point, group, access, language)):
+        for number, (key, text) in enumerate(_point_lines(point, group, access, language, enums)):
             yield Line(f"{'  ' if number else '- '}{text}", point, key)
 
 
@@ -247,7 +273,9 @@ def _numbering(printed: str) -> str:
     return "long_reference" if len(printed) > 5 else "reference"
 
 
-def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: str) -> Iterator[tuple[str, str]]:
+def _point_lines(
+    point: DraftPoint, group: DraftGroup, access: str, language: str, enums: Mapping[str, tuple[str, DraftPoint]]
+) -> Iterator[tuple[str, str]]:
     """Yield the key and the text of each line of a point; its questions come last."""
     if point.code:
         yield "code", f"code: {scalar(point.code)}"
@@ -255,6 +283,8 @@ def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: st
     yield "title", f"title: {_titles(point.title or point.name, language)}"
     for key in _KEYS:
         value = point.facts.get(key)
+        if key == "enum" and value and value in enums:
+            value = enums[value][0]
         if value is not None and not (key == "access" and value == access):
             first, *further = f"{key}: {value}".replace(": \n", ":\n").split("\n")
             yield key, first

@@ -1,0 +1,53 @@
+"""`fieldscribe import sunspec`: draft the description of a device from models of SunSpec."""
+
+from __future__ import annotations
+
+import re
+import sys
+from argparse import ArgumentTypeError, Namespace
+from typing import TYPE_CHECKING
+
+from fieldscribe.cli.common import StopError, write_draft
+from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.importing import compilable
+from fieldscribe.importing.sunspec import Imported, draft_models
+from fieldscribe.importing.sunspec.models import read_models
+from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.report import visible
+from fieldscribe.text import counted
+
+if TYPE_CHECKING:
+    from fieldscribe.cli.common import Parser
+
+
+def add_arguments(parser: Parser) -> None:
+    """Add the options of this kind."""
+    what = "which models of a folder the device has, as 1,103,120 (default: all)"
+    parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
+
+
+def run(arguments: Namespace) -> int:
+    """Import, and return the exit code."""
+    try:
+        models = read_models(arguments.file, arguments.models)
+        imported = draft_models(models, arguments.device or "sunspec")
+    except UnreadableError as error:
+        raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
+    write_draft(compilable(imported.groups, imported.head, with_head=True), arguments.out)
+    print(_report(len(models), imported), file=sys.stderr)
+    return FINE
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """Return the numbers of `1,103,120`."""
+    if not re.fullmatch(r"[0-9]{1,5}(?:,[0-9]{1,5}){0,999}", text):
+        raise ArgumentTypeError(f"`{text}` are no numbers of models: write them as 1,103,120")
+    return tuple(map(int, text.split(",")))
+
+
+def _report(models: int, imported: Imported) -> str:
+    """Return how much is carried, and what is not."""
+    whole = sum(not point.questions for point in imported.points)
+    lost = imported.lost().most_common()
+    first = f"{counted(models, 'model')}, {counted(len(imported.points), 'point')}, {whole} whole"
+    return visible("; ".join((first, *(f"not carried: {what} ({times})" for what, times in lost))))

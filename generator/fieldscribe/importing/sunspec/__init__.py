@@ -1,0 +1,247 @@
+"""Turns models of SunSpec into the draft of a device: `import sunspec`.
+
+A group of a model is a group of the draft, and its places are counted from the model's start. What a description
+cannot say stays as a question at the point or at the group.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from fieldscribe.families import families
+from fieldscribe.importing.cells import unit_in
+from fieldscribe.importing.draft_text import Document, DraftGroup, DraftPoint, Head, Names, scalar, snake
+from fieldscribe.importing.sunspec.models import Group, Model, Point
+from fieldscribe.wording.exact import number_text
+
+_TYPES = {
+    **{f"int{bits}": f"s{bits}" for bits in (16, 32, 64)},
+    **{f"{name}{bits}": f"u{bits}" for name in ("uint", "enum", "bitfield", "raw") for bits in (16, 32, 64)},
+    "float32": "f32",
+    "float64": "f64",
+    "count": "u16",
+}
+"""The types of descriptions for those of SunSpec that are plain numbers."""
+_FORMATS = {
+    "sunssf": "{type: s16, range: -10..10}",
+    "acc16": "{type: u16, special: {0FFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
+    "acc32": "{type: u32, special: {0FFFFFFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
+    "acc64": "{type: u64, special: {0FFFFFFFFFFFFFFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
+}
+"""Those that are more."""
+_CODES = {
+    **{f"u{bits}": f"0{'F' * (bits // 4)}h" for bits in (16, 32, 64)},
+    **{f"s{bits}": f"8{'0' * (bits // 4 - 1)}h" for bits in (16, 32, 64)},
+    "f32": "7FC00000h",
+    "f64": "7FF8000000000000h",
+}
+"""What a device holds in a point that it does not have, by type."""
+_WORDS = {"16": 1, "32": 2, "64": 4}
+_OTHER_UNITS = (
+    "Secs=s Sec=s Tms=s Tmh=h Tmd=d mSecs=ms C=°C Pct=% Degrees=° deg=° Var=var Varh=varh AH=Ah kAH=kAh WH=Wh "
+    "mps=m/s meters=m ohms=ohm HPa=hPa kO=kohm W/m2=W/m² W/m^2=W/m² Vm=V/m"
+)
+_UNITS = dict(pair.split("=") for pair in _OTHER_UNITS.split())
+"""Units that SunSpec writes otherwise."""
+_NO_UNITS = frozenset(("cos()", "PF", "SF", "text"))
+_LONGEST_NOTE, _LONGEST_TITLE, _LONGEST_UNIT = 300, 120, 20
+
+
+class Imported(NamedTuple):
+    """The drafted groups and the head, and how many points of the models are whole in them."""
+
+    groups: list[DraftGroup]
+    head: Head
+
+    @property
+    def points(self) -> list[DraftPoint]:
+        """The drafted points."""
+        return [point for group in self.groups for point in group.points]
+
+    def lost(self) -> Counter[str]:
+        """Return what is not carried, each with how often."""
+        questions = [question for point in self.points for question in point.questions]
+        comments = [comment for group in self.groups for comment in group.comments]
+        return Counter(text.partition(":")[0] for text in (*questions, *comments))
+
+
+def draft_models(models: Sequence[Model], device: str) -> Imported:
+    """Return the draft of a device with these models. Raises UnreadableError for too many points."""
+    drafter = _Drafter(Counter(point.name for model in models for point in _points(model.group)))
+    for model in models:
+        drafter.add(model)
+    documents = [
+        Document(
+            model.file,
+            model.sha256,
+            f"model_{model.id}",
+            f"SunSpec model {model.id}, {_title(model.group)} ({model.file})",
+            has_lines=False,
+        )
+        for model in models
+    ]
+    title = f"SunSpec {counted_models(models)}"
+    family = next(family for family in families() if "holding" in family.spaces)
+    head = Head(device, documents, family.name, title=title, facts=list(drafter.head_facts()), kind="models of SunSpec")
+    return Imported(drafter.groups, head)
+
+
+def counted_models(models: Sequence[Model]) -> str:
+    """Return the numbers of the models as a phrase."""
+    return f"model{'s' if len(models) > 1 else ''} {', '.join(str(model.id) for model in models)}"
+
+
+def _points(group: Group) -> Iterator[Point]:
+    yield from group.points
+    for inner in group.groups:
+        yield from _points(inner)
+
+
+def _title(group: Group) -> str:
+    return (group.label or group.name)[:_LONGEST_TITLE]
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where a group begins, the groups around it, and all points that it sees."""
+
+    model: Model
+    start: int
+    path: tuple[str, ...] = ()
+    scope: Mapping[str, DraftPoint] = field(default_factory=dict)
+
+
+class _Drafter:
+    """Drafts models one after another."""
+
+    def __init__(self, names: Counter[str]) -> None:
+        self.groups: list[DraftGroup] = []
+        self._doubles = {name for name, times in names.items() if times > 1}
+        self._group_names, self._names = Names(), Names()
+        self._units: dict[str, str] = {}
+        self._kinds: set[str] = set()
+        self._start = 40_002
+
+    def add(self, model: Model) -> None:
+        """Draft a model."""
+        self._start = self._add(model.group, _Place(model, self._start))
+
+    def head_facts(self) -> Iterator[str]:
+        """Yield what the whole device has: the codes and formats of the types that it uses, and further units."""
+        yield "certainty: imported"
+        yield "types:"
+        for kind, code in _CODES.items():
+            yield f"  {kind}: {{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
+        yield "formats:"
+        yield from (f"  {name}: {text}" for name, text in _FORMATS.items())
+        if self._units:
+            yield "units:"
+            yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
+
+    def _add(self, group: Group, place: _Place) -> int:
+        """Draft a group and those within; return where the next begins."""
+        path = (*place.path, group.name)
+        draft = DraftGroup(_title(group), "holding", "" if not place.path else ".".join(path))
+        draft.name = self._group_names.give(snake("_".join(path), "model"), str(place.model.id))
+        draft.document = f"model_{place.model.id}"
+        if group.text:
+            draft.facts["note"] = _note(group.text)
+        if not place.path:
+            draft.comments.append("address: where the model begins is found when the device is read")
+        if group.count != 1:
+            times = "to the end of the model" if group.count == 0 else f"{group.count} times"
+            draft.comments.append(f"repeats: {times}; here is the first")
+        self.groups += [draft] if group.points else []
+        at = place.start
+        scope = dict(place.scope)
+        for point in group.points:
+            drafted = DraftPoint(0, "holding", (point.label or point.name)[:_LONGEST_TITLE], point.name)
+            if point.name in self._doubles:
+                drafted.code = ".".join((*path, point.name))
+            drafted.name = self._names.give(snake(drafted.title, "point"), draft.name)
+            drafted.facts["at"] = str(at)
+            at += point.size
+            scope[point.name] = drafted
+            draft.points.append(drafted)
+        for point, drafted in zip(group.points, draft.points, strict=True):
+            self._state(point, drafted, scope)
+        for inner in group.groups:
+            at = self._add(inner, replace(place, start=at, path=path, scope=scope))
+        return at
+
+    def _state(self, point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:
+        """State the facts of a point."""
+        facts, lost = drafted.facts, drafted.questions
+        facts["access"] = "rw" if point.access == "RW" else "r"
+        if point.type == "pad":
+            facts["reserved"] = "yes"
+            return
+        if point.is_static:
+            facts["changes"] = "never"
+        note = f"{'Mandatory. ' if point.is_mandatory else ''}{point.text}".strip()
+        if note:
+            facts["note"] = _note(note)
+        _state_type(point, drafted)
+        if point.factor is not None:
+            _state_factor(point, drafted, scope)
+        if len(point.unit) > _LONGEST_UNIT:
+            lost.append(f"unit: {point.unit}")
+        elif point.unit and point.unit not in _NO_UNITS:
+            facts["unit"] = self._unit(point.unit)
+        if point.symbols and point.type.startswith("bitfield"):
+            facts["flags"] = _labels(point, "title: ")
+        elif point.symbols and point.type.startswith("enum"):
+            facts["enum"] = _labels(point, "en: ")
+        elif point.symbols:
+            lost.append(f"symbols of a {point.type}: {', '.join(symbol.name for symbol in point.symbols)}")
+
+    def _unit(self, text: str) -> str:
+        """Return the symbol of a unit; one that is not shipped is declared in the head."""
+        text = _UNITS.get(text, text)
+        known = unit_in(text)
+        return scalar(known) if known else self._units.setdefault(text, scalar(text))
+
+
+def _state_type(point: Point, drafted: DraftPoint) -> None:
+    facts = drafted.facts
+    kind = _TYPES.get(point.type)
+    if kind and _WORDS[kind[1:]] == point.size:
+        facts["type"] = kind
+    elif point.type in _FORMATS and _WORDS.get(point.type[3:], 1) == point.size:
+        facts["format"] = point.type
+    elif point.type == "string":
+        facts |= {"type": "text", "characters": str(point.size * 2)}
+    else:
+        facts |= {"type": "~", "length": str(point.size)}
+        drafted.questions.append(f"type {point.type}: {point.size} words")
+
+
+def _state_factor(point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:
+    """State the scale: by a point that holds an exponent of 10, or by the exponent itself."""
+    factor = point.factor
+    if isinstance(factor, int) and abs(factor) <= 10:
+        drafted.facts["scale"] = f"value = raw * {number_text(Fraction(10) ** factor)}"
+    elif isinstance(factor, str) and factor in scope:
+        drafted.facts["scale"] = f"value = raw * 10 ** {scope[factor].name}"
+    else:
+        drafted.facts["scale"] = "~"
+        drafted.questions.append(f"scale factor: {factor}")
+
+
+def _labels(point: Point, key: str) -> str:
+    """Return the symbols of a point as the block of its enum or flags."""
+    names = Names()
+    lines = []
+    for symbol in point.symbols:
+        name = names.give(snake(symbol.name, "number"), str(symbol.number))
+        title = symbol.text or symbol.name.replace("_", " ").capitalize()
+        lines.append(f"\n  {symbol.number}: {{name: {scalar(name)}, {key}{scalar(title)}}}")
+    return "".join(lines)
+
+
+def _note(text: str) -> str:
+    return scalar(text if len(text) <= _LONGEST_NOTE else f"{text[:_LONGEST_NOTE]} …")
