@@ -24,13 +24,15 @@ def add_arguments(parser: Parser) -> None:
     """Add the options of this kind."""
     what = "which models of a folder the device has, as 1,103,120 (default: all)"
     parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
+    what = "how many elements of a group are described, if the device says how many there are (default: 10)"
+    parser.add_argument("--most", type=int, choices=range(1, 1001), default=10, metavar="N", help=what)
 
 
 def run(arguments: Namespace) -> int:
     """Import, and return the exit code."""
     try:
         models = read_models(arguments.file, arguments.models)
-        imported = draft_models(models, arguments.device or "sunspec")
+        imported = draft_models(models, arguments.device or "sunspec", arguments.most)
     except UnreadableError as error:
         raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
     write_draft(compilable(imported.groups, imported.head, with_head=True), arguments.out)

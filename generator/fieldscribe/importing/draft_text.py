@@ -24,7 +24,7 @@ _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
     *("at", "bits", "access", "format", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
     *("default_in_units", "enum", "open", "flags", "characters", "words", "special", "changes", "when"),
-    *("indices", "reserved", "note"),
+    *("indices", "most", "reserved", "note"),
 )
 """The order of a point's facts."""
 

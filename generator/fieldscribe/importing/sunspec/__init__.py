@@ -69,9 +69,9 @@ class Imported(NamedTuple):
         return Counter(text.partition(":")[0] for text in (*questions, *comments))
 
 
-def draft_models(models: Sequence[Model], device: str) -> Imported:
-    """Return the draft of a device with these models. Raises UnreadableError for too many points."""
-    drafter = _Drafter(Counter(point.name for model in models for point in _points(model.group)))
+def draft_models(models: Sequence[Model], device: str, most: int) -> Imported:
+    """Return the draft of a device with these models, each with the first `most` elements of what repeats."""
+    drafter = _Drafter(Counter(point.name for model in models for point in _points(model.group)), most)
     for model in models:
         drafter.add(model)
     documents = [
@@ -107,32 +107,52 @@ def _title(group: Group) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where a group begins, the groups around it, and all points that it sees."""
+    """Where a group begins, counted from the start of the model; None if that is known only at the device.
+
+    `path` has the groups around it, `scope` all points that it sees, `facts` what repeats its points.
+    """
 
     model: Model
-    start: int
+    start: int | None = 0
     path: tuple[str, ...] = ()
     scope: Mapping[str, DraftPoint] = field(default_factory=dict)
+    facts: Mapping[str, str] = field(default_factory=dict)
+    addressing: str = ""
+
+    def behind(self, words: int | None) -> int | None:
+        """Return where the words behind these begin."""
+        return None if self.start is None or words is None else self.start + words
+
+
+def _words(group: Group) -> int | None:
+    """Return how many words an element of a group has; None if the device says how many."""
+    words = sum(point.size for point in group.points)
+    for inner in group.groups:
+        one = _words(inner)
+        if one is None or not isinstance(inner.count, int) or not inner.count:
+            return None
+        words += inner.count * one
+    return words
 
 
 class _Drafter:
     """Drafts models one after another."""
 
-    def __init__(self, names: Counter[str]) -> None:
+    def __init__(self, names: Counter[str], most: int) -> None:
         self.groups: list[DraftGroup] = []
         self._doubles = {name for name, times in names.items() if times > 1}
         self._group_names, self._names = Names(), Names()
         self._units: dict[str, str] = {}
-        self._kinds: set[str] = set()
-        self._start = 40_002
+        self._most = most
 
     def add(self, model: Model) -> None:
         """Draft a model."""
-        self._start = self._add(model.group, _Place(model, self._start))
+        self._add(model.group, _Place(model))
 
     def head_facts(self) -> Iterator[str]:
         """Yield what the whole device has: the codes and formats of the types that it uses, and further units."""
         yield "certainty: imported"
+        yield "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
         yield "types:"
         for kind, code in _CODES.items():
             yield f"  {kind}: {{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
@@ -142,36 +162,58 @@ class _Drafter:
             yield "units:"
             yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
 
-    def _add(self, group: Group, place: _Place) -> int:
-        """Draft a group and those within; return where the next begins."""
+    def _add(self, group: Group, place: _Place) -> None:
+        """Draft a group and those within."""
         path = (*place.path, group.name)
-        draft = DraftGroup(_title(group), "holding", "" if not place.path else ".".join(path))
+        draft = DraftGroup(_title(group), "holding", "" if not place.path else ".".join(path)[:_LONGEST_TITLE])
         draft.name = self._group_names.give(snake("_".join(path), "model"), str(place.model.id))
         draft.document = f"model_{place.model.id}"
+        draft.facts["block"] = str(place.model.id)
+        if place.addressing:
+            draft.facts["addressing"] = place.addressing
         if group.text:
             draft.facts["note"] = _note(group.text)
-        if not place.path:
-            draft.comments.append("address: where the model begins is found when the device is read")
-        if group.count != 1:
-            times = "to the end of the model" if group.count == 0 else f"{group.count} times"
-            draft.comments.append(f"repeats: {times}; here is the first")
         self.groups += [draft] if group.points else []
-        at = place.start
-        scope = dict(place.scope)
+        place = self._repeated(group, place, draft)
+        words, scope = 0, dict(place.scope)
         for point in group.points:
             drafted = DraftPoint(0, "holding", (point.label or point.name)[:_LONGEST_TITLE], point.name)
             if point.name in self._doubles:
                 drafted.code = ".".join((*path, point.name))
             drafted.name = self._names.give(snake(drafted.title, "point"), draft.name)
-            drafted.facts["at"] = str(at)
-            at += point.size
+            if place.start is not None:
+                drafted.facts |= {"at": str(place.start + words), **place.facts}
+            else:
+                drafted.questions.append("place: it lies behind a group whose number the device says")
+            words += point.size
             scope[point.name] = drafted
             draft.points.append(drafted)
         for point, drafted in zip(group.points, draft.points, strict=True):
             self._state(point, drafted, scope)
+        within = replace(place, path=path, scope=scope, start=place.behind(words))
         for inner in group.groups:
-            at = self._add(inner, replace(place, start=at, path=path, scope=scope))
-        return at
+            self._add(inner, within)
+            each = _words(inner)
+            all_words = (
+                each * inner.count if each is not None and isinstance(inner.count, int) and inner.count else None
+            )
+            within = replace(within, start=within.behind(all_words))
+
+    def _repeated(self, group: Group, place: _Place, draft: DraftGroup) -> _Place:
+        """Return the place of a group with what repeats it; where that cannot be said, the draft has a comment."""
+        words, count = _words(group), group.count
+        if count == 1:
+            return place
+        times = "to the end of the model" if count == 0 else f"{count} times"
+        if place.start is None or words is None or place.facts or (isinstance(count, str) and count not in place.scope):
+            draft.comments.append(f"repeats: {times}; here is the first")
+            return place
+        draft.facts["addressing"] = f"number + (index - 1) * {words}"
+        if isinstance(count, str):
+            facts = {"indices": f"1..{place.scope[count].name}", "most": str(self._most)}
+        else:
+            facts = {"indices": str(count)} if count else {"indices": "to end", "most": str(self._most)}
+        return replace(place, facts=facts, addressing=draft.facts["addressing"])
 
     def _state(self, point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:
         """State the facts of a point."""
