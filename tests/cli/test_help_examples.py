@@ -154,6 +154,9 @@ CLAIMS = {
         "table list.csv --column code=1 --column address=3 --column range=6": Claim(
             0, r"- code: A001\n(.|\n)*at: 1\n(.|\n)*0\.\.400"
         ),
+        "sunspec models --models 1,103,160 --device inverter --out inverter/device.yaml": Claim(
+            0, "", "3 models, 67 points, 67 whole", made="inverter/device.yaml"
+        ),
     },
     "fmt": {
         "": Claim(0, "0 formatted, "),

@@ -88,12 +88,16 @@ def test_two_files_of_one_model(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert "model_07.json and model_7.json both are model 7" in capsys.readouterr().err
 
 
-NASTY = ("", "A", "a", "W_SF", "class", "if", "{x}", "# c", "- x", "\0", "\u202e", "'", '"', "on", "~", "1", "²", "x" * 400)
-TEXTS = st.one_of(st.sampled_from(NASTY), st.text(max_size=8))
-TYPES = st.sampled_from(
-    "int16 uint16 int32 uint64 acc16 acc32 acc64 enum16 enum32 bitfield16 bitfield32 bitfield64 float32 float64 string "
-    "sunssf ipaddr ipv6addr eui48 pad count raw16 what".split()
+NASTY = (
+    *("", "A", "a", "W_SF", "class", "if", "{x}", "# c", "- x", "\0", "\u202e", "'", '"', "on", "~", "1", "²"),
+    "x" * 400,
 )
+TEXTS = st.one_of(st.sampled_from(NASTY), st.text(max_size=8))
+NAMES_OF_TYPES = """
+int16 uint16 int32 uint64 acc16 acc32 acc64 enum16 enum32 bitfield16 bitfield32 bitfield64 float32 float64 string
+sunssf ipaddr ipv6addr eui48 pad count raw16 what
+"""
+TYPES = st.sampled_from(NAMES_OF_TYPES.split())
 SYMBOLS = st.fixed_dictionaries(
     {"name": TEXTS, "value": st.sampled_from([-1, 0, 1, 15, 16, 31, 63, 64, 65535, 1 << 70])},
     optional={"label": TEXTS, "desc": TEXTS},

@@ -68,6 +68,7 @@ def workplace(folder: Path) -> Path:
     """A checkout with two commits, and the files that examples name."""
     descriptions = folder / "descriptions"
     shutil.copytree(ROOT / "descriptions", descriptions)
+    shutil.copytree(TESTS / "importing/sunspec", folder / "models")
     source = descriptions / "hitachi_l200/standard_a.yaml"
     git = ("git", "-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "commit.gpgsign=false")
     now = source.read_text("utf-8")

@@ -173,7 +173,7 @@ class Bounds:
 
     def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
         """Return a point's number in a limit of another point. Raises FactError."""
-        used = self.scales.symbols.find(name, facts.variant)
+        used = self.scales.symbols.find(name, facts)
         if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
             hint = "name another point, or write the fixed end that the manual prints"

@@ -138,7 +138,7 @@ def _comparison(
     if comparison.key:
         message = f"`{name}.{comparison.key}`: a point has `.raw` and `.value` only"
         raise FormulaError(message, comparison.name.column, "names hold letters, digits and _")
-    used = scales.symbols.find(name, facts.variant)
+    used = scales.symbols.find(name, facts)
     if used is None:
         scales.symbols.unknown(name, written.of(name), scope.axes)
         raise FactError

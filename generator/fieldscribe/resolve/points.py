@@ -236,7 +236,7 @@ def _view_of(facts: PointFacts, symbols: SymbolTable) -> str | None:
     word = facts.get("view_of")
     if word is None:
         return None
-    viewed = symbols.find(word, facts.variant)
+    viewed = symbols.find(word, facts)
     if viewed is None:
         symbols.unknown(word, facts.span("view_of"))
         facts.failed.add("view_of")

@@ -194,13 +194,13 @@ class Scales:
             except FormulaError:
                 continue
             for name in uses:
-                needed = self.symbols.find(name.name, facts.variant) if name.part == "value" else None
+                needed = self.symbols.find(name.name, facts) if name.part == "value" else None
                 if needed is not None:
                     yield needed
 
     def _find(self, facts: PointFacts, name: str, place: Span) -> PointFacts:
         """Return the point that a formula of `facts` names. Raises FactError."""
-        used = self.symbols.find(name, facts.variant)
+        used = self.symbols.find(name, facts)
         if used is None:
             self.symbols.unknown(name, place)
             raise FactError

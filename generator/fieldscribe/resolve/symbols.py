@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import nearest
-from fieldscribe.model import Variant
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 
@@ -21,14 +20,18 @@ class SymbolTable:
     by_code: dict[str, list[PointFacts]]
     by_items: dict[str, PointFacts]
 
-    def find(self, word: str, variant: Variant | None = None) -> PointFacts | None:
+    def find(self, word: str, used_by: PointFacts | None = None) -> PointFacts | None:
         """Return the point that a word names: by its name, or by a code that no other point has.
 
-        Of a point that differs by variant, return the one of this variant, else the first.
+        What stands at an element of an array names other rows of the array as if there were no array: their elements
+        with the same index. Of a point that differs by variant, return the one of the variant that uses it, else the
+        first.
         """
-        found = self.by_name.get(word) or self.by_code.get(word, [])
+        of_element = () if used_by is None else self.by_name.get(word + used_by.suffix, ())
+        found = self.by_name.get(word) or of_element or self.by_code.get(word, [])
         if not found or (len(found) > 1 and any(facts.name != found[0].name for facts in found)):
             return None
+        variant = None if used_by is None else used_by.variant
         return next((facts for facts in found if facts.variant == variant), found[0])
 
     def by_item(self, item: str) -> PointFacts:

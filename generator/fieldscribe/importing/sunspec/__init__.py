@@ -71,7 +71,9 @@ class Imported(NamedTuple):
 
 def draft_models(models: Sequence[Model], device: str, most: int) -> Imported:
     """Return the draft of a device with these models, each with the first `most` elements of what repeats."""
-    drafter = _Drafter(Counter(point.name for model in models for point in _points(model.group)), most)
+    drafter = _Drafter(
+        Counter(point.name for model in models for point in _points(model.group) if point.name not in ("ID", "L")), most
+    )
     for model in models:
         drafter.add(model)
     documents = [
@@ -113,11 +115,13 @@ class _Place:
     """
 
     model: Model
-    start: int | None = 0
+    start: int | None
     path: tuple[str, ...] = ()
     scope: Mapping[str, DraftPoint] = field(default_factory=dict)
     facts: Mapping[str, str] = field(default_factory=dict)
     addressing: str = ""
+    text: str = ""
+    """What is said of a group around it that has no points of its own."""
 
     def behind(self, words: int | None) -> int | None:
         """Return where the words behind these begin."""
@@ -147,17 +151,24 @@ class _Drafter:
 
     def add(self, model: Model) -> None:
         """Draft a model."""
-        self._add(model.group, _Place(model))
+        self._add(model.group, _Place(model, model.header))
 
     def head_facts(self) -> Iterator[str]:
         """Yield what the whole device has: the codes and formats of the types that it uses, and further units."""
         yield "certainty: imported"
         yield "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
-        yield "types:"
+        points = [point for group in self.groups for point in group.points]
+        types = {point.facts.get("type", "") for point in points}
+        formats = {point.facts.get("format", "") for point in points}
+        if formats - {""}:
+            yield "formats:"
+            yield from (f"  {name}: {text}" for name, text in _FORMATS.items() if name in formats)
+        types |= {_FORMATS[name][7:10] for name in formats - {""}}
+        if types & _CODES.keys():
+            yield "types:"
         for kind, code in _CODES.items():
-            yield f"  {kind}: {{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
-        yield "formats:"
-        yield from (f"  {name}: {text}" for name, text in _FORMATS.items())
+            if kind in types:
+                yield f"  {kind}: {{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
         if self._units:
             yield "units:"
             yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
@@ -171,12 +182,13 @@ class _Drafter:
         draft.facts["block"] = str(place.model.id)
         if place.addressing:
             draft.facts["addressing"] = place.addressing
-        if group.text:
-            draft.facts["note"] = _note(group.text)
-        self.groups += [draft] if group.points else []
+        text = " ".join(filter(None, (place.text, group.text)))
+        if text:
+            draft.facts["note"] = _note(text)
         place = self._repeated(group, place, draft)
-        words, scope = 0, dict(place.scope)
-        for point in group.points:
+        points, words, scope = group.points, 0, dict(place.scope)
+        self.groups += [draft] if points else []
+        for point in points:
             drafted = DraftPoint(0, "holding", (point.label or point.name)[:_LONGEST_TITLE], point.name)
             if point.name in self._doubles:
                 drafted.code = ".".join((*path, point.name))
@@ -188,9 +200,9 @@ class _Drafter:
             words += point.size
             scope[point.name] = drafted
             draft.points.append(drafted)
-        for point, drafted in zip(group.points, draft.points, strict=True):
+        for point, drafted in zip(points, draft.points, strict=True):
             self._state(point, drafted, scope)
-        within = replace(place, path=path, scope=scope, start=place.behind(words))
+        within = replace(place, path=path, scope=scope, start=place.behind(words), text="" if points else text)
         for inner in group.groups:
             self._add(inner, within)
             each = _words(inner)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
@@ -60,9 +60,13 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """A model: its number, its outermost group, and the file that it was read from."""
+    """A model: its number, its outermost group, and the file that it was read from.
+
+    The group has no points for the number and the length: they are the `header` words that every model starts with.
+    """
 
     id: int
+    header: int
     group: Group
     file: str
     sha256: str
@@ -103,7 +107,9 @@ def read_model(path: Path) -> Model:
     group = reader.group(reader.value(tree, "group", dict, None), 0)
     if not group.points:
         raise UnreadableError(f"{path.name}: the model has no points")
-    return Model(number, group, path.name, sha256(data).hexdigest())
+    header = 2 if [point.name for point in group.points[:2]] == ["ID", "L"] else 0
+    group = replace(group, points=group.points[header:])
+    return Model(number, header, group, path.name, sha256(data).hexdigest())
 
 
 def one_line(text: str) -> str:
