@@ -33,13 +33,21 @@ _FORMATS = {
     "acc64": "{type: u64, special: {0FFFFFFFFFFFFFFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
 }
 """Those that are more."""
-_CODES = {
+_NOT_IMPLEMENTED = {
     **{f"u{bits}": f"0{'F' * (bits // 4)}h" for bits in (16, 32, 64)},
     **{f"s{bits}": f"8{'0' * (bits // 4 - 1)}h" for bits in (16, 32, 64)},
     "f32": "7FC00000h",
     "f64": "7FF8000000000000h",
 }
 """What a device holds in a point that it does not have, by type."""
+_OF_TYPES = {
+    **{
+        kind: f"{{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
+        for kind, code in _NOT_IMPLEMENTED.items()
+    },
+    "text": "{padding: 00h}",
+}
+"""The facts that all points of a type share."""
 _WORDS = {"16": 1, "32": 2, "64": 4}
 _OTHER_UNITS = (
     "Secs=s Sec=s Tms=s Tmh=h Tmd=d mSecs=ms C=°C Pct=% Degrees=° deg=° Var=var Varh=varh AH=Ah kAH=kAh WH=Wh "
@@ -157,18 +165,13 @@ class _Drafter:
         """Yield what the whole device has: the codes and formats of the types that it uses, and further units."""
         yield "certainty: imported"
         yield "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
-        points = [point for group in self.groups for point in group.points]
-        types = {point.facts.get("type", "") for point in points}
-        formats = {point.facts.get("format", "") for point in points}
-        if formats - {""}:
-            yield "formats:"
-            yield from (f"  {name}: {text}" for name, text in _FORMATS.items() if name in formats)
-        types |= {_FORMATS[name][7:10] for name in formats - {""}}
-        if types & _CODES.keys():
-            yield "types:"
-        for kind, code in _CODES.items():
-            if kind in types:
-                yield f"  {kind}: {{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
+        facts = [point.facts for group in self.groups for point in group.points]
+        formats = {each["format"] for each in facts if "format" in each}
+        types = {each.get("type") for each in facts} | {_FORMATS[name][7:10] for name in formats}
+        if types & _OF_TYPES.keys():
+            yield from ("types:", *(f"  {kind}: {fact}" for kind, fact in _OF_TYPES.items() if kind in types))
+        if formats:
+            yield from ("formats:", *(f"  {name}: {_FORMATS[name]}" for name in sorted(formats)))
         if self._units:
             yield "units:"
             yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
