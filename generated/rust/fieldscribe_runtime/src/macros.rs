@@ -368,6 +368,7 @@ macro_rules! point {
             $(const WRITE_FUNCTION: Option<u8> = Some($function);)?
             $(const IS_CLOSED: bool = $closed;)?
             $(const IS_CONTIGUOUS: bool = $crate::point!(@no $allowed);)?
+            $(const IS_CONTIGUOUS: bool = $ranges.len() == 1;)?
             $(const IS_CONTIGUOUS: bool = $crate::point!(@no $limits);)?
 
             #[inline]
