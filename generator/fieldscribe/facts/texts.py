@@ -92,7 +92,8 @@ def enum_rows(point: Point, _: Context) -> Iterator[Row]:
         written = "only these may be written" if point.enum.closed else "the range says what may be written"
         yield "Names", written if point.writable else ""
         for entry in point.enum.entries:
-            yield f"Raw {entry.raw}", wording.entry_meaning(entry)
+            number = wording.entry_number(entry, patterns=point.patterns)
+            yield f"{'Value' if point.patterns else 'Raw'} {number}", wording.entry_meaning(entry)
     if point.digits is not None:
         for entry in point.digits.enum.entries:
             yield f"Digit {entry.raw}", wording.entry_meaning(entry)

@@ -283,9 +283,14 @@ def outer_raw(point: Point) -> tuple[int, int] | None:
     return None if _is_unbounded(point) else point.allowed.outer
 
 
-def entry_text(entry: Entry) -> str:
+def entry_text(entry: Entry, *, patterns: bool = False) -> str:
     """Return one named number: `0 = keypad (Keypad / Bedienfeld)`."""
-    return f"{entry.raw} = {entry_meaning(entry)}"
+    return f"{entry_number(entry, patterns=patterns)} = {entry_meaning(entry)}"
+
+
+def entry_number(entry: Entry, *, patterns: bool) -> str:
+    """Return the raw number of an entry; if it is a floating-point pattern, after its number: `2.5 (40200000h)`."""
+    return f"{entry.quantity} ({entry.raw:X}h)" if patterns else str(entry.raw)
 
 
 def entry_meaning(entry: Entry) -> str:

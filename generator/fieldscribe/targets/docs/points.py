@@ -174,7 +174,9 @@ class _Rows:
     def _shared_cells(self, point: Point) -> _Cells:
         scale = narrow(cell(wording.formula_text(point, self.scope.by_code)))
         enum = point.shape.enum
-        names = [_listed(enum)] if enum is not None and len(enum.entries) <= _SHORT_LIST else []
+        names = (
+            [_listed(enum, patterns=point.patterns)] if enum is not None and len(enum.entries) <= _SHORT_LIST else []
+        )
         own = [special for special in point.shape.specials if not special.shared]
         names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in own]
         unit, type_text = cell(point.unit.symbol), wording.type_text(point)
@@ -267,7 +269,11 @@ class _Lists:
         if len(enum.entries) > _LONGEST_CELL:
             self._users.setdefault(first, (enum, []))[1].append(point.item)
             return f"{before}[numbers below](#{anchor('numbers', first)})"
-        return before + (_listed(enum) if first == point.item else f"numbers as of {narrow_link('point', first)}")
+        return before + (
+            _listed(enum, patterns=point.patterns)
+            if first == point.item
+            else f"numbers as of {narrow_link('point', first)}"
+        )
 
     def views(self) -> Iterator[ListView]:
         """Yield the lists that stand below the table."""
@@ -280,6 +286,6 @@ class _Lists:
             yield ListView(anchor("numbers", first), points, by_rows(("Raw", "Name", "Title", "Quantity"), rows))
 
 
-def _listed(enum: Enum) -> str:
+def _listed(enum: Enum, *, patterns: bool) -> str:
     """The names of an enum, each on its line."""
-    return LINE_BREAK.join(narrow(cell(wording.entry_text(entry))) for entry in enum.entries)
+    return LINE_BREAK.join(narrow(cell(wording.entry_text(entry, patterns=patterns))) for entry in enum.entries)
