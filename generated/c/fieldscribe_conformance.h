@@ -1318,7 +1318,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
-        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identification")) {
+        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identification") || fieldscribe_asks(v, "step")) {
         v->suite->run_code(v);
     } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);

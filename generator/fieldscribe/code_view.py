@@ -53,6 +53,7 @@ def for_code(device: Device) -> Device:
         points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
         enums=tuple(map(enums.of, device.enums)),
         commands=_without_texts(device.commands),
+        stepped_commands=_without_texts(device.stepped_commands),
         frames=_without_texts(device.frames),
         errata=tuple(replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata),
         messages=_without_texts(device.messages),

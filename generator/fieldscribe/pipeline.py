@@ -153,7 +153,8 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.bases import read_bases
-    from fieldscribe.resolve.bus import bus_of, commands_of, reader_of
+    from fieldscribe.resolve.bus import bus_of, reader_of
+    from fieldscribe.resolve.commands import commands_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
@@ -173,10 +174,10 @@ def _checked(files: Files, report: Report) -> Analysis:
     resolved, ranges, places = resolve_points(scope, expanded, symbols, telegrams)
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, symbols, points)
-    commands, errata = commands_of(scope, bus), errata_of(scope, symbols, bus)
+    (commands, stepped), errata = commands_of(scope, bus, symbols, points), errata_of(scope, symbols, bus)
     identifications = identifications_of(scope, symbols, points)
     analysis = Analysis(
-        scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata, identifications
+        *(scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata, identifications, stepped)
     )
     run_checks(analysis)
     return analysis

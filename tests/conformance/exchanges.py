@@ -72,17 +72,17 @@ def command(package: Package, vector: Vector) -> bool:
     """A named write."""
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
         transport = script({**vector, "needs": {}}, package.can.Frame)
-        name = _name_of_command(package, vector["command"])
+        name = name_of_command(package, vector["command"], package.runtime.Command)
         handle = getattr(kind(transport, vector["unit"]), name)
         _ran(package, transport, vector, handle.send)
     return True
 
 
-def _name_of_command(package: Package, name: str) -> str:
+def name_of_command(package: Package, name: str, kind: type) -> str:
     """What a command is called: the plain name may be a point's, a keyword or a method."""
     found = attributes(package.device)
     names = f"{name}_command", name, f"{name}_"
-    return next(one for one in names if isinstance(found.get(one), package.runtime.Command))
+    return next(one for one in names if isinstance(found.get(one), kind))
 
 
 def _only(only_for: Any) -> tuple[str, Any] | None:

@@ -7,7 +7,8 @@ from typing import Any
 
 from support.vector_file import Vector
 
-from conformance.package import Check, Package
+from conformance.exchanges import name_of_command
+from conformance.package import Check, Package, attributes
 
 
 def _request(package: Package, vector: Vector) -> Any:
@@ -33,5 +34,26 @@ def reply(package: Package, vector: Vector) -> bool:
     return status != "ok" or result == tuple(vector["values_out"])
 
 
-CHECKS: Mapping[str, Check] = {"build": build, "reply": reply, "printed_build": build, "printed_reply": reply}
+def step(package: Package, vector: Vector) -> bool:
+    """The words of a step of a command, in place of what the device held, and where they are read and written."""
+    name = name_of_command(package, vector["command"], package.runtime.SteppedCommand)
+    command = attributes(package.device)[name]
+    one = command.requests[vector["index"]]
+    numbers = {name: int(number) for name, number in (vector["with"] or {}).items()}
+    words, at = one.merged(numbers, tuple(vector["held"])), one.at
+    facts = at.address, at.span, at.function, bool(one.when), one.reads
+    expected = vector["address"], len(words), vector["write"], bool(vector["conditional"]), vector["read"] is not None
+    within = None if one.within is None else round(one.within * 1000)
+    known = numbers.keys() == command.arguments.keys()
+    ends = all(numbers[name] in ends for name, ends in command.arguments.items())
+    return known and ends and (list(words), facts, within) == (vector["words"], expected, vector["within"])
+
+
+CHECKS: Mapping[str, Check] = {
+    "build": build,
+    "reply": reply,
+    "printed_build": build,
+    "printed_reply": reply,
+    "step": step,
+}
 """The checks of this theme by the kind of vector."""

@@ -26,7 +26,8 @@ BASE = together(
         "gaps: {holding: [900..999]}, exceptions: {01h: bad_function}, "
         "functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}",
         enums="{modes: {0: stop, 1: run}}",
-        commands="[{name: enter, function: 06h, at: 800h, value: 1}]",
+        commands="[{name: enter, function: 06h, at: 800h, value: 1}, {name: prime, arguments: {unit: 1..9}, "
+        "steps: [{at: 810h, words: [unit, 7]}, {wait: {source.raw: 1}, within: 2 s}]}]",
         frames='[{name: read_speed, framing: rtu, direction: request, bytes: "01 03 00 10 00 01 85 CF"}]',
         errata='[{id: odd, where: in the words, section: "1", printed: this at line 7, taken: that, why: so, '
         "certainty: likely}]",

@@ -32,7 +32,7 @@ errata was reserved generated reason
 """The keys of format 6: another key, or one less, is another format."""
 TOP_KEYS = (
     *("format", "device", "version", "family", "vendor", "model", "title", "note", "documents", "variants", "limits"),
-    *("groups", "points", "commands", "identifications", "given", "found", "bases"),
+    *("groups", "points", "commands", "stepped_commands", "identifications", "given", "found", "bases"),
     *("messages", "telegrams", "frames", "codes", "errata"),
 )
 

@@ -28,7 +28,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RUNTIME = ROOT / "templates" / "c" / "runtime"
 GENERATED = ROOT / "generated" / "c"
-FAMILIES = ("cores", "words", "modbus", "can", "uss")
+FAMILIES = ("cores", "words", "modbus", "modbus_steps", "can", "uss")
 """The headers with functions to prove; in fieldscribe.h, `words` is how raw numbers lie in words, `cores` all else."""
 SOURCES = (*FAMILIES, "shipped")
 """The sources of harnesses: one for the functions of each of these, one with the tables of shipped devices."""

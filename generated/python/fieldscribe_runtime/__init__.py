@@ -29,6 +29,7 @@ from .errors import (
     SpecialCodeError,
     TelegramError,
     UnknownValueError,
+    WaitError,
     WrongLengthError,
     WrongTypeError,
     ZeroFactorError,
@@ -78,6 +79,7 @@ from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import Value
 from .special import Codes, Special
+from .steps import Step, SteppedCommand, StepWord
 from .table import PointTable
 from .texts import Digits, Text
 from .words import Field, Flag, Word
@@ -151,6 +153,9 @@ __all__ = [
     "Scaled",
     "Special",
     "SpecialCodeError",
+    "Step",
+    "StepWord",
+    "SteppedCommand",
     "Telegram",
     "TelegramError",
     "Text",
@@ -158,6 +163,7 @@ __all__ = [
     "Type",
     "UnknownValueError",
     "Value",
+    "WaitError",
     "WithCodes",
     "WithWritableCodes",
     "Word",

@@ -11,19 +11,18 @@ from .errors import EchoError, FieldscribeError, FrameError, LineError, NoReplyE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .commands import Command
     from .facts import Place
     from .points import Point
-    from .traffic import Traffic
+    from .traffic import Labelled, Traffic
 
 _LISTED = 4
 """So many points of one request are listed in an error."""
 
 
 class About:
-    """Add to errors raised meanwhile what was requested: the points of one request, or a command. Logs name it, too."""
+    """Add to errors raised meanwhile what was requested: points of a request, a command, a step. Logs name it, too."""
 
-    def __init__(self, traffic: Traffic, *asked: Point | Command) -> None:
+    def __init__(self, traffic: Traffic, *asked: Labelled) -> None:
         self._asked = traffic.about = asked
 
     def __enter__(self) -> None:

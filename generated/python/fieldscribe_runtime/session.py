@@ -25,7 +25,7 @@ from .errors import (
     RequestError,
 )
 from .points import Decoding, Encoding, Point
-from .receiving import Broadcast
+from .receiving import Broadcast, Pause
 from .rules import NO_RAWS
 from .special import Special
 from .table import NamedPoints, check_variants
@@ -42,10 +42,6 @@ Refusals = dict[str, FieldscribeError] | None
 """Notes what the device refuses, by item; None if that is to be raised."""
 Value = float | str | tuple[int, ...] | Special
 """What reading a point can give (also bool, IntEnum and IntFlag)."""
-
-
-class Pause(float):
-    """A step that asks for nothing: so many seconds later the next one follows."""
 
 
 _TRIES = frozenset({"retries", "repeats"})
@@ -78,6 +74,8 @@ class Session(NamedPoints, ABC):
         self._kept: dict[str, int] = {}
         self._refused: dict[str, FieldscribeError] = {}
         """What `read_many` does not request again, by item."""
+        self._first = self.AUTOMATIC.get("first", ())
+        """Commands that come before all else."""
         self._gaps: frozenset[tuple[str, int]] = frozenset()
         """What lies between points, and no read may pass over: the space and the address."""
 
@@ -181,8 +179,33 @@ class Session(NamedPoints, ABC):
             raise AccessError("the other bits of its word cannot be read back")
         return (yield from self._get_steps(point.facts.at))[0]
 
+    def _after_first_steps(self, steps: Steps[T]) -> Steps[T]:
+        """Carry out an operation, before it the commands that come first; they are done once all have succeeded."""
+        try:
+            for command in self._first:
+                yield from command.steps(self, {})
+            self._first = ()
+            return (yield from steps)
+        finally:
+            steps.close()
+
+    def _variant(self, axis: str) -> str:
+        """Return the value of an axis that the device was made with; raises AccessError where nobody said it."""
+        value = self.variants.get(axis)
+        if value is None:
+            raise AccessError(f"depends on {axis}: pass it when the device is made")
+        return value
+
+    def _raw_of_steps(self, name: str) -> Steps[int]:
+        """Read the raw number of a point by its name."""
+        return (yield from self._read_raw_steps(self._resolved(name)))
+
     def forget(self) -> None:
-        """Read everything anew: what changes rarely or never, and what the device has refused."""
+        """Read everything anew: what changes rarely or never, and what the device has refused.
+
+        Commands that come before all else are given again, as after a restart of the device.
+        """
+        self._first = self.AUTOMATIC.get("first", ())
         self._kept.clear()
         self._refused.clear()
         self._gaps = frozenset()
@@ -253,6 +276,8 @@ class Session(NamedPoints, ABC):
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
         """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
+        for command in self.AUTOMATIC.get("before write", ()):
+            yield from command.steps(self, {})
         with About(self.traffic, point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)

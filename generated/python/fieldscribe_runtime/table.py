@@ -20,6 +20,7 @@ from .errors import (
 from .lookup import find, is_code, nearest
 from .points import Decoding, Point
 from .special import Special
+from .steps import SteppedCommand
 
 if TYPE_CHECKING:
     from .facts import Documented, Identification
@@ -68,6 +69,9 @@ class PointTable:
     DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
     """Points that are no attributes, by name, with the reason."""
 
+    AUTOMATIC: ClassVar[Mapping[str, tuple[SteppedCommand, ...]]] = {}
+    """Commands that a device gives by itself: `first` (before all else), `before write`."""
+
     OLD_NAMES: ClassVar[Mapping[str, Renamed]] = {}
     """What points were called before."""
 
@@ -101,6 +105,10 @@ class PointTable:
         cls.POINTS = {**cls.POINTS, **{point.facts.item: point for point in points}}
         renamed = {name: alias for name, alias in vars(cls).items() if isinstance(alias, Renamed)}
         cls.OLD_NAMES = {**cls.OLD_NAMES, **renamed}
+        stepped = [command for command in vars(cls).values() if isinstance(command, SteppedCommand)]
+        for command in stepped:
+            if command.run != "by caller":
+                cls.AUTOMATIC = {**cls.AUTOMATIC, command.run: (*cls.AUTOMATIC.get(command.run, ()), command)}
 
 
 class NamedPoints(PointTable):
@@ -177,7 +185,7 @@ class NamedPoints(PointTable):
         for documented, facts in self.DOCUMENTED.items():
             if name in (documented, documented.rstrip("_")) or is_code(facts.code, name):
                 return f"is documented only{'' if documented == name else f', as {documented}'}: {facts}"
-        if isinstance(getattr(type(self), name, None), Command):
+        if isinstance(getattr(type(self), name, None), (Command, SteppedCommand)):
             return f"is a command of this device: {name}.send() gives it"
         if name in self._groups():
             return f"is a group of this device: read_many({name!r}) reads it"

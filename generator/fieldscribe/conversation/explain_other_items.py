@@ -9,10 +9,11 @@ from fieldscribe.conversation.explanation import Explanation
 from fieldscribe.facts.texts import place_in_manual
 from fieldscribe.families import Codes, family
 from fieldscribe.language.units import shipped, shipped_unit
-from fieldscribe.model import Code, Command, Device, Erratum, Message
+from fieldscribe.model import Code, Command, Device, Erratum, Message, SteppedCommand
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.steps import run_text, steps_texts
 
 Row = tuple[str, str]
 
@@ -42,6 +43,9 @@ def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     for command in device.commands:
         if reading := _reading_of(device, command, text, forced):
             yield reading, *_command(device, command)
+    for stepped in device.stepped_commands:
+        if name == stepped.name:
+            yield f"command {stepped.name}", *_stepped(device, stepped)
     for erratum in device.errata:
         if name == erratum.id:
             yield f"erratum {erratum.id}", *_erratum(device, erratum)
@@ -67,13 +71,28 @@ def _reading_of(device: Device, command: Command, text: str, forced: str) -> str
 def _command(device: Device, command: Command) -> tuple[str, list[Row]]:
     value = "any value" if command.value is None else f"{command.value} ({hex_text(command.value)})"
     where = f"{command.space} {wording.address_text(command.address)}"
-    return f"command {command.name}: {wording.title_text(command.title)}", [
+    return _heading(command), [
         ("Write", f"{value} to {where}, function {hex_text(command.function, 2)}"),
         ("Memory", f"stands {command.wears} writes" if command.wears else ""),
         ("Busy", f"while {command.busy} is set" if command.busy else ""),
         ("Note", wording.title_text(command.note) if command.note else ""),
         ("Source", place_in_manual(command.source, device)),
     ]
+
+
+def _stepped(device: Device, command: SteppedCommand) -> tuple[str, list[Row]]:
+    texts = steps_texts(command, {point.name: point for point in device.points})
+    frames_of = family(device.family).part("frame_builder").frames_of_step
+    lowest = {name: low for name, (low, _) in command.arguments.items()}
+    rows = [("Run", run_text(command))]
+    for number, (step, text) in enumerate(zip(command.steps, texts, strict=True), 1):
+        rows += [(f"Step {number}", text), *((f"Frame {number}", frame) for frame in frames_of(device, step, lowest))]
+    note = ("Note", wording.title_text(command.note) if command.note else "")
+    return _heading(command), [*rows, note, ("Source", place_in_manual(command.source, device))]
+
+
+def _heading(command: Command | SteppedCommand) -> str:
+    return f"command {command.name}: {wording.title_text(command.title)}"
 
 
 def _erratum(device: Device, erratum: Erratum) -> tuple[str, list[Row]]:

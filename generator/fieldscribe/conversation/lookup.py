@@ -71,7 +71,7 @@ def advice(device: Device, what: str) -> str:
     forced, text = _split(device, what.strip())
     if forced not in (None, "wire") and number_of(text) is not None:
         return ""
-    if any(text.lower() == command.name for command in device.commands):
+    if any(text.lower() == command.name for command in device.all_commands):
         return f"it is a command, and no point: `fieldscribe explain {device.id} {line(text)}` says what it writes"
     names = near(device, what)
     if number_of(text) is not None:

@@ -11,6 +11,7 @@ from typing import Any
 from fieldscribe.facts import devices
 from fieldscribe.facts.points import DIGITS, ENTRY, FLAG, FLAG_VALUE, LAYOUT, POINT, SPECIAL
 from fieldscribe.facts.schema import DEFINITIONS, record
+from fieldscribe.facts.steps import STEP, STEPPED_COMMAND
 from fieldscribe.facts.table import Context, FactTable, exported
 from fieldscribe.families import FAMILIES, families, family
 from fieldscribe.model import Device
@@ -57,6 +58,8 @@ def schema_text() -> str:
         ),
         "base": ("What addresses count from: a found block, or offset plus multiples of given numbers.", devices.BASE),
         "command": ("A named write of a constant.", devices.COMMAND),
+        "stepped_command": ("A named list of requests.", STEPPED_COMMAND),
+        "step": ("One request of a command.", STEP),
         "message": ("A layout of eight bytes with an identifier.", devices.MESSAGE),
         "telegram": ("A layout of words that is sent again and again.", devices.TELEGRAM),
         "frame": ("A worked frame of the manual.", devices.frame_table(first)),

@@ -28,6 +28,7 @@ from fieldscribe.facts.schema import (
     one_of,
     ref,
 )
+from fieldscribe.facts.steps import STEPPED_COMMANDS
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, FactTable, Parts, View, Weight
 from fieldscribe.families import Family, families, family
 from fieldscribe.model import Bus, Code, Erratum
@@ -399,6 +400,7 @@ def device_table(own_family: str) -> FactTable:
         _list(
             "commands", "Named constant writes.", _parts("command", COMMAND, "space", "address", "function", "value")
         ),
+        STEPPED_COMMANDS,
         _list(
             "identifications",
             "What tells the device and its variants, in the order of reading.",

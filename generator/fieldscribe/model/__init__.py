@@ -40,3 +40,4 @@ from fieldscribe.model.numbers import (
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Interner, Shape
+from fieldscribe.model.steps import Step, SteppedCommand, Word

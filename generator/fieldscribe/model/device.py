@@ -8,6 +8,7 @@ from typing import NamedTuple, Self
 
 from fieldscribe.model.numbers import Enum, Titles
 from fieldscribe.model.point import Point, Source, Variant
+from fieldscribe.model.steps import SteppedCommand
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,11 +309,17 @@ class Device:
     given: tuple[Given, ...] = ()
     found: Found | None = None
     bases: tuple[Base, ...] = ()
+    stepped_commands: tuple[SteppedCommand, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
 
     def base_of(self, point: Point) -> Base | None:
         """Return what the addresses of a point count from; None if they count from 0."""
         return next((base for base in self.bases if base.name == point.terms.base), None)
+
+    @property
+    def all_commands(self) -> tuple[Command | SteppedCommand, ...]:
+        """The commands, those with steps last."""
+        return *self.commands, *self.stepped_commands
 
     @property
     def doubts(self) -> tuple[Erratum, ...]:

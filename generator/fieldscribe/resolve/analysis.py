@@ -13,7 +13,20 @@ from typing import Any
 from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Identification, Message, Point
+from fieldscribe.model import (
+    About,
+    Block,
+    Bus,
+    Command,
+    Device,
+    Enum,
+    Frame,
+    Group,
+    Identification,
+    Message,
+    Point,
+    SteppedCommand,
+)
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, same
@@ -42,6 +55,7 @@ class Analysis:
     located_frames: list[LocatedFrame]
     errata: list[LocatedErratum]
     identifications: tuple[Identification, ...]
+    stepped_commands: tuple[SteppedCommand, ...]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)
 
@@ -139,6 +153,7 @@ class Analysis:
             given=tuple(scope.given.values()),
             found=scope.found,
             bases=tuple({base.name: base for base in scope.bases.values()}.values()),
+            stepped_commands=self.stepped_commands,
             telegrams=tuple(telegram for telegram, _ in self.places.telegrams.values()),
         )
 

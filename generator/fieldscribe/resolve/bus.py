@@ -1,4 +1,4 @@
-"""Reads the facts under `bus` and the commands, and defines how a family reads the keys that only it has."""
+"""Reads the facts under `bus`, and defines how a family reads the keys that only it has."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from fieldscribe.families import BusKeys, Family, families
 from fieldscribe.language.keys import keys_of_family
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.suggestions import space_hint
-from fieldscribe.model import Block, Bus, Code, Command, FamilyFacts, Message, Point, Telegram
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.model import Block, Bus, Code, FamilyFacts, Message, Point, Telegram
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 from fieldscribe.resolve.word_contents import Taken, entry_titles, name_of
 
@@ -49,6 +48,11 @@ class FamilyReader:
     def writes(self, space: str) -> tuple[int, ...]:
         """Return the functions that write into a space."""
         del space
+        return ()
+
+    def able(self, bus: Bus, space: str, count: int, *, writes: bool) -> tuple[int, ...]:
+        """Return the functions of the device that read or write so many items at once, the usual one first."""
+        del bus, space, count, writes
         return ()
 
     def blocks(
@@ -238,77 +242,3 @@ def _setting(value: Any) -> dict[str, str]:
     if isinstance(value, Seq):
         return {str(item): str(item) for item in value}
     return {str(value): str(value)}
-
-
-def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
-    """Return the commands of all files."""
-    result: dict[str, Command] = {}
-    for node in scope.unique("commands"):
-        name = str(node["name"])
-        if scope.family.commands_in is None:
-            hint = "describe the point that it writes, with its value under `enum` or `flags`"
-            known = " and ".join(family.name for family in families() if family.commands_in is not None)
-            scope.report.error("family-key", f"commands are for the family {known}", node.span("name"), hint)
-            continue
-        if name in ("no", "yes", "choice"):
-            hint = "these are the words of `keeps`: give it another name"
-            scope.report.error("duplicate-name", f"a command cannot be called `{name}`", node.span("name"), hint)
-            continue
-        command = _command(scope, bus, node)
-        if command is not None:
-            result[name] = command
-    return tuple(result.values())
-
-
-def _command(scope: Scope, bus: Bus, node: Map) -> Command | None:
-    address = integer(node["at"], node.span("at"), scope.report)
-    function = integer(node["function"], node.span("function"), scope.report)
-    value = None if node["value"] == "any" else integer(node["value"], node.span("value"), scope.report)
-    space = str(node.get("space", scope.family.commands_in))
-    if space not in scope.family.spaces:
-        known = scope.family.spaces
-        scope.unknown("space", space, node.span("space"), known, space_hint(space, known))
-        return None
-    if address is None or function is None:
-        return None
-    if not all([_reaches(scope, bus, node, space, function), _fits(scope, node, space, address, value)]):
-        return None
-    return Command(
-        name=str(node["name"]),
-        title=titles(node.get("title"), humanised(node["name"])),
-        note=titles(node.get("note")),
-        space=space,
-        address=address,
-        function=function,
-        value=value,
-        wears=node.get("wears"),
-        busy=node.get("busy"),
-        source=source_of(scope, node),
-    )
-
-
-def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) -> bool:
-    """Return True if the space has the address and holds the value; report what does not fit."""
-    last = scope.family.last_address
-    greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
-    inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
-    if not inside:
-        message = f"the address {address} lies outside 0..{last}"
-        scope.report.error("address-outside-space", message, node.span("at"), "`at` is the number on the wire")
-    if not holds:
-        message = f"the value {value} does not fit into `{space}`"
-        scope.report.error("range-outside-type", message, node.span("value"), f"0..{greatest} can be written")
-    return inside and holds
-
-
-def _reaches(scope: Scope, bus: Bus, node: Map, space: str, function: int) -> bool:
-    """Return True if the device has the function and it writes into the space; report it otherwise."""
-    known = reader_of(scope).writes(space)
-    if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
-        return True
-    message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"
-    if function not in known:
-        message = f"function {function:02X}h does not write into `{space}`"
-        hint = f"functions that do: {', '.join(f'{other:02X}h' for other in known) or 'none'}"
-    scope.report.error("unknown-function", message, node.span("function"), hint)
-    return False

@@ -109,16 +109,16 @@ def _meaning_of(scope: Scope, node: Map, symbols: SymbolTable, points: Mapping[s
     """Return the raw numbers that a frame carries according to `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
-    for point, raw_number in _StatedValues(scope, settings).numbers(symbols, points) if settings is not None else ():
+    for point, raw_number in StatedValues(scope, settings).numbers(symbols, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
     says: Map | None = node.get("says")
     if says is None:
         return {}
-    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(symbols, points)}
+    return {point.item: raw_number for point, raw_number in StatedValues(scope, says, held).numbers(symbols, points)}
 
 
 @dataclass(frozen=True, slots=True)
-class _StatedValues:
+class StatedValues:
     """Values by point as an author wrote them; `held` is what other points hold at that time."""
 
     scope: Scope
@@ -137,11 +137,11 @@ class _StatedValues:
             if point is None or facts.failed & {"scale", "type", "enum"}:
                 continue
             try:
-                yield point, self._raw(point, word, value) if word == name else whole(value, self.values.span(word))
+                yield point, self.raw(point, word, value) if word == name else whole(value, self.values.span(word))
             except FactError as error:
                 error.report(self.scope.report)
 
-    def _raw(self, point: Point, word: str, value: Any) -> int:
+    def raw(self, point: Point, word: str, value: Any) -> int:
         """Return the raw number of a name, or of a value in the unit. Raises FactError."""
         if isinstance(value, bool):
             return int(value)

@@ -11,7 +11,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
-from fieldscribe.model import Block, Command, Device, Enum, Interval, Point
+from fieldscribe.model import Block, Command, Device, Enum, Interval, Point, SteppedCommand
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
@@ -38,9 +38,11 @@ def select(device: Device, words: Sequence[str]) -> Device:
         commands.update(command.name for command in commands_of_word)
     if unclear:
         raise _all_of(unclear)
-    kept_commands = tuple(command for command in device.commands if command.name in commands)
-    needed = _with_dependencies(device, items, (command.busy for command in kept_commands if command.busy is not None))
-    return _reduced(device, tuple(needed), kept_commands)
+    kept = tuple(command for command in device.commands if command.name in commands)
+    stepped = tuple(command for command in device.stepped_commands if command.name in commands)
+    asked = [command.busy for command in kept if command.busy is not None]
+    asked += [name for command in stepped for step in command.steps if step.when for name in step.when.names]
+    return _reduced(device, tuple(_with_dependencies(device, items, asked)), kept, stepped)
 
 
 def address_only_messages(device: Device, words: Iterable[str]) -> Iterator[str]:
@@ -61,17 +63,17 @@ def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
     return UnclearError("; ".join([*(error.message for _, error in shown), *more]), "; ".join(hints))
 
 
-def _matches(device: Device, word: str) -> tuple[list[Point], list[Command]]:
+def _matches(device: Device, word: str) -> tuple[list[Point], list[Command | SteppedCommand]]:
     """Return the points and commands that a word selects. Raises UnclearError."""
     groups = {group.name for group in device.groups}
     if word.startswith("group:") and word.removeprefix("group:") in groups:
         return _of_group(device, word.removeprefix("group:")), []
     if _GLOB.intersection(word) and not _named(device, word):
         points = [point for point in device.points if _is_like(point, word.lower()) and _is_in_code(point)]
-        commands = [command for command in device.commands if fnmatchcase(command.name, word.lower())]
+        commands = [command for command in device.all_commands if fnmatchcase(command.name, word.lower())]
     else:
         points = _named(device, word)
-        commands = [command for command in device.commands if command.name == word]
+        commands = [command for command in device.all_commands if command.name == word]
         if points and word in groups:
             raise UnclearError(
                 f"`{shortened(word)}` is a point of {device.id} and a group", f"write `name:{word}` or `group:{word}`"
@@ -109,7 +111,7 @@ def _is_like(point: Point, glob: str) -> bool:
 
 def _hint(device: Device, word: str) -> str:
     """Return a hint with similar names of points, groups and commands."""
-    others = [*(group.name for group in device.groups), *(command.name for command in device.commands)]
+    others = [*(group.name for group in device.groups), *(command.name for command in device.all_commands)]
     names = [*get_close_matches(word.lower()[:64], others, 2), *near(device, word)[:3]]
     return did_you_mean(list(dict.fromkeys(names))) or f"`fieldscribe list {device.id}` shows them all"
 
@@ -149,10 +151,13 @@ def _only_read(point: Point) -> Point:
     return replace(point, shape=replace(point.shape, access="r"), allowed=allowed, write_place=None)
 
 
-def _reduced(device: Device, points: tuple[Point, ...], commands: tuple[Command, ...]) -> Device:
+def _reduced(
+    device: Device, points: tuple[Point, ...], commands: tuple[Command, ...], stepped: tuple[SteppedCommand, ...]
+) -> Device:
     names = {point.name for point in points}
     groups = {point.group for point in points}
-    command_places = {f"command:{command.name}" for command in device.commands if command not in commands}
+    kept = {each.name for each in commands} | {each.name for each in stepped}
+    command_places = {f"command:{command.name}" for command in device.all_commands if command.name not in kept}
     reduced = replace(
         device,
         points=points,
@@ -160,6 +165,7 @@ def _reduced(device: Device, points: tuple[Point, ...], commands: tuple[Command,
         enums=_enums_of(device, points),
         blocks=_blocks(device, points),
         commands=commands,
+        stepped_commands=stepped,
         frames=tuple(frame for frame in device.frames if names.issuperset(frame.meaning)),
         errata=tuple(
             erratum

@@ -268,6 +268,28 @@ FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
         (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
     }
 
+/* A step of a command: its requests, and its words in place of those that the device held. */
+#define FIELDSCRIBE_STEPS(command, steps, ...)                                                   \
+    if (fieldscribe_asks_of(v, "step", "command", command)) {                                    \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        uint16_t held[FIELDSCRIBE_ROOM];                                                         \
+        const uint16_t arguments[] = __VA_ARGS__;                                                \
+        const fieldscribe_modbus_step *const step = &(steps)[fieldscribe_bits(v, "index")];      \
+        const size_t count = fieldscribe_numbers(v, "held", held, FIELDSCRIBE_ROOM);             \
+        bool same;                                                                               \
+        (void)fieldscribe_numbers(v, "held", words, FIELDSCRIBE_ROOM);                           \
+        same = fieldscribe_modbus_steps_fill(step, arguments, words);                             \
+        fieldscribe_is_words(v, "words", words, count);                                          \
+        fieldscribe_agree(v, same == (memcmp(words, held, count * sizeof words[0]) == 0));       \
+        fieldscribe_is_count(v, "read", step->read.function);                                    \
+        fieldscribe_is_count(v, "write", step->write.function);                                  \
+        fieldscribe_is_number(v, "address", step->read.address);                                 \
+        fieldscribe_is_number(v, "address", step->write.address);                                \
+        fieldscribe_agree(v, step->read.count == count && step->write.count == count);           \
+        fieldscribe_is_count(v, "within", step->within);                                         \
+        fieldscribe_is_number(v, "conditional", step->conditional ? 1U : 0U);                    \
+    }
+
 #define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \

@@ -14,6 +14,7 @@ PLANTED = {
     "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
     "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
+    "modbus_steps": ("fill", "at < step->read.count", "at <= step->read.count", "fill"),
     "can": ("listen", "at < receiver.slot_count", "at <= receiver.slot_count", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
 }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, split
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.modbus import FAMILY, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Point, Step
 from fieldscribe.text import counted
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
@@ -65,6 +67,15 @@ def read_text(device: Device, point: Point) -> str:
     function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, FAMILY.spaces[point.space])}"
     return how + _example(device, function, min(point.addresses), count, ())
+
+
+def frames_of_step(device: Device, step: Step, arguments: Mapping[str, int]) -> Iterator[str]:
+    """Yield the requests of a step of a command, to the usual unit; bits that stay are 0."""
+    words = tuple(word.of(arguments) for word in step.words)
+    for function, values in ((step.read, ()), (step.write, words)):
+        if function is not None:
+            request = Request(device.bus.usual_unit, function, step.address, len(words), values)
+            yield spaced(build(profile_of(device.bus), framings_of(device.bus)[0], request)[1])
 
 
 def way_to_write(device: Device, point: Point) -> WriteMethod | None:

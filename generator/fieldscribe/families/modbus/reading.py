@@ -37,6 +37,12 @@ class ModbusReading(FamilyReader):
         functions = SPACES[space]
         return tuple(number for number in (functions.write_one, functions.write_many) if number is not None)
 
+    def able(self, bus: Bus, space: str, count: int, *, writes: bool) -> tuple[int, ...]:
+        """Return the functions of the device that read or write so many items at once, the usual one first."""
+        most = profile_of(bus).most
+        known = self.writes(space) if writes else (SPACES[space].read,)
+        return tuple(number for number in known if most.get(number, 0) >= count)
+
     def blocks(self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
         """Return the reads that fetch all points of a group."""
         return plan_blocks(bus, points, variants)

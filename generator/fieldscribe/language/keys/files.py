@@ -275,7 +275,7 @@ SECTIONS = (
     Key("bus", FILES, places.BUS.shape),
     _listed("telegrams", places.TELEGRAM, "The cyclic telegrams: layouts of words."),
     _listed("messages", places.MESSAGE, "The messages: layouts of the bytes of a frame."),
-    _listed("commands", places.COMMAND, "The commands: constants that are written under a name."),
+    _listed("commands", places.COMMAND, "The commands: what is written under a name."),
     _listed("frames", places.FRAME, "The worked examples of the manual."),
     _listed("errata", places.ERRATUM, "The places where the manual is wrong, unclear or silent."),
     _listed("looked_through", places.LOOKED_THROUGH, "Lines of the manual that hold no facts; the audit ignores them."),

@@ -73,6 +73,13 @@ TYPE = Form(
     "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit and text",
 )
 WORD_ORDER = Form("^(high|low) first$", "an order of words", "write `high first` or `low first`")
+_TIME = "[1-9][0-9]{0,5} (ms|s|min)"
+TIME = Form(f"^{_TIME}$", "a time", "write a number and a unit: 500 ms, 2 s, 10 min")
+RUN = Form(
+    f"^(first|before write|by caller|every {_TIME})$",
+    "an occasion",
+    "write `first`, `before write`, `by caller` or `every 10 s`",
+)
 ID = Form("^[a-z][a-z0-9_]*$", "an id", "ids are written a to z, digits and _")
 PART_FILE = Form(
     "^[A-Za-z0-9][A-Za-z0-9_.-]*\\.ya?ml$",

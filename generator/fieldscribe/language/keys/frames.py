@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families import families
 from fieldscribe.language.keys import forms
-from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, TELEGRAM
+from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, STEP, TELEGRAM
 from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Shape, Text, Whole, by, one_of
 
@@ -22,12 +22,68 @@ KEYS = (
     ),
     Key("length", TELEGRAM, "The number of its words.", [69], Whole(1, 65536), required=True),
     Key("message", TELEGRAM, "The message whose frames carry its words.", ["visualisation"], NAMED),
-    Key("space", COMMAND, "The address space.", ["holding"], Text(40)),
-    Key("at", COMMAND, "The address on the wire.", ["0900h"], Whole(), Text(64), required=True),
-    Key("function", COMMAND, "The function code that writes it.", ["06h"], Whole(), Text(20), required=True),
-    Key("value", COMMAND, "The constant, or `any`.", ["any", 1], Whole(), Text(64), required=True),
+    Key("space", (COMMAND, STEP), "The address space.", ["holding"], Text(40)),
+    Key("at", (COMMAND, STEP), "The address on the wire; of the first word.", ["0900h"], Whole(), Text(64)),
+    Key("function", (COMMAND, STEP), "The function code that writes it.", ["06h"], Whole(), Text(20)),
+    Key("value", COMMAND, "The constant, or `any`.", ["any", 1], Whole(), Text(64)),
     Key("wears", COMMAND, "How many times the memory survives it.", [100000], Whole(1, 1_000_000_000)),
     Key("busy", COMMAND, "The point that says that the command is still running.", ["writing_data"], Text(80)),
+    Key(
+        "run",
+        COMMAND,
+        "When clients carry out the steps: `first` (before all else), `before write` (of any point), `every 10 s`, or "
+        "`by caller` (the default). Only the first two need no call.",
+        ["first", "every 10 s"],
+        Text(form=forms.RUN),
+        needs=("steps",),
+    ),
+    Key(
+        "arguments",
+        COMMAND,
+        "The numbers that whoever gives the command chooses, by name: what each may be.",
+        [{"unit": "1..32"}],
+        by(forms.NAME, Shape("The least and the greatest number.", ["1..32"], Text(64), Whole())),
+        needs=("steps",),
+    ),
+    Key(
+        "steps",
+        COMMAND,
+        "Requests in order, in place of `at`, `function` and `value`.",
+        [[{"at": 4104, "words": ["unit", 2, "65535 - unit"]}, {"wait": {"result": 0}, "within": "2 s"}]],
+        Items(STEP.shape, 1),
+    ),
+    Key(
+        "write",
+        STEP,
+        "Values to write, by point: as under `says` of a worked example. Points of one step follow each other. A raw "
+        "number may be a formula of arguments.",
+        [{"A020": 50.0}, {"slave.raw": "unit"}],
+        _SAID,
+    ),
+    Key(
+        "words",
+        STEP,
+        "The words (or bits) to write at `at`: numbers, and formulas of one argument each.",
+        [["unit", 2, "65535 - unit"]],
+        Items(Shape("A number, or a formula of an argument.", ["65535 - unit", 2], Whole(), Text(200)), 1),
+        needs=("at",),
+    ),
+    Key(
+        "wait",
+        STEP,
+        "Values that points must come to hold before the next step.",
+        [{"result": 0}],
+        _SAID,
+        needs=("within",),
+    ),
+    Key("within", STEP, "The longest time to wait.", ["2 s"], Text(form=forms.TIME), needs=("wait",)),
+    Key(
+        "when",
+        STEP,
+        "The step is left out unless this holds: a condition as that of a point.",
+        ["unit_mode == celsius"],
+        Text(500),
+    ),
     Key(
         "framing",
         FRAME,

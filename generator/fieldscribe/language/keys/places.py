@@ -244,9 +244,16 @@ MESSAGE = Place(
 COMMAND = Place(
     "command",
     "A command",
-    "A constant that is written under a name.",
+    "A constant that is written under a name, or several requests in order (`steps`).",
     [{"name": "enter", "at": "0900h", "function": "06h", "value": "any"}],
     by_form=_PRIVATE,
+)
+STEP = Place(
+    "step",
+    "A step of a command, under `steps`",
+    "One request: words to write by points (`write`) or by address (`at`, `words`), or points to wait for (`wait`).",
+    [{"write": {"A020": 50.0}}],
+    least=1,
 )
 FRAME = Place(
     "frame",
@@ -299,6 +306,6 @@ PLACES = (
         TELEGRAM,
         MESSAGE,
     ),
-    *(COMMAND, FRAME, ERRATUM),
+    *(COMMAND, STEP, FRAME, ERRATUM),
 )
 """The places that have a table in KEYS.md, in its order."""

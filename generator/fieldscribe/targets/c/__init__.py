@@ -60,6 +60,7 @@ def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -
     """Yield the source files beside them: path below the output folder, and path below the templates."""
     names = ["fieldscribe.h"]
     names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
+    names += [f"fieldscribe_{device.family}_steps.h"] * bool(device.stepped_commands)
     names += [f"fieldscribe_{device.family}.h"] * (frames != "constants")
     names += ["fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"] * tests
     for name in names:

@@ -7,10 +7,22 @@ from functools import partial
 from typing import Any
 
 from fieldscribe.families import family
-from fieldscribe.model import Bus, Code, Command, Device, Message, Telegram
-from fieldscribe.targets.docs.cells import Columns, by_rows, cell, code, link, paragraph, source_cell, table, target
+from fieldscribe.model import Bus, Code, Command, Device, Message, SteppedCommand, Telegram
+from fieldscribe.targets.docs.cells import (
+    LINE_BREAK,
+    Columns,
+    by_rows,
+    cell,
+    code,
+    link,
+    paragraph,
+    source_cell,
+    table,
+    target,
+)
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.steps import run_text, steps_texts
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +56,7 @@ def bus_view(device: Device) -> BusView:
         ("Serial settings", by_rows(("Setting", "Code", "Meaning"), serial)),
         ("Timing", by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()])),
         ("Commands", _commands(device)),
+        ("Commands with steps", _stepped(device)),
     )
     return BusView(
         paragraph(title_text(bus.note)) if bus.note else "",
@@ -152,3 +165,18 @@ def _commands(device: Device) -> str:
         "Source": lambda command: source_cell(command.source, len(device.documents) > 1),
     }
     return table(device.commands, columns)
+
+
+def _stepped(device: Device) -> str:
+    points = {point.name: point for point in device.points}
+    columns: Columns[SteppedCommand] = {
+        "Name": lambda command: target("command", command.name),
+        "Title": lambda command: cell(title_text(command.title)),
+        "Given": lambda command: cell(run_text(command)),
+        "Steps": lambda command: LINE_BREAK.join(
+            cell(f"{number}. {text}") for number, text in enumerate(steps_texts(command, points), 1)
+        ),
+        "Note": lambda command: cell(title_text(command.note)) if command.note else "",
+        "Source": lambda command: source_cell(command.source, len(device.documents) > 1),
+    }
+    return table(device.stepped_commands, columns)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from fieldscribe.lowered import Lowered, named_numbers
-from fieldscribe.model import Command, Device, Point, Shape
+from fieldscribe.model import Device, Point, Shape
 from fieldscribe.targets.python.layout import Node
 from fieldscribe.text import pascal
 
@@ -64,11 +64,11 @@ def attribute(name: str) -> str:
     return f"{name}_" if name in _ATTRIBUTE_TAKEN else name
 
 
-def command_attributes(device: Device) -> Iterator[tuple[Command, str]]:
-    """Yield the commands of a device with their attributes, which differ from those of the points."""
+def command_attributes(device: Device) -> dict[str, str]:
+    """Return the attributes of the commands of a device by name, which differ from those of the points."""
     points = {name for point in device.points for name in (point.item, point.name)}
-    for command in device.commands:
-        yield command, attribute(f"{command.name}_command" if command.name in points else command.name)
+    names = [command.name for command in device.all_commands]
+    return {name: attribute(f"{name}_command" if name in points else name) for name in names}
 
 
 def word_attribute(name: str) -> str:

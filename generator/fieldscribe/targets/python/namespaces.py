@@ -43,8 +43,8 @@ def identifiers(device: Device) -> Iterator[Names]:
     for point in device.points:
         if point.generated:
             yield from _of_point(point)
-    for command, name in command_attributes(device):
-        yield Names(_POINTS, Owner("command", command.name), (name,))
+    for command, name in command_attributes(device).items():
+        yield Names(_POINTS, Owner("command", command), (name,))
 
 
 def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:

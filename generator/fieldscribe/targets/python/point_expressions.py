@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
+from fieldscribe.conditions import Comparison
 from fieldscribe.lowered import Operand
-from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special
+from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Word
+from fieldscribe.model.steps import WHOLE_WORD
 from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
@@ -198,10 +200,35 @@ def place_of_command(command: Command, scope: PackageScope) -> Node:
     return _place("at", command.space, address, (f"function=0x{command.function:02X}",), scope)
 
 
+def step_of(step: Step, scope: PackageScope) -> Node:
+    """Return a step of a command."""
+    last = step.address + len(step.words)
+    function = () if step.write is None else (f"function=0x{step.write:02X}",)
+    where = _place("", step.space, addresses_of(tuple(range(step.address, last)), step.space), function, scope)
+    words = Group("(", tuple(_word(word, scope) for word in step.words))
+    facts: list[Node] = [] if step.within is None else [f"within={number(Fraction(step.within, 1000), binary=True)}"]
+    if step.when is not None:
+        facts.append(Group("when=(", tuple(Group("(", tuple(map(_test, clause))) for clause in step.when.clauses)))
+    return call(scope.runtime("Step"), (python_string(step.says), where, words, *facts))
+
+
+def _word(word: Word, scope: PackageScope) -> Node:
+    if word.argument is None and word.mask == WHOLE_WORD:
+        return str(word.constant & WHOLE_WORD)
+    argument = (str(word.factor), python_string(word.argument)) if word.argument else ()
+    mask = () if word.mask == WHOLE_WORD else (f"mask=0x{word.mask:04X}",)
+    return call(scope.runtime("StepWord"), (str(word.constant), *argument, *mask))
+
+
+def _test(comparison: Comparison) -> Node:
+    than = [python_string(each) if isinstance(each, str) else str(each) for each in comparison.than]
+    return Group("(", (python_string(comparison.of), python_string(comparison.test), Group("(", tuple(than))))
+
+
 def _place(keyword: str, space: str, addresses: Iterable[str], beside: tuple[str, ...], scope: PackageScope) -> Node:
     maker = scope.runtime(_PLACES.get(space, "Place"))
     where = (python_string(space), Group("(", tuple(addresses))) if maker == "Place" else addresses
-    return call(f"{keyword}={maker}", (*where, *beside))
+    return call(f"{keyword}={maker}" if keyword else maker, (*where, *beside))
 
 
 def number(value: Fraction, binary: bool = False) -> str:

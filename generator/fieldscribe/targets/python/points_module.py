@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable
+from fractions import Fraction
 
 from fieldscribe.lowered import lower
-from fieldscribe.model import Command, Device, Point, Variant
+from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
@@ -17,8 +18,8 @@ from fieldscribe.targets.python.identifiers import (
     command_attributes,
     sorted_imports,
 )
-from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
-from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, place_of_command
+from fieldscribe.targets.python.layout import DOC, Group, Node, assigned, call, comment, docstring, laid_out
+from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, number, place_of_command, step_of
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import label
 
@@ -31,7 +32,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     and the text of its attributes.
     """
     family = in_python(device)
-    named = {command.name: name for command, name in command_attributes(device)}
+    named = command_attributes(device)
     scope = PackageScope(names, lower(device), device.variants, named, {"PointTable"})
     attributes = Attributes(device, scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
@@ -125,15 +126,35 @@ def _variants(device: Device) -> Group:
 
 def _commands(device: Device, scope: PackageScope) -> Iterable[AttributeView]:
     """Yield the attributes of the commands."""
-    for command, name in command_attributes(device):
-        where = place_of_command(command, scope)
+    for command in device.commands:
+        where = laid_out(place_of_command(command, scope), BODY)
         value = () if command.value is None else (f"value={command.value}",)
-        doc = docstring((_command_doc(command),))
-        yield AttributeView(name, scope.runtime("Command"), (laid_out(where, BODY), *value), doc)
+        yield _attribute(command, "Command", (where, *value), scope)
+    for stepped in device.stepped_commands:
+        yield _attribute(stepped, "SteppedCommand", [laid_out(node, BODY) for node in _steps(stepped, scope)], scope)
 
 
-def _command_doc(command: Command) -> str:
+def _steps(command: SteppedCommand, scope: PackageScope) -> Iterable[Node]:
+    """Yield the arguments of a command with steps."""
+    yield from [step_of(step, scope) for step in command.steps]
+    if command.arguments:
+        ends = [f"{python_string(argument)}: ({low}, {high})" for argument, (low, high) in command.arguments.items()]
+        yield Group("arguments={", tuple(ends), "}")
+    if command.run in ("first", "before write"):
+        yield f"run={python_string(command.run)}"
+    if command.every is not None:
+        yield f"every={number(Fraction(command.every, 1000), binary=True)}"
+
+
+def _attribute(
+    command: Command | SteppedCommand, maker: str, arguments: Iterable[str], scope: PackageScope
+) -> AttributeView:
+    name, doc = scope.commands[command.name], docstring((_command_doc(command),))
+    return AttributeView(name, scope.runtime(maker), tuple(arguments), doc)
+
+
+def _command_doc(command: Command | SteppedCommand) -> str:
     text = command.title["en"].rstrip(".") + "."
-    if command.wears:
+    if isinstance(command, Command) and command.wears:
         text += f" The memory stands {command.wears} of them."
     return python_doc(text)

@@ -41,6 +41,7 @@ def identifiers(device: Device) -> Iterator[Names]:
     for module, kind, names in (
         ("points::documented", "point", [point.item for point in device.points if point.raw_only]),
         ("commands", "command", [command.name for command in device.commands]),
+        ("stepped_commands", "command", [command.name for command in device.stepped_commands]),
         ("blocks", "group", [*device.blocks]),
         ("exceptions", "exception", [code.name for code in device.bus.exceptions]),
     ):

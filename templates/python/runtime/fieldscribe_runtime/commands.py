@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, overload
 
 from .about import About
@@ -11,6 +12,7 @@ from .errors import AbsentError, AccessError
 from .guided import Guided
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Never
 
     from .device import AnyAsyncDevice, AnyDevice
@@ -62,15 +64,21 @@ class Command(Guided):
         return self._given_steps(device, number if self.value is None else self.value)
 
     def _given_steps(self, device: Session, number: int) -> Steps[None]:
-        retries, device.retries = device.retries, 0  # what a device did already must not be done twice
-        try:
-            with About(device.traffic, self):
-                yield from device._put_steps(self.at, (number,))
-        finally:
-            device.retries = retries
+        with carried_out_once(device), About(device.traffic, self):
+            yield from device._put_steps(self.at, (number,))
 
 
-def _refuse(handle: CommandHandle, name: str) -> Never:
+@contextmanager
+def carried_out_once(device: Session) -> Iterator[None]:
+    """Send nothing again meanwhile: what a device did already must not be done twice."""
+    retries, device.retries = device.retries, 0
+    try:
+        yield
+    finally:
+        device.retries = retries
+
+
+def refuse(handle: CommandHandle, name: str) -> Never:
     """Say how a command is used."""
     if name[:1] == "_":
         raise AttributeError(name)
@@ -86,7 +94,7 @@ class CommandHandle:
         self._device = device
 
     if not TYPE_CHECKING:
-        __getattr__ = _refuse
+        __getattr__ = refuse
 
     def __repr__(self) -> str:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
@@ -104,7 +112,7 @@ class AsyncCommandHandle:
         self._device = device
 
     if not TYPE_CHECKING:
-        __getattr__ = _refuse
+        __getattr__ = refuse
 
     def __repr__(self) -> str:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"

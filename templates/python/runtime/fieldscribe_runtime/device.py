@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
 from .errors import FieldscribeError
-from .session import Pause, Session, Steps, Value
+from .receiving import Pause
+from .session import Session, Steps, Value
+from .steps import AsyncSteppedHandle, SteppedCommand, SteppedHandle
 from .turns import Turns
 
 if TYPE_CHECKING:
@@ -79,9 +81,15 @@ class AnyDevice(Session):
         """Return the command, bound to this device."""
         return CommandHandle(command, self)
 
-    def _run(self, steps: Steps[T]) -> T:
+    def _bound_steps(self, command: SteppedCommand) -> SteppedHandle:
+        """Return the command, bound to this device."""
+        return SteppedHandle(command, self)
+
+    def _run(self, steps: Steps[T], *, prepares: bool = True) -> T:
         """Carry out an operation."""
         with self._lock:
+            if self._first and prepares:
+                steps = self._after_first_steps(steps)
             try:
                 request = next(steps)
                 while True:
@@ -102,7 +110,7 @@ class AnyDevice(Session):
 
         An axis of which no value fits is left out. Raises OtherDeviceError for another device.
         """
-        return self._run(self._identify_steps())
+        return self._run(self._identify_steps(), prepares=False)
 
     @overload
     def read_many(
@@ -157,9 +165,15 @@ class AnyAsyncDevice(Session):
         """Return the command, bound to this device."""
         return AsyncCommandHandle(command, self)
 
-    async def _run(self, steps: Steps[T]) -> T:
+    def _bound_steps(self, command: SteppedCommand) -> AsyncSteppedHandle:
+        """Return the command, bound to this device."""
+        return AsyncSteppedHandle(command, self)
+
+    async def _run(self, steps: Steps[T], *, prepares: bool = True) -> T:
         """Carry out an operation."""
         async with self._turns.lock():
+            if self._first and prepares:
+                steps = self._after_first_steps(steps)
             try:
                 request = next(steps)
                 while True:
@@ -180,7 +194,7 @@ class AnyAsyncDevice(Session):
 
         An axis of which no value fits is left out. Raises OtherDeviceError for another device.
         """
-        return await self._run(self._identify_steps())
+        return await self._run(self._identify_steps(), prepares=False)
 
     @overload
     async def read_many(

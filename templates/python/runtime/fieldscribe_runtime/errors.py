@@ -127,6 +127,16 @@ class OtherDeviceError(FieldscribeError):
     status = "other_device"
 
 
+class WaitError(FieldscribeError):
+    """The device did not come to what a step of a command waits for; `held` are the words that it had last."""
+
+    status = "not_reached"
+
+    def __init__(self, message: str, held: tuple[int, ...]) -> None:
+        super().__init__(message)
+        self.held = held
+
+
 class RequestError(FieldscribeError, ValueError):
     """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
 

@@ -20,6 +20,10 @@ class Broadcast(bytes):
     """A request to all units. No unit answers it, so a transport sends it and returns no bytes."""
 
 
+class Pause(float):
+    """What asks for nothing: so many seconds later the next request follows."""
+
+
 class Reply(bytes):
     """A reply that says how many `seconds` it took once its request was sent: a wait for the line does not count."""
 

@@ -17,6 +17,7 @@ mod function;
 mod profile;
 mod reply;
 mod request;
+mod steps;
 
 pub use client::{AsyncClient, Client, ClientError, LocalClient};
 pub use error::{About, BuildError, ReplyError};
@@ -24,6 +25,7 @@ pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};
 pub use reply::{reply_length, Reply};
 pub use request::{framing_of, Request};
+pub use steps::{Step, StepWord, SteppedCommand};
 
 /// The longest frame of both framings, in bytes.
 pub const LONGEST: usize = 260;

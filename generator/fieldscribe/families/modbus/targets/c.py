@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from fieldscribe.families.modbus import SPACES, Profile, profile_of
+from fieldscribe.families.modbus.targets.c_steps import stepped_views
 from fieldscribe.model import Block, Command, Device, Point
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import (
@@ -81,6 +82,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     blocks = [_blocks(group, blocks, by_name, members) for group, blocks in device.blocks.items() if blocks]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
+    stepped = stepped_views(device.stepped_commands, scope)
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
@@ -100,6 +102,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         for command, command_view in zip(device.commands, commands, strict=True):
             names = command_view.descriptor.name, *(name for name, _ in command_view.defines)
             yield Owner("command", command.name), names
+        for each in stepped:
+            yield Owner("command", each.command.name), each.names
 
     return frames_header(
         device,
@@ -114,6 +118,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         blocks=blocks,
         block_most=block_most,
         commands=commands,
+        stepped=stepped,
         exceptions=exceptions_of(device, scope),
     )
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldscribe.families.modbus import framings_of, of_bus, profile_of
-from fieldscribe.model import Block, Bus, Code, Command, Device
+from fieldscribe.model import Block, Bus, Code, Command, Device, SteppedCommand
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
 from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
+from fieldscribe.wording.steps import run_text, steps_texts
 
 _WRITE_COILS = 15
 _PORTS = {"rtu": 4001, "tcp": 502}
@@ -33,6 +34,7 @@ def context(device: Device) -> dict[str, object]:
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array(Item("pub const BLOCKS", "&[(&str, &[Block])]"), groups),
         "commands": tuple(map(_command, device.commands)),
+        "stepped": tuple(map(_stepped, device.stepped_commands)),
     }
 
 
@@ -73,6 +75,27 @@ def _command(command: Command) -> tuple[str, str, str]:
     doc = sentence(command.name).rstrip(".") + (": any value does" if command.value is None else "")
     doc += f"; the memory stands {command.wears} writes" if command.wears is not None else ""
     return f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
+
+
+def _stepped(command: SteppedCommand) -> tuple[list[str], str, list[str]]:
+    """Return the documentation of a command with steps, its constant, and its rows."""
+    texts = [f"{number}. `{text}`" for number, text in enumerate(steps_texts(command), 1)]
+    doc = [f"{sentence(command.name).rstrip('.')}: `{run_text(command)}`.", "", *texts]
+    ends = [f"{rust_string(name)} {low} {high}" for name, (low, high) in command.arguments.items()]
+    return doc, command.name.upper(), [f"{rust_string(command.name)} {', '.join(ends)}".rstrip(), *_rows(command)]
+
+
+def _rows(command: SteppedCommand) -> Iterator[str]:
+    numbers = {name: at for at, name in enumerate(command.arguments)}
+    for step in command.steps:
+        functions = ["None" if function is None else f"Some({function})" for function in (step.read, step.write)]
+        words = [
+            " ".join([*(f"0x{number & 0xFFFF:04X}" for number in (word.constant, word.factor, word.mask)), str(at)])
+            for word in step.words
+            for at in [numbers.get(word.argument or "", 0)]
+        ]
+        facts = *functions, f"0x{step.address:04X}", str(step.within or 0), "true" if step.when else "false"
+        yield f"{', '.join(facts)}: {', '.join(words)}"
 
 
 IN_RUST = RustFamily(

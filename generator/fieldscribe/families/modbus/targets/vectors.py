@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
-from fieldscribe.model import Bus, Device, Point
+from fieldscribe.model import Bus, Device, Point, SteppedCommand, Word
 from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
 from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
 
@@ -17,6 +18,8 @@ KINDS = {
     "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
     "printed_build": "frame:note status:word bytes:bytes?",
     "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
+    "step": "command:word index:int with:pairs? read:int? write:int? address:int held:ints words:ints within:int? "
+    "conditional:int",
     "block": "group:word space:word function:int address:int count:int",
 }
 """The kinds of vectors for frames and batched reads."""
@@ -146,9 +149,28 @@ def frames(lines: Lines, device: Device) -> None:
     _builds(lines, device.bus)
     _replies(lines, device.bus)
     _printed(lines, device)
+    for stepped in device.stepped_commands:
+        _steps(lines, stepped)
     for group, blocks in device.blocks.items():
         for block in blocks:
             lines.add("block", group, block.space, block.function, block.address, block.count)
+
+
+def _steps(lines: Lines, command: SteppedCommand) -> None:
+    """Add the words of each step with the ends of the arguments, in place of what the device held."""
+    ends = {end: {name: both[end] for name, both in command.arguments.items()} for end in (0, 1)}
+    for index, step in enumerate(command.steps):
+        for given, filled in itertools.product((ends[0], ends[1]) if command.arguments else ({},), (0x0000, 0xA5C3)):
+            words = tuple(_word(word, given, f"{filled:016b}") for word in step.words)
+            facts = step.read, step.write, step.address, (filled,) * len(words), words, step.within
+            lines.add("step", command.name, index, given or None, *facts, int(step.when is not None))
+
+
+def _word(word: Word, given: Mapping[str, int], held: str) -> int:
+    """Return a word with these arguments in place of what the device held, bit by bit."""
+    number = f"{(word.constant + word.factor * given.get(word.argument or '', 0)) % 0x10000:016b}"
+    bits = zip(number, f"{word.mask:016b}", held, strict=True)
+    return int("".join([new if mask == "1" else old for new, mask, old in bits]), 2)
 
 
 def _builds(lines: Lines, bus: Bus) -> None:

@@ -3,7 +3,7 @@
 
 use fieldscribe_runtime::modbus::{
     AsyncClient, Block, BuildError, Client, ClientError, Command, Framing, Profile, ReplyError,
-    Request, LONGEST,
+    Request, SteppedCommand, LONGEST,
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
@@ -198,6 +198,36 @@ pub fn command<D>(vector: &Vector, profile: &'static Profile, command: &Command<
     let command = Command::new(command.function, command.address, command.value);
     both!(vector, profile, |client| client.command(&command));
     same(vector.raw("value"), command.value.unwrap_or(1))
+}
+
+/// A step of a command: its requests, and its words in place of those that the device held.
+pub fn step(vector: &Vector, commands: &[SteppedCommand]) -> Outcome {
+    let name = vector.text("command");
+    let command = commands.iter().find(|command| command.name == name);
+    let command = command.ok_or_else(|| "there is no such command".to_owned())?;
+    let step = command.steps.get(usize::from(vector.raw::<u16>("index")));
+    let step = step.ok_or_else(|| "there is no such step".to_owned())?;
+    let given = vector.pairs("with");
+    let names = command.arguments.iter().map(|(name, _, _)| *name);
+    same(true, names.eq(given.iter().map(|(name, _)| name.as_str())))?;
+    let numbers: Vec<i32> = given
+        .iter()
+        .filter_map(|(_, text)| text.parse().ok())
+        .collect();
+    let beyond: Vec<i32> = numbers.iter().map(|number| number + 1000).collect();
+    same(true, command.takes(&numbers))?;
+    same(numbers.is_empty(), command.takes(&beyond))?;
+    let held: Vec<u16> = vector.numbers("held");
+    let mut words = held.clone();
+    let unchanged = step.fill(&numbers, &mut words);
+    same(vector.numbers("words"), words.clone())?;
+    same(words == held, unchanged)?;
+    same(held.len(), step.words.len())?;
+    same(vector.number("read"), step.read.map(i128::from))?;
+    same(vector.number("write"), step.write.map(i128::from))?;
+    same(vector.raw("address"), step.address)?;
+    same(vector.count::<u32>("within"), step.within)?;
+    same(vector.raw::<u8>("conditional") == 1, step.is_conditional)
 }
 
 /// A batched read.

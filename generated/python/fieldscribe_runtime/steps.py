@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: 0BSD
+"""Commands of several requests in order: set-up, keys, mailboxes."""
+
+from __future__ import annotations
+
+import operator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, overload
+
+from .about import About
+from .arguments import shown, whole
+from .commands import carried_out_once, refuse
+from .errors import FieldscribeError, RangeError, RequestError, WaitError
+from .guided import Guided
+from .receiving import Pause
+from .records import Record
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from .device import AnyAsyncDevice, AnyDevice
+    from .facts import Place
+    from .session import Session, Steps
+    from .traffic import Traffic
+
+Test = tuple[str, str, tuple[int | str, ...]]
+"""Compares a variant axis by name, or a point by its raw number: what, how, and with which constants."""
+_TESTS: Mapping[str, Callable[[int, int], bool]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+_PAUSE = 0.1
+"""Seconds between two looks at what a step waits for."""
+
+
+class StepWord(Record):
+    """A word: constant + factor * argument, modulo 65536. Bits outside `mask` stay as the device has them."""
+
+    constant: int
+    factor: int = 0
+    argument: str = ""
+    mask: int = 0xFFFF
+
+    def merged(self, arguments: Mapping[str, int], held: int) -> int:
+        """Return the word in place of what the device held."""
+        number = self.constant + (self.factor * arguments[self.argument] if self.factor else 0)
+        return held & ~self.mask | number & self.mask
+
+
+class Step(Record):
+    """One request: it writes words, or waits, at most `within` seconds, until the device has them.
+
+    `says` is what the description says, `when` has alternatives of tests that hold together; without any the step is
+    always taken.
+    """
+
+    says: str
+    at: Place
+    words: tuple[int | StepWord, ...]
+    within: float | None = None
+    when: tuple[tuple[Test, ...], ...] = ()
+
+    @property
+    def reads(self) -> bool:
+        """Whether the words have to be read: to wait for them, or for the bits that stay."""
+        return self.within is not None or any(isinstance(word, StepWord) and word.mask != 0xFFFF for word in self.words)
+
+    def merged(self, arguments: Mapping[str, int], held: tuple[int, ...]) -> tuple[int, ...]:
+        """Return the words in place of those that the device held; one that waits is done when these are the same."""
+        pairs = zip(self.words, held, strict=True)
+        return tuple([word.merged(arguments, old) if isinstance(word, StepWord) else word for word, old in pairs])
+
+
+class SteppedCommand(Guided):
+    """Requests in order that make the device do something.
+
+    `arguments` are the least and the greatest number of each. `run` says when a device gives the command: `first`
+    (before all else that it is asked), `before write` (of any point), or `by caller`; one that is due again `every` so
+    many seconds is the caller's, too.
+    """
+
+    def __init__(
+        self,
+        *requests: Step,
+        arguments: Mapping[str, tuple[int, int]] | None = None,
+        run: str = "by caller",
+        every: float | None = None,
+    ) -> None:
+        self.requests = requests
+        self.arguments = arguments or {}
+        self.run = run
+        self.every = every
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}: {len(self.requests)} steps>"
+
+    def _guide(self) -> str:
+        call = f"{self.name}.send({', '.join([f'{name}=number' for name in self.arguments])})"
+        given = {"first": "given before all else", "before write": "given before each write of a point"}.get(self.run)
+        every = "" if self.every is None else f", again every {self.every:g} s"
+        steps = "".join([f"\n{number}. {step.says}" for number, step in enumerate(self.requests, 1)])
+        ends = "".join([f"\n{name} is {low}..{high}." for name, (low, high) in self.arguments.items()])
+        return f"{self.name}, a command: {given or f'on a device, device.{call}{every}'}.\n{steps}\n{ends}"
+
+    @overload
+    def __get__(self, device: None, owner: object) -> SteppedCommand: ...
+    @overload
+    def __get__(self, device: AnyDevice, owner: object) -> SteppedHandle: ...
+    @overload
+    def __get__(self, device: AnyAsyncDevice, owner: object) -> AsyncSteppedHandle: ...
+    def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
+        return self if device is None else device._bound_steps(self)
+
+    def __set__(self, device: object, value: object) -> None:
+        raise AttributeError("a command is not assigned to: use its send method")
+
+    def steps(self, device: Session, arguments: Mapping[str, int]) -> Steps[None]:
+        """Return the requests, carried out by a device. An error names the step; those before it are done."""
+        numbers = self._checked(arguments)
+        for place, step in enumerate(self.requests, 1):
+            with _of_step(device.traffic, f"{self.name}, step {place} ({step.says})"):
+                if (yield from _is_taken(device, step)):
+                    yield from _request_steps(device, step, numbers)
+
+    def _checked(self, arguments: Mapping[str, int]) -> dict[str, int]:
+        """Return the arguments as numbers; raises an error for one that is missing, unknown, or out of its range."""
+        if arguments.keys() != self.arguments.keys():
+            takes = ", ".join(self.arguments) or "no arguments"
+            raise RequestError("bad_arguments", f"{self.name} takes {takes}, not {', '.join(arguments) or 'none'}")
+        numbers = {name: whole(number) for name, number in arguments.items()}
+        for name, (low, high) in self.arguments.items():
+            if not low <= numbers[name] <= high:
+                raise RangeError(f"{name} of {self.name} is {low}..{high}, not {shown(numbers[name])}")
+        return numbers
+
+
+class _Label:
+    """What logs call a step."""
+
+    def __init__(self, label: str) -> None:
+        self.label = label
+
+
+@contextmanager
+def _of_step(traffic: Traffic, label: str) -> Iterator[None]:
+    """Add to errors raised meanwhile which step was carried out, and the point that it had to read."""
+    try:
+        with About(traffic, _Label(label)):
+            yield
+    except FieldscribeError as error:
+        if error.point != label:
+            error.point, error.needs = label, error.needs or error.point
+        raise
+
+
+def _is_taken(device: Session, step: Step) -> Steps[bool]:
+    """Return whether the condition of a step holds; points that it compares are read."""
+    held: dict[str, int | str] = {}
+    for clause in step.when:
+        holds = True
+        for of, test, than in clause:
+            if of not in held:
+                held[of] = device._variant(of) if of in device.VARIANTS else (yield from device._raw_of_steps(of))
+            holds = _holds(held[of], test, than)
+            if not holds:
+                break
+        if holds:
+            return True
+    return not step.when
+
+
+def _holds(value: int | str, test: str, than: tuple[int | str, ...]) -> bool:
+    if test in _TESTS:
+        return isinstance(value, int) and _TESTS[test](value, int(than[0]))
+    return (value in than) is (test != "!=")
+
+
+def _request_steps(device: Session, step: Step, arguments: Mapping[str, int]) -> Steps[None]:
+    """Write the words of a step, or wait for them; raises WaitError if they do not come during the pauses."""
+    left = step.within
+    while True:
+        held = (0,) * len(step.words)
+        if step.reads:
+            held = yield from device._get_steps(step.at.replaced(function=None))
+        words = step.merged(arguments, held)
+        if left is None:
+            with carried_out_once(device):
+                yield from device._put_steps(step.at, words)
+            return
+        if words == held:
+            return
+        if left <= 0:
+            raise WaitError(f"not so within {step.within:g} s", held)
+        yield Pause(min(left, _PAUSE))
+        left -= _PAUSE
+
+
+class SteppedHandle:
+    """A command of a device that has several steps."""
+
+    def __init__(self, command: SteppedCommand, device: AnyDevice) -> None:
+        self._command = command
+        self._device = device
+
+    if not TYPE_CHECKING:
+        __getattr__ = refuse
+
+    def __repr__(self) -> str:
+        return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
+
+    @property
+    def every(self) -> float | None:
+        """After so many seconds the command is due again; None if it is not."""
+        return self._command.every
+
+    def send(self, /, **arguments: int) -> None:
+        """Carry out the steps in order. An error names its step; those before it are done."""
+        self._device._run(self._command.steps(self._device, arguments))
+
+
+class AsyncSteppedHandle:
+    """A command of an async device that has several steps."""
+
+    def __init__(self, command: SteppedCommand, device: AnyAsyncDevice) -> None:
+        self._command = command
+        self._device = device
+
+    if not TYPE_CHECKING:
+        __getattr__ = refuse
+
+    def __repr__(self) -> str:
+        return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
+
+    @property
+    def every(self) -> float | None:
+        """After so many seconds the command is due again; None if it is not."""
+        return self._command.every
+
+    async def send(self, /, **arguments: int) -> None:
+        """Carry out the steps in order. An error names its step; those before it are done."""
+        await self._device._run(self._command.steps(self._device, arguments))

@@ -1,0 +1,116 @@
+"""Resolves commands: a constant that is written under a name, or several requests in order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from fieldscribe.families import families
+from fieldscribe.language.nodes import Map
+from fieldscribe.language.suggestions import space_hint
+from fieldscribe.model import Bus, Command, Point, SteppedCommand
+from fieldscribe.resolve.bus import NO_BUS, reader_of
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.steps import Steps
+from fieldscribe.resolve.symbols import SymbolTable
+from fieldscribe.resolve.values import integer
+
+_NEEDED = ("at", "function", "value")
+_ALONE = (*_NEEDED, "space", "wears", "busy")
+"""The keys of a command that is one constant."""
+
+
+def commands_of(
+    scope: Scope, bus: Bus, symbols: SymbolTable, points: Mapping[str, Point]
+) -> tuple[tuple[Command, ...], tuple[SteppedCommand, ...]]:
+    """Return the commands of all files: those that write a constant, and those with steps."""
+    single: list[Command] = []
+    stepped: list[SteppedCommand] = []
+    for node in scope.unique("commands"):
+        name = str(node["name"])
+        if scope.family.commands_in is None:
+            hint = "describe the point that it writes, with its value under `enum` or `flags`"
+            known = " and ".join(family.name for family in families() if family.commands_in is not None)
+            scope.report.error("family-key", f"commands are for the family {known}", node.span("name"), hint)
+            continue
+        if name in ("no", "yes", "choice"):
+            hint = "these are the words of `keeps`: give it another name"
+            scope.report.error("duplicate-name", f"a command cannot be called `{name}`", node.span("name"), hint)
+            continue
+        if "steps" in node:
+            _refuse_other_keys(scope, node)
+            several = Steps(scope, bus, symbols, points).command(node)
+            stepped += [] if several is None else [several]
+        elif not _lacks(scope, node):
+            command = _command(scope, bus, node)
+            single += [] if command is None else [command]
+    return tuple(single), tuple(stepped)
+
+
+def _lacks(scope: Scope, node: Map) -> bool:
+    """Return True if a command that is one constant lacks a key; report it."""
+    lacked = [key for key in _NEEDED if key not in node]
+    for key in lacked:
+        if key not in node.broken:
+            scope.report.error("missing-key", f"the key `{key}` is missing", node.span("name"), f"add `{key}: …`")
+    return bool(lacked)
+
+
+def _refuse_other_keys(scope: Scope, node: Map) -> None:
+    """Report keys of a constant beside steps."""
+    for key in node.keys() & set(_ALONE):
+        hint = "leave it out, or write it at a step"
+        scope.report.error("steps", f"`{key}` does not belong beside `steps`", node.key_span(key), hint)
+
+
+def _command(scope: Scope, bus: Bus, node: Map) -> Command | None:
+    address = integer(node["at"], node.span("at"), scope.report)
+    function = integer(node["function"], node.span("function"), scope.report)
+    value = None if node["value"] == "any" else integer(node["value"], node.span("value"), scope.report)
+    space = str(node.get("space", scope.family.commands_in))
+    if space not in scope.family.spaces:
+        known = scope.family.spaces
+        scope.unknown("space", space, node.span("space"), known, space_hint(space, known))
+        return None
+    if address is None or function is None:
+        return None
+    if not all([_reaches(scope, bus, node, space, function), _fits(scope, node, space, address, value)]):
+        return None
+    return Command(
+        name=str(node["name"]),
+        title=titles(node.get("title"), humanised(node["name"])),
+        note=titles(node.get("note")),
+        space=space,
+        address=address,
+        function=function,
+        value=value,
+        wears=node.get("wears"),
+        busy=node.get("busy"),
+        source=source_of(scope, node),
+    )
+
+
+def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) -> bool:
+    """Return True if the space has the address and holds the value; report what does not fit."""
+    last = scope.family.last_address
+    greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
+    inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
+    if not inside:
+        message = f"the address {address} lies outside 0..{last}"
+        scope.report.error("address-outside-space", message, node.span("at"), "`at` is the number on the wire")
+    if not holds:
+        message = f"the value {value} does not fit into `{space}`"
+        scope.report.error("range-outside-type", message, node.span("value"), f"0..{greatest} can be written")
+    return inside and holds
+
+
+def _reaches(scope: Scope, bus: Bus, node: Map, space: str, function: int) -> bool:
+    """Return True if the device has the function and it writes into the space; report it otherwise."""
+    known = reader_of(scope).writes(space)
+    if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
+        return True
+    message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"
+    if function not in known:
+        message = f"function {function:02X}h does not write into `{space}`"
+        hint = f"functions that do: {', '.join(f'{other:02X}h' for other in known) or 'none'}"
+    scope.report.error("unknown-function", message, node.span("function"), hint)
+    return False
