@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from fieldscribe.conversation.decoder import decode
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.export import export_model
+from fieldscribe.families.frame_results import Options
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Device, SteppedCommand
 from support.described import compile_in, described, kitchen_sink
 
@@ -99,3 +102,23 @@ def test_export_and_explanation_have_each_step() -> None:
         ("Frame 2", "01 03 74 03 00 01 6F FA"),
         ("Frame 2", "01 06 74 03 03 02 E3 0B"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("frame", "text"),
+    [
+        ("01 10 74 20 00 03 06 00 03 00 02 FF FC", "command close_breaker, step 1: Close breaker; unit = 3"),
+        ("01 10 74 20 00 03 06 00 03 00 02 FF FD", "no point is described here"),
+        ("01 10 74 20 00 03 06 00 21 00 02 FF DE", "no point is described here"),
+        ("01 06 74 24 FF F5", "command close_breaker, step 2: Close breaker; delay = -5"),
+        ("01 06 74 24 FF F4", "no point is described here"),
+        ("01 06 74 00 00 01", "mailbox_code"),
+        ("01 0F 74 20 00 03 01 05", "command ask, step 5: Ask"),
+    ],
+)
+def test_decoding_names_the_step(frame: str, text: str) -> None:
+    """A request that no point explains is a step of a command, with the arguments that give its words."""
+    data = bytes.fromhex(frame)
+    whole = data + crc16(data).to_bytes(2, "little")
+    result = decode(kitchen_sink(), {}, [whole.hex(" ")], Options(framing="rtu"))[0]
+    assert text in " ".join(str(item) for item in result.items)

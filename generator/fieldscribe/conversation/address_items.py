@@ -24,6 +24,8 @@ _MOST_WORDS = 16
 def span_items(state: DecodeState, span: Span) -> list[Item]:
     """Return the items of consecutive addresses; neighbours without a point are one item."""
     here = _SpanItems(state, span)
+    if step := here.step_item():
+        return [step]
     items: list[Item] = []
     unknown: list[int] = []
     for at in here.addresses:
@@ -65,6 +67,21 @@ class _SpanItems:
             if (command.space, command.address) == (self._space, at):
                 return [*items, self._command(command)]
         return items if places else None
+
+    def step_item(self) -> Item | None:
+        """Return the item of a step of a command that writes just these words, where no point has them."""
+        if not self._written or any(self._directory.places(self._space, at) for at in self.addresses):
+            return None
+        here = self._space, self._start, len(self._words)
+        for command in self._device.stepped_commands:
+            for number, step in enumerate(command.steps, 1):
+                is_here = step.write is not None and (step.space, step.address, len(step.words)) == here
+                given = step.arguments_in(self._words, command.arguments) if is_here else None
+                if given is not None:
+                    numbers = "".join(f"; {name} = {value}" for name, value in given.items())
+                    text = line(f"command {command.name}, step {number}: {title_text(command.title)}{numbers}")
+                    return Item(self._space, self._start, len(self._words), text)
+        return None
 
     def unknown_items(self, addresses: Sequence[int]) -> list[Item]:
         """Return the item of neighbouring addresses without a point, with what they carry; none for no address."""

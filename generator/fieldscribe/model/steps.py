@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -53,6 +53,18 @@ class Step:
     within: int | None
     when: Condition | None
     says: str
+
+    def arguments_in(self, words: Sequence[int], ends: Mapping[str, tuple[int, int]]) -> dict[str, int] | None:
+        """Return the arguments, within these ends, that give the words; None if none do."""
+        given: dict[str, int] = {}
+        for word, number in zip(self.words, words, strict=True):
+            if word.argument is not None and word.argument not in given:
+                low, high = ends[word.argument]
+                numbers = range(low, high + 1)
+                given[word.argument] = next((one for one in numbers if word.of({word.argument: one}) == number), low)
+            if word.of(given) != number & word.mask:
+                return None
+        return given
 
 
 @dataclass(frozen=True, slots=True)

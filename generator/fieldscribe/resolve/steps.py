@@ -10,11 +10,8 @@ from fieldscribe.arithmetic.codec import CodecError, check
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
 from fieldscribe.conditions import Condition
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.formula.normal import Affine, limit_rule
-from fieldscribe.language.formula.parser import VARIABLES, parse_expression
-from fieldscribe.language.formula.syntax import FormulaError, Part
+from fieldscribe.language.formula.parser import VARIABLES
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Point, Step, SteppedCommand, Word
 from fieldscribe.resolve.bus import NO_BUS, reader_of
@@ -24,8 +21,8 @@ from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
-from fieldscribe.resolve.values import FactError, formula_fault, interval, whole
-from fieldscribe.wording.exact import number_text
+from fieldscribe.resolve.values import FactError, formula_value, interval, whole
+from fieldscribe.wording import meaning_text
 
 MOST_STEPS = 1000
 MOST_ARGUMENTS = 8
@@ -57,7 +54,12 @@ class Steps:
             if len(node.get(key, ())) > most:
                 self._report(f"a command has at most {most} {key}", node.key_span(key), "make it several commands")
                 return None
-        steps = tuple(map(self._checked_step, node["steps"]))
+        steps: list[Step] = []
+        for step in node["steps"]:
+            try:
+                steps.append(self._step(step))
+            except FactError as error:
+                error.report(self.scope.report)
         if self.scope.report.count > before:
             return None
         name = str(node["name"])
@@ -68,7 +70,7 @@ class Steps:
             run="every" if run.startswith("every") else run,
             every=_milliseconds(run.removeprefix("every ")) if run.startswith("every") else None,
             arguments=self.arguments,
-            steps=tuple(step for step in steps if step is not None),
+            steps=tuple(steps),
             source=source_of(self.scope, node),
         )
 
@@ -82,13 +84,6 @@ class Steps:
         if not _LEAST <= ends[0] <= ends[1] <= _GREATEST:
             self._report(f"a word cannot hold `{name}`", span, f"write {_LEAST}..{_GREATEST} or less")
         return ends
-
-    def _checked_step(self, node: Map) -> Step | None:
-        try:
-            return self._step(node)
-        except FactError as error:
-            error.report(self.scope.report)
-            return None
 
     def _step(self, node: Map) -> Step:
         """Return a step. Raises FactError."""
@@ -144,26 +139,20 @@ class Steps:
 
     def _formula(self, value: Any, span: Span) -> Word:
         """Return a number, or a formula of one argument, as a word of any size. Raises FactError."""
-        try:
-            rule = limit_rule(parse_expression(str(value)), self._resolved)
-        except FormulaError as error:
-            raise formula_fault(error, span) from error
-        factors = rule.factors
-        linear = len(factors) <= 1 and all(each.power == 1 and not each.ten_to for each in factors)
-        if not linear or (rule.ratio.denominator, rule.offset.denominator) != (1, 1):
+        known = f"known: {', '.join(self.arguments)}" if self.arguments else "write a number, or declare `arguments`"
+
+        def at(numbers: Mapping[str, int]) -> Fraction:
+            values = {name: Fraction(numbers.get(name, 0)) for name in self.arguments}
+            return formula_value(str(value), values, span, known)
+
+        constant = at({})
+        factors = {name: at({name: 1}) - constant for name in self.arguments}
+        used = [name for name, factor in factors.items() if factor]
+        bent = at(dict.fromkeys(self.arguments, 2)) != constant + 2 * sum(factors.values())
+        if bent or len(used) > 1 or any(number.denominator != 1 for number in (constant, *factors.values())):
             hint = "write a whole number, or one argument times and plus whole numbers: 65535 - unit"
             raise FactError("steps", f"`{value}` is no word", span, hint)
-        ratio, offset = int(rule.ratio), int(rule.offset)
-        if not factors:
-            return Word(ratio)
-        return Word(offset + ratio * factors[0].intercept, ratio * factors[0].slope, factors[0].point)
-
-    def _resolved(self, name: str, part: Part) -> Affine:
-        if name in self.arguments and part == "value":
-            return Affine(name, Fraction(1), Fraction(0))
-        known = f"known: {', '.join(self.arguments)}" if self.arguments else "write a number, or declare `arguments`"
-        word = name if part == "value" else f"{name}.raw"
-        raise FormulaError(f"`{word}` is no argument of this command", 0, known)
+        return Word(int(constant), int(factors[used[0]]), used[0]) if used else Word(int(constant))
 
     def _extremes(self, word: Word) -> Iterator[int]:
         """Yield the least and the greatest number that a word can be."""
@@ -218,7 +207,7 @@ class Steps:
             said = str(word)
         else:
             word = Word(StatedValues(self.scope, values).raw(point, named, value))
-            said = _said(value)
+            said = meaning_text(point, word.constant) or str(word)
         self._said.append(f"{named} = {said}")
         for raw in self._extremes(word):
             self._check(point, with_fixed(point, raw) if word.factor == 0 else raw, span, action)
@@ -287,11 +276,3 @@ class Steps:
 def _milliseconds(text: str) -> int:
     number, unit = text.split()
     return int(number) * _MILLISECONDS[unit]
-
-
-def _said(value: Any) -> str:
-    """Return a value as a text that does not depend on how numbers are written."""
-    try:
-        return str(value) if isinstance(value, bool) else number_text(parse_number(str(value)))
-    except NumberError:
-        return str(value)
