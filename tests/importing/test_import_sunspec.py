@@ -16,12 +16,21 @@ from hypothesis import strategies as st
 FOLDER = Path(__file__).parent / "sunspec"
 
 
-@pytest.mark.parametrize("models", ["1,103,160", "707", "63001"])
-def test_models_become_a_device(models: str, capsys: pytest.CaptureFixture[str]) -> None:
+DRAFTS = {
+    "inverter": ["--models", "1,103,160"],
+    "curves": ["--models", "707"],
+    "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3"],
+    "all_types": ["--models", "63001"],
+}
+"""The drafts in the folder `sunspec`, with the options that they are made with."""
+
+
+@pytest.mark.parametrize("device", DRAFTS)
+def test_models_become_a_device(device: str, capsys: pytest.CaptureFixture[str]) -> None:
     """FIELDSCRIBE_ACCEPT=1 writes the drafts; look at the difference."""
-    assert main(["import", "sunspec", str(FOLDER), "--models", models, "--device", "inverter"]) == 0
+    assert main(["import", "sunspec", str(FOLDER), "--device", device, *DRAFTS[device]]) == 0
     draft, report = capsys.readouterr()
-    path = FOLDER / f"{models.replace(',', '_')}.draft"
+    path = FOLDER / f"{device}.draft"
     if os.environ.get("FIELDSCRIBE_ACCEPT"):
         path.write_text(f"{draft}# {report}", "utf-8")
     assert f"{draft}# {report}" == path.read_text("utf-8")
@@ -68,6 +77,7 @@ def test_what_is_no_model_ends_in_a_message(
     [
         (["--models", "1,2"], "there is no model 2"),
         (["--models", "1;2"], "are no numbers of models"),
+        (["--count", "4"], "is no number of elements"),
         (["--base", "modicon"], "--base is for `import table`"),
     ],
 )

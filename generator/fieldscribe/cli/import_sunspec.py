@@ -7,7 +7,7 @@ import sys
 from argparse import ArgumentTypeError, Namespace
 from typing import TYPE_CHECKING
 
-from fieldscribe.cli.common import StopError, write_draft
+from fieldscribe.cli.common import StopError, add_repeated, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
 from fieldscribe.importing.sunspec import Imported, draft_models
@@ -26,13 +26,15 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
     what = "how many elements of a group are described, if the device says how many there are (default: 10)"
     parser.add_argument("--most", type=int, choices=range(1, 1001), default=10, metavar="N", help=what)
+    what = "what a point that counts elements holds in the device, for what lies behind them"
+    add_repeated(parser, "--count", "POINT=N", what, type=_count)
 
 
 def run(arguments: Namespace) -> int:
     """Import, and return the exit code."""
     try:
         models = read_models(arguments.file, arguments.models)
-        imported = draft_models(models, arguments.device or "sunspec", arguments.most)
+        imported = draft_models(models, arguments.device or "sunspec", arguments.most, dict(arguments.count))
     except UnreadableError as error:
         raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
     write_draft(compilable(imported.groups, imported.head, with_head=True), arguments.out)
@@ -45,6 +47,14 @@ def _numbers(text: str) -> tuple[int, ...]:
     if not re.fullmatch(r"[0-9]{1,5}(?:,[0-9]{1,5}){0,999}", text):
         raise ArgumentTypeError(f"`{text}` are no numbers of models: write them as 1,103,120")
     return tuple(map(int, text.split(",")))
+
+
+def _count(text: str) -> tuple[str, int]:
+    """Return the name and the number of `NPt=4`."""
+    name, _, number = text.partition("=")
+    if not name or not re.fullmatch("[0-9]{1,4}", number):
+        raise ArgumentTypeError(f"`{text}` is no number of elements: write it as NPt=4")
+    return name, int(number)
 
 
 def _report(models: int, imported: Imported) -> str:

@@ -24,7 +24,7 @@ _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
     *("at", "bits", "access", "format", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
     *("default_in_units", "enum", "open", "flags", "characters", "words", "special", "changes", "when"),
-    *("indices", "most", "reserved", "note"),
+    *("sets", "indices", "most", "reserved", "note"),
 )
 """The order of a point's facts."""
 
@@ -281,11 +281,11 @@ def _point_lines(
         yield "code", f"code: {scalar(point.code)}"
     yield "name", f"name: {point.name}"
     yield "title", f"title: {_titles(point.title or point.name, language)}"
-    for key in _KEYS:
-        value = point.facts.get(key)
-        if key == "enum" and value and value in enums:
+    for key in sorted(point.facts, key=_KEYS.index):
+        value = point.facts[key]
+        if key == "enum" and value in enums:
             value = enums[value][0]
-        if value is not None and not (key == "access" and value == access):
+        if not (key == "access" and value == access):
             first, *further = f"{key}: {value}".replace(": \n", ":\n").split("\n")
             yield key, first
             yield from ((key, text) for text in further)

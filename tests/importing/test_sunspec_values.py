@@ -1,0 +1,145 @@
+"""Imported models decode as SunSpec says: a reader of its own takes random registers apart, from the model alone."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import struct
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from math import isfinite
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+from fieldscribe.arithmetic.codec import CodecError, decode, setting_of
+from fieldscribe.arithmetic.texts import text_of
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Point
+from fieldscribe.pipeline import load_device
+
+MODELS = sorted(Path(os.environ.get("FIELDSCRIBE_SUNSPEC", Path(__file__).parent / "sunspec")).glob("model_*.json"))
+REPEATS = 3
+COUNTS = {"NPt": 4}
+"""How many elements are compared, and what counting points are said to hold."""
+_FORMATS = {"int": "hiq", "uint": "HIQ", "acc": "HIQ", "enum": "HIQ", "bitfield": "HIQ", "float": " fd"}
+_NAMED = {"sunssf": "h", "count": "H"}
+_LONGEST = 125
+_BYTES = ("eui48", "ipaddr", "ipv6addr")
+
+
+class Field(NamedTuple):
+    """A point of the model at one place; `element` has the number of its group among those that repeat."""
+
+    path: str
+    name: str
+    element: tuple[int, ...]
+    at: int
+    facts: dict[str, Any]
+    factors: dict[str, int]
+
+
+def fields(
+    group: dict[str, Any], at: int, path: str, element: tuple[int, ...], factors: dict[str, int]
+) -> Iterator[Field]:
+    """Yield the points of a group from a place on."""
+    factors, offset = dict(factors), at
+    for point in group.get("points", []):
+        factors[point["name"]] = offset
+        offset += point["size"]
+    for point in group.get("points", []):
+        yield Field(f"{path}.{point['name']}", point["name"], element, factors[point["name"]], point, factors)
+    for inner in group.get("groups", []):
+        count = inner.get("count", 1)
+        for number in range(1, (COUNTS.get(count) or (count if isinstance(count, int) else 0) or REPEATS) + 1):
+            which = element if count == 1 else (*element, number)
+            yield from fields(inner, offset, f"{path}.{inner['name']}", which, factors)
+            offset += words_of(inner)
+
+
+def words_of(group: dict[str, Any]) -> int:
+    """Return how many words an element of a group has; inner groups have all elements that are compared."""
+    words: int = sum(point["size"] for point in group.get("points", []))
+    for inner in group.get("groups", []):
+        words += words_of(inner) * COUNTS.get(inner.get("count"), inner.get("count", 1))
+    return words
+
+
+def not_there(letters: str, bits: int) -> int:
+    """Return the number that stands for no value."""
+    if letters == "acc":
+        return 0
+    return -1 << (bits - 1) if letters in ("int", "sunssf") else (1 << bits) - 1
+
+
+def expected(field: Field, words: list[int]) -> Any:
+    """Return what a point holds: a value, a text, or None where the device does not have it."""
+    kind, bits = field.facts["type"], 16 * field.facts["size"]
+    data = struct.pack(f">{field.facts['size']}H", *words[field.at : field.at + field.facts["size"]])
+    if kind == "string":
+        return data.partition(b"\0")[0].decode("latin-1").rstrip(" ")
+    letters = kind.rstrip("0123456789")
+    code = _NAMED.get(kind) or _FORMATS[letters][{16: 0, 32: 1, 64: 2}[bits]]
+    raw = struct.unpack(f">{code}", data)[0]
+    if letters == "float":
+        return Fraction(raw) if isfinite(raw) else None
+    if raw == not_there(letters, bits):
+        return None
+    factor = field.facts.get("sf", 0)
+    exponent = (
+        struct.unpack(">h", struct.pack(">H", words[field.factors[factor]]))[0] if factor in field.factors else factor
+    )
+    return raw * Fraction(10) ** exponent
+
+
+def found(point: Point, words: list[int], device: dict[str, Point]) -> Any:
+    """Return what the description says that a point holds."""
+    raw = raw_of(point, [words[address] for address in point.place.addresses])
+    if point.text is not None:
+        return text_of(point.text, raw)
+    settings = {}
+    for name in point.scale_arguments:
+        other = device[name]
+        settings[name] = setting_of(other, raw_of(other, [words[address] for address in other.place.addresses]))
+    try:
+        return decode(point, raw, settings)
+    except CodecError as error:
+        assert error.status in ("special", "not_a_number"), error
+        return None
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.stem)
+def test_an_imported_model_decodes_as_the_model_says(path: Path, tmp_path: Path) -> None:
+    model = json.loads(path.read_text("utf-8"))
+    out = tmp_path / "device.yaml"
+    counts = [f"--count={name}={number}" for name, number in COUNTS.items()]
+    assert main(["import", "sunspec", str(path), "--most", str(REPEATS), *counts, "--out", str(out)]) == 0
+    device = load_device(out, Report())
+    assert device is not None
+    points = {point.name: point for point in device.points if point.untyped is None}
+    by_code = {(point.code, *filter(None, (point.set, point.index))): point for point in points.values()}
+    group = model["group"]
+    all_fields = [field for field in fields(group, 0, group["name"], (), {}) if field.at > 1]
+    names = Counter(name for name, _ in {(field.name, field.path) for field in all_fields})
+    end = max(field.at + field.facts["size"] for field in all_fields)
+    chosen, compared = random.Random(path.stem), 0
+    for _ in range(20):
+        words = [chosen.choice((0, 0xFFFF, 0x8000, 0x7FC0, chosen.getrandbits(16))) for _ in range(end)]
+        for field in all_fields:
+            if field.facts["type"] == "sunssf":
+                words[field.at] = chosen.randint(-10, 10) & 0xFFFF
+        for field in all_fields:
+            code = field.path if names[field.name] > 1 else field.name
+            point = by_code.get((code, *field.element))
+            if field.facts["type"] in (*_BYTES, "pad") or field.facts["size"] > _LONGEST:
+                continue
+            assert point is not None, field.path
+            assert point.place.addresses == tuple(range(field.at, field.at + field.facts["size"])), field.path
+            assert point.base == f"models_{model['id']}"
+            assert found(point, words, points) == expected(field, words), field.path
+            compared += 1
+    assert compared
