@@ -21,6 +21,8 @@ def _handles(package: Package, vector: Vector) -> list[tuple[Script, Any]]:
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
         transport = script(vector, package.can.Frame)
         device = kind(transport, vector["unit"], *link, **given)
+        for base, start in vector["starts"].items() if "starts" in vector else ():
+            device.set_base(base, int(start), int(vector["lasts"][base]))
         found.append((transport, getattr(device, attribute_of(kind, vector["point"]))))
     return found
 

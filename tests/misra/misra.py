@@ -24,7 +24,7 @@ from fieldscribe.targets import c
 HERE = Path(__file__).resolve().parent
 DEVICES = HERE.parent / "devices"
 TABLE = HERE / "README.md"
-MADE = ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss")
+MADE = ("kitchen_sink", "kitchen_codes", "kitchen_blocks", "kitchen_can", "kitchen_uss")
 ROW = re.compile(r"^\| ([0-9.]+) \| +([0-9]+) \|", re.MULTILINE)
 DEFINED = ("FLT_RADIX=2", "FLT_MANT_DIG=24", "DBL_MANT_DIG=53", "FLT_EVAL_METHOD=0", "FIELDSCRIBE_NAMES")
 """What float.h would define, without which cppcheck skips all floating point, and what the most lines ask for."""

@@ -727,6 +727,50 @@ void prove_write_word(uint8_t function, uint16_t address, uint16_t word)
     (void)fieldscribe_modbus_write_word(&unit, function, address, word);
 }
 
+static fieldscribe_modbus_base base;
+static fieldscribe_modbus_chain chain;
+
+void prove_is_within(uint16_t address, uint16_t count)
+{
+    (void)fieldscribe_modbus_is_within(base, address, count);
+}
+
+void prove_reading_at(void)
+{
+    reading = fieldscribe_modbus_reading_at(base, &reading);
+}
+
+void prove_writing_at(void)
+{
+    writing = fieldscribe_modbus_writing_at(base, &writing);
+}
+
+/* A marker of so many words, at one of three places. */
+static void chained(uint16_t words)
+{
+    on_line();
+    chain.marker = EXACTLY(words, items);
+    chain.marker_words = words;
+    chain.places = EXACTLY(KNOWN, many_items);
+    chain.place_count = KNOWN;
+}
+
+void prove_is_marked(uint16_t words, uint16_t place)
+{
+    if (words <= FIELDSCRIBE_MODBUS_MARKER_MOST + 1U) {
+        //@ split words;
+        fieldscribe_modbus_status status;
+        chained(words);
+        (void)fieldscribe_modbus_is_marked(&unit, &chain, place, &status);
+    }
+}
+
+void prove_find(uint16_t block)
+{
+    chained(2U);
+    (void)fieldscribe_modbus_find(&unit, &chain, block, &base);
+}
+
 void prove_converted(fieldscribe_status status)
 {
     (void)fieldscribe_modbus_converted(status);

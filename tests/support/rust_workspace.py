@@ -27,6 +27,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "trips": trip_device,
     "kitchen_sink": kitchen_sink,
     "kitchen_codes": partial(made, "kitchen_codes"),
+    "kitchen_blocks": partial(made, "kitchen_blocks"),
     "kitchen_can": partial(made, "kitchen_can"),
     "kitchen_uss": partial(made, "kitchen_uss"),
     "result": partial(made, "odd_names"),

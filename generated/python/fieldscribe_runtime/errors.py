@@ -137,6 +137,18 @@ class WaitError(FieldscribeError):
         self.held = held
 
 
+class BlockError(FieldscribeError):
+    """A block of addresses cannot be found.
+
+    `status` is `no_marker` (nothing says where blocks start), `bad_chain` (they do not end), `no_block` (the device has
+    no block of that id) or `behind_end` (the block is shorter than the point needs).
+    """
+
+    def __init__(self, status: str, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
 class RequestError(FieldscribeError, ValueError):
     """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
 

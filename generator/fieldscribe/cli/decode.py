@@ -12,7 +12,7 @@ from itertools import groupby
 from typing import cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, usage_error
-from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
+from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_rows
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.families.frame_results import FrameResult, bits_label
@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
     """Decode and print frames; return the exit code."""
     if not arguments.frames and not arguments.log:
         raise StopError("there is nothing to decode", "give frames, - for standard input, or --log FILE")
-    device = open_device(arguments)
+    device = placed(open_device(arguments), arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments)
     decoder = StreamDecoder(device, settings, frame_decoder(device, options))

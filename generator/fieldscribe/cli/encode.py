@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
-from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
+from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
 from fieldscribe.conversation.encoding import Encoded, encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
@@ -54,7 +54,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Encode a value and print it; return the exit code."""
-    device = open_device(arguments)
+    device = placed(open_device(arguments), arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments)
     try:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from contextlib import suppress
 
-from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
+from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, print_json
+from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import Explanation, explain_point
@@ -47,13 +48,18 @@ def add_arguments(parser: ArgumentParser) -> None:
         "wire:, modicon:, code: or name: before it force one reading; can:, task:, response:, error:, function: "
         "look up frames, unit: a unit",
     )
+    add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="settings")
     add("--as-documented", action="store_true", help="show what the manual alone would say, without errata")
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Print all explanations of WHAT; return the exit code."""
-    device, what = open_device(arguments), arguments.what
+    device, what = placed(open_device(arguments), arguments), arguments.what
+    if arguments.settings:
+        raise StopError(
+            f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
+        )
     if not what.strip():
         raise StopError("there is nothing to explain", "give a code, a name or an address")
     found = _points(device, find(device, what), as_documented=arguments.as_documented)

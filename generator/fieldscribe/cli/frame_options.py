@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
 from fieldscribe.cli.common import StopError, add_repeated
+from fieldscribe.conversation.bases import at_bases
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
@@ -15,8 +16,17 @@ from fieldscribe.user_errors import RefusedError, UnclearError
 
 def add_with(parser: ArgumentParser) -> None:
     """Add `--with`, the values of other points; `settings_of` reads it."""
-    what = "what another point holds, where a scale or range depends on it"
+    what = "what another point holds, where a scale or range depends on it; a number that an address depends on: slot=3"
     add_repeated(parser, "--with", "POINT=VALUE", what, dest="settings")
+
+
+def placed(device: Device, arguments: Namespace) -> Device:
+    """Return the device with points at the bases that `--with` gives; these leave the settings. Raises StopError."""
+    try:
+        device, arguments.settings = at_bases(device, arguments.settings)
+    except UnclearError as error:
+        raise StopError(f"--with: {error.message}", error.hint) from error
+    return device
 
 
 def add_framing(parser: ArgumentParser, default: str) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from fieldscribe.arithmetic.words import raw_of, split
+from fieldscribe.conversation.bases import advice
 from fieldscribe.conversation.decode_state import PARAMETER, Base, DecodeState, named_item, without_variants
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
@@ -90,8 +91,10 @@ class _SpanItems:
         low, high = addresses[0], addresses[-1]
         gaps = self._device.bus.gaps.get(self._space, ())
         gap = next((gap for gap in gaps if gap[0] <= high and low <= gap[1]), None)
+        unplaced = advice(self._device.bases)
+        hint = f"; other points count from a base: {unplaced}" if unplaced else ""
         closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
-        text = f"{span_text(low, high)}: no point is described here" + (f"; {closed}" if closed else "")
+        text = f"{span_text(low, high)}: no point is described here{hint}" + (f"; {closed}" if closed else "")
         if words := self._words[low - self._start : high + 1 - self._start]:
             form = "{:04X}h" if family(self._device.family).spaces[self._space] == "word" else "{}"
             more = " ..." if len(words) > _MOST_WORDS else ""

@@ -43,7 +43,7 @@ class Directory:
         indexed = family(device.family).indexed
         # points that the chosen variants lack come last, so that present points win their places
         for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
-            for place in point.places:
+            for place in point.places if point.base is None else ():
                 index = (point.index or 0) if point.space in indexed else 0
                 for address in place.addresses:
                     here = self._at.setdefault((point.telegram or point.space, address, index), [])

@@ -199,6 +199,11 @@ class Base:
     terms: tuple[tuple[str, int], ...]
     block: int | None
 
+    @property
+    def wanted(self) -> list[str]:
+        """Return what has to be given to know where this is."""
+        return [name for name, _ in self.terms] if self.block is None else [self.name]
+
     def at(self, given: Mapping[str, int]) -> int:
         """Return the base for these numbers; that of a found block stands under the name of the base."""
         if self.block is not None:

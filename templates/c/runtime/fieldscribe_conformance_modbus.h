@@ -290,6 +290,36 @@ FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
         fieldscribe_is_number(v, "conditional", step->conditional ? 1U : 0U);                    \
     }
 
+/* Where a base is, by the vector. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector *v, const char *name)
+{
+    const char *const start = fieldscribe_pair(v, "starts", name);
+    const char *const last = fieldscribe_pair(v, "lasts", name);
+    fieldscribe_modbus_base base = {0xFFFFU, 0xFFFFU};
+    v->differs = v->differs || start == NULL || last == NULL;
+    if (start != NULL && last != NULL) {
+        base.start = (uint16_t)fieldscribe_pattern(start);
+        base.last = (uint16_t)fieldscribe_pattern(last);
+    }
+    return base;
+}
+
+#define FIELDSCRIBE_BASE(name) , fieldscribe_base_of(v, name)
+
+/* The frame of a point at its base; nothing is in a base that ends before it. */
+#define FIELDSCRIBE_AT_BASE(frame_type, frame, name)                                             \
+    frame_type moved = frame;                                                                    \
+    fieldscribe_modbus_base at_base = {0U, 0U};                                                  \
+    if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
+        at_base = fieldscribe_base_of(v, name);                                                  \
+    }
+#define FIELDSCRIBE_READ_AT_BASE                                                                 \
+    moved.read = fieldscribe_modbus_reading_at(at_base, &moved.read);
+#define FIELDSCRIBE_WRITE_AT_BASE                                                                \
+    moved.write = fieldscribe_modbus_writing_at(at_base, &moved.write);
+#define FIELDSCRIBE_UPDATE_AT_BASE                                                               \
+    moved.update = fieldscribe_modbus_writing_at(at_base, &moved.update);
+
 #define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \

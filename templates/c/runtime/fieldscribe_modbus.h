@@ -396,6 +396,115 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
                                              : status;
 
+/* Whether so many addresses count from a base. */
+static inline bool fieldscribe_modbus_is_within(fieldscribe_modbus_base base, uint16_t address, uint16_t count)
+{
+    return (((uint32_t)address + count) <= ((uint32_t)base.last + 1U)) &&
+        (((uint32_t)base.start + base.last) <= 0xFFFFU);
+}
+
+/*
+ * What is read, counted from a base; it may be a block. Behind the last address the count is 0: a request says
+ * BAD_COUNT, and is not sent.
+ */
+static inline fieldscribe_modbus_reading fieldscribe_modbus_reading_at(
+    fieldscribe_modbus_base base, const fieldscribe_modbus_reading *what)
+{
+    const bool within = fieldscribe_modbus_is_within(base, what->address, what->count);
+    const fieldscribe_modbus_reading at = {what->function,
+        (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), (uint16_t)(within ? what->count : 0U)};
+    return at;
+}
+
+/* The same of what is written. */
+static inline fieldscribe_modbus_writing fieldscribe_modbus_writing_at(
+    fieldscribe_modbus_base base, const fieldscribe_modbus_writing *what)
+{
+    const bool within = fieldscribe_modbus_is_within(base, what->address, what->count);
+    const fieldscribe_modbus_writing at = {what->function,
+        (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), (uint16_t)(within ? what->count : 0U)};
+    return at;
+}
+
+/*
+ * Finds a block: `base` is then what its addresses count from. UNKNOWN_VALUE says that the device has no such block, or
+ * no marker; OVERFLOW that the blocks do not end.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_find(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_chain *chain, uint16_t block, fieldscribe_modbus_base *base);
+
+/* Bodies of functions that have a `base`, too. */
+
+#define FIELDSCRIBE_MODBUS_BASED_READ_WORD(function, address, to, number) \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_reading what = {function, address, 1U}; \
+    const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, &word, 1U); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_BASED_DECODE_WORD(function, address, decoded) \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_reading what = {function, address, 1U}; \
+    const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, &word, 1U); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
+#define FIELDSCRIBE_MODBUS_BASED_READ_WORDS(function, address, count, to, number) \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_reading what = {function, address, count}; \
+    const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, words, count); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_BASED_DECODE_WORDS(function, address, count, decoded) \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_reading what = {function, address, count}; \
+    const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, words, count); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
+#define FIELDSCRIBE_MODBUS_BASED_WRITE_WORD(function, address, type, encoded, bits) \
+    type raw = (type)0; \
+    const fieldscribe_modbus_writing what = {function, address, 1U}; \
+    const fieldscribe_modbus_writing at = fieldscribe_modbus_writing_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    const uint16_t word = bits; \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_words(&device->unit, &at, &word, at.count) \
+                                             : status;
+
+#define FIELDSCRIBE_MODBUS_BASED_WRITE_WORDS(function, address, count, type, encoded, split) \
+    type raw = (type)0; \
+    uint16_t words[count]; \
+    const fieldscribe_modbus_writing what = {function, address, count}; \
+    const fieldscribe_modbus_writing at = fieldscribe_modbus_writing_at(base, &what); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    split; \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_words(&device->unit, &at, words, at.count) \
+                                             : status;
+
+#define FIELDSCRIBE_MODBUS_BASED_UPDATE_WORD(from, from_address, function, address, type, encoded, bits) \
+    type raw = (type)0; \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_reading read = {from, from_address, 1U}; \
+    const fieldscribe_modbus_reading read_at = fieldscribe_modbus_reading_at(base, &read); \
+    const fieldscribe_modbus_writing what = {function, address, 1U}; \
+    const fieldscribe_modbus_writing at = fieldscribe_modbus_writing_at(base, &what); \
+    fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        status = fieldscribe_modbus_read_words(&device->unit, &read_at, &word, 1U); \
+    } \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        word = bits; \
+        status = fieldscribe_modbus_write_words(&device->unit, &at, &word, at.count); \
+    } \
+    return status;
+
 /* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
 FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
@@ -1203,6 +1312,66 @@ fieldscribe_modbus_status fieldscribe_modbus_write_row(
         }
     }
     return status;
+}
+
+/* The most blocks that are looked at: a broken device must not keep the line busy. */
+#define FIELDSCRIBE_MODBUS_BLOCKS_MOST 256U
+
+/* True if these words of a unit are the marker of a chain; `status` is that of reading them. */
+static bool fieldscribe_modbus_is_marked(fieldscribe_modbus_unit *unit, const fieldscribe_modbus_chain *chain,
+    uint16_t place, fieldscribe_modbus_status *status)
+{
+    uint16_t words[FIELDSCRIBE_MODBUS_MARKER_MOST] = {0U};
+    const fieldscribe_modbus_reading what = {chain->function, place, chain->marker_words};
+    size_t at;
+    bool same;
+    *status = fieldscribe_modbus_read_words(unit, &what, words, FIELDSCRIBE_MODBUS_MARKER_MOST);
+    same = (*status == FIELDSCRIBE_MODBUS_OK) && (chain->marker_words <= FIELDSCRIBE_MODBUS_MARKER_MOST);
+    for (at = 0U; same && (at < chain->marker_words); ++at) {
+        same = words[at] == chain->marker[at];
+    }
+    return same;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_find(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_chain *chain, uint16_t block, fieldscribe_modbus_base *base)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
+    uint32_t place = 0x10000U;
+    size_t at;
+    for (at = 0U; (at < chain->place_count) && (place == 0x10000U); ++at) {
+        if (fieldscribe_modbus_is_marked(unit, chain, chain->places[at], &status)) {
+            place = (uint32_t)chain->places[at] + chain->marker_words;
+        } else if ((status != FIELDSCRIBE_MODBUS_OK) && (status != FIELDSCRIBE_MODBUS_EXCEPTION)) {
+            return status;
+        } else {
+            status = FIELDSCRIBE_MODBUS_UNKNOWN_VALUE;
+        }
+    }
+    if (place == 0x10000U) {
+        return FIELDSCRIBE_MODBUS_UNKNOWN_VALUE;
+    }
+    for (at = 0U; (at < FIELDSCRIBE_MODBUS_BLOCKS_MOST) && (place < 0xFFFFU); ++at) {
+        uint16_t head[2] = {0U, 0U};
+        const fieldscribe_modbus_reading what = {chain->function, (uint16_t)place, 2U};
+        status = fieldscribe_modbus_read_words(unit, &what, head, 2U);
+        if (status != FIELDSCRIBE_MODBUS_OK) {
+            return status;
+        }
+        if (head[0] == chain->end) {
+            return FIELDSCRIBE_MODBUS_UNKNOWN_VALUE;
+        }
+        if ((place + 1U + head[1]) > 0xFFFFU) {
+            return FIELDSCRIBE_MODBUS_OVERFLOW;
+        }
+        if (head[0] == block) {
+            base->start = (uint16_t)place;
+            base->last = (uint16_t)(head[1] + 1U);
+            return FIELDSCRIBE_MODBUS_OK;
+        }
+        place += 2U + (uint32_t)head[1];
+    }
+    return FIELDSCRIBE_MODBUS_OVERFLOW;
 }
 
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,

@@ -47,6 +47,31 @@ typedef struct fieldscribe_modbus_writing {
     uint16_t count;
 } fieldscribe_modbus_writing;
 
+/*
+ * What the addresses of some points count from, and the last address that does. `start` and `last` together are 65535
+ * at most; in a base that is not known they are more, and nothing is read or written there.
+ */
+typedef struct fieldscribe_modbus_base {
+    uint16_t start;
+    uint16_t last;
+} fieldscribe_modbus_base;
+
+/* The most words of a marker. */
+#define FIELDSCRIBE_MODBUS_MARKER_MOST 8U
+
+/*
+ * Blocks that a device has behind a marker: each starts with its id and the number of words that follow these two;
+ * `end` in place of an id ends them. The marker stands at one of `places`.
+ */
+typedef struct fieldscribe_modbus_chain {
+    const uint16_t *marker;
+    const uint16_t *places;
+    size_t place_count;
+    uint16_t marker_words;
+    uint16_t end;
+    uint8_t function;
+} fieldscribe_modbus_chain;
+
 /* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
 typedef struct fieldscribe_modbus_r {
     const fieldscribe_layout *layout;

@@ -258,14 +258,14 @@ def check_records(package: Package) -> None:
     runtime = package.runtime
     place = runtime.Place("holding", (1, 2), index=3)
     assert (place, hash(place)) == (runtime.Place("holding", (1, 2), None, 3), hash(place.replaced(index=3)))
-    assert (place != place.replaced(index=4), place == ("holding", (1, 2), None, 3, None)) == (True, False)
+    assert (place != place.replaced(index=4), place == ("holding", (1, 2), None, 3, None, None)) == (True, False)
     assert runtime.Special("a", 1) != runtime.Case("a", 1, None)
-    assert repr(place) == "Place(space='holding', addresses=(1, 2), function=None, index=3, telegram=None)"
+    assert repr(place) == "Place(space='holding', addresses=(1, 2), function=None, index=3, telegram=None, base=None)"
     refuses(AttributeError, "index cannot be changed: Place is a fact", setattr, place, "index", 4)
-    fields = "Place takes space, addresses, function, index, telegram, not"
+    fields = "Place takes space, addresses, function, index, telegram, base, not"
     wrong: tuple[tuple[tuple[Any, ...], dict[str, Any]], ...] = (
         (("holding",), {}), ((), {"addresses": (1,)}), (("holding", (1,)), {"space": "coil"}),
-        (("holding", (1,)), {"place": 1}), (("holding", (1,), 1, 2, "x", 5), {}),
+        (("holding", (1,)), {"place": 1}), (("holding", (1,), 1, 2, "x", "y", 5), {}),
     )  # fmt: skip
     for values, named in wrong:
         refuses(TypeError, f"{fields} {values} and {named}", runtime.Place, *values, **named)

@@ -144,7 +144,7 @@ def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> N
     conforms(GENERATED, device, build, tmp_path)
 
 
-ALL = [sample_device(), rare_device(), kitchen_sink(), made("kitchen_can"), made("kitchen_uss")]
+ALL = [sample_device(), rare_device(), kitchen_sink(), *map(made, ("kitchen_blocks", "kitchen_can", "kitchen_uss"))]
 
 
 def frames_header(folder: Path, device: str) -> Path:

@@ -151,7 +151,19 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
         assert drive.read_many("main") == {name: number for number, name in enumerate(names, 1)}
         own = {name for name in dir(drive) if not name.startswith("_") and name.islower()} - set(names)
         assert own == {
-            *("forget", "identify", "layouts", "point", "read_at", "read_many", "retries", "retry_pause", "rows"),
+            *(
+                "find_blocks",
+                "set_base",
+                "forget",
+                "identify",
+                "layouts",
+                "point",
+                "read_at",
+                "read_many",
+                "retries",
+                "retry_pause",
+                "rows",
+            ),
             *("traffic", "transport", "unit", "variants", "write_at"),
         }
 

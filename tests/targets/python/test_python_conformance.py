@@ -60,6 +60,7 @@ def test_shipped_devices_pass(vectors_file: Path) -> None:
     "device",
     [
         with_enums(rare_device()),
+        made("kitchen_blocks"),
         made("kitchen_can"),
         made("kitchen_uss"),
         *(

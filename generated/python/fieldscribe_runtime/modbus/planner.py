@@ -24,16 +24,24 @@ class Block(Record):
     function: int
     address: int
     count: int
+    base: str | None = None
+
+    @property
+    def area(self) -> str:
+        """The space, and what the address counts from."""
+        return self.space if self.base is None else f"{self.space} from {self.base}"
 
     @property
     def places(self) -> list[tuple[str, int]]:
-        """The space and the address of each of its words or bits."""
-        return [(self.space, address) for address in range(self.address, self.address + self.count)]
+        """The area and the address of each of its words or bits."""
+        area = self.area
+        return [(area, address) for address in range(self.address, self.address + self.count)]
 
     def covers(self, place: Place) -> bool:
         """Whether the block brings all of a place."""
         last = max(place.addresses)
-        return self.space == place.space and self.address <= place.address and last < self.address + self.count
+        same = self.space == place.space and self.base == place.base
+        return same and self.address <= place.address and last < self.address + self.count
 
 
 def read_function(place: Place) -> int:
@@ -47,18 +55,18 @@ def plan(places: Iterable[Place], profile: Profile, bridges: Collection[tuple[st
     """The fewest reads, from the lowest address on, that bring all places.
 
     A read never splits a place, never asks for more than the function allows, and touches no address that was not asked
-    for, except those in `bridges` (space and address of other points that are known to be readable).
+    for, except those in `bridges` (area and address of other points that are known to be readable).
     """
     blocks: list[Block] = []
-    for place in sorted(set(places), key=lambda one: (one.space, read_function(one), one.address, one.span)):
+    for place in sorted(set(places), key=lambda one: (one.area, read_function(one), one.address, one.span)):
         function = read_function(place)
         last = blocks[-1] if blocks else None
-        if last is not None and last.space == place.space and last.function == function:
+        if last is not None and last.area == place.area and last.function == function:
             end = last.address + last.count
             count = max(end, place.address + place.span) - last.address
-            known = all((place.space, address) in bridges for address in range(end, place.address))
+            known = all((place.area, address) in bridges for address in range(end, place.address))
             if known and count <= profile.functions.get(function, 1):
-                blocks[-1] = Block(place.space, function, last.address, count)
+                blocks[-1] = last.replaced(count=count)
                 continue
-        blocks.append(Block(place.space, function, place.address, place.span))
+        blocks.append(Block(place.space, function, place.address, place.span, place.base))
     return tuple(blocks)

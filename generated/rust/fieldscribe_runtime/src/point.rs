@@ -85,6 +85,8 @@ pub trait Point: Sized {
     const SPACE: Space;
     /// The zero-based address on the wire, the lowest if the point has several words.
     const ADDRESS: u16;
+    /// What the addresses count from, by its name; empty for 0.
+    const BASE: &'static str = "";
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
     /// The (lowest) address where the point is written, which mostly is where it is read.

@@ -43,6 +43,10 @@ def write_request(
             f"read {hex_text(min(addresses))}, replace the bits of mask {hex_text(mask)} "
             f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
         )
+    if point.base is not None:
+        message = f"the address of {label(point)} counts from a base, and nobody said where that is"
+        names = " ".join(f"--with {name}=NUMBER" for name in _wanted(device, point))
+        raise RefusedError("missing", message, f"give {names}")
     values = words_of(point, raw, addresses)
     function = profile.write_function(point.space, len(addresses)) or 0
     request = Request(device.bus.usual_unit if unit is None else unit, function, min(addresses), len(values), values)
@@ -66,7 +70,7 @@ def read_text(device: Device, point: Point) -> str:
         return ""
     function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, FAMILY.spaces[point.space])}"
-    return how + _example(device, function, min(point.addresses), count, ())
+    return how if point.base else how + _example(device, function, min(point.addresses), count, ())
 
 
 def frames_of_step(device: Device, step: Step, arguments: Mapping[str, int]) -> Iterator[str]:
@@ -89,8 +93,16 @@ def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     if point.bits is not None:
         steps = "read the word first, replace the bits and write it back, for other points share the word"
         return WriteMethod(f"{how}; {steps}")
+    if point.base is not None:
+        return WriteMethod(how)
     first, count = min(addresses), len(addresses)
     return WriteMethod(how, lambda raw: _example(device, function, first, count, words_of(point, raw, addresses)))
+
+
+def _wanted(device: Device, point: Point) -> list[str]:
+    """Return what has to be given to know where the point is."""
+    base = device.base_of(point)
+    return [] if base is None else base.wanted
 
 
 def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:

@@ -21,6 +21,8 @@ class Transfer(NamedTuple):
     read: str = ""
     write: str = ""
     store: str = ""
+    base: str = ""
+    """The name of what the addresses count from; empty if that is 0."""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
@@ -34,21 +36,24 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
     if view.shape == "text":
         return
     start, point = f"FIELDSCRIBE_{upper(transfer.family)}_", view.point
-    handle, (value, kind, tail) = f"{scope.prefix}_device *device", _value(view)
+    handle, (value, kind, tail) = [f"{scope.prefix}_device *device"], _value(view)
+    if transfer.base:
+        handle.append(f"fieldscribe_{transfer.family}_base base")
+    based = f"{start}BASED_" if transfer.base else start
     if transfer.read:
         names = point.scale_arguments if view.shape == "ruled" and tail else ()
-        parameters = [handle, *scope.parameters(point, names), f"{kind} *{value}"]
+        parameters = [*handle, *scope.parameters(point, names), f"{kind} *{value}"]
         way, *arguments = _decoding(view, value, tail, scope.passed(names))
-        body = called(f"{start}{way}_WORD{_several(view)}", transfer.read, *arguments)
+        body = called(f"{based}{way}_WORD{_several(view)}", transfer.read, *arguments)
         yield function(f"{start}CALL", f"{scope.prefix}_read_{view.fields.item}", parameters, body)
     for verb, to in (("write", transfer.write), ("store", transfer.store)):
         if to:
             names = point.arguments if tail is not None else point.limit_arguments
-            parameters = [handle, *scope.parameters(point, names), f"{kind} {value}"]
+            parameters = [*handle, *scope.parameters(point, names), f"{kind} {value}"]
             where = to if point.bits is None else f"{transfer.read}, {to}"
             way = "WRITE" if point.bits is None else "UPDATE"
             encoded = _encoding(view, kind, value, tail, scope.passed(names))
-            body = called(f"{start}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
+            body = called(f"{based}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
             yield function(f"{start}CALL", f"{scope.prefix}_{verb}_{view.fields.item}", parameters, body)
 
 
@@ -69,7 +74,7 @@ def call_cases(
     names = point.arguments if tail is not None else point.limit_arguments
     writes = [verb for verb in ("write", "store") if getattr(transfer, verb)]
     writes = writes if tail is None or (point.readable and not point.info.floating) else []
-    if not (scale or names):
+    if not (scale or names or transfer.base):
         what = f"{scope.prefix}, {item}, {kind}, {view.raw_type}, {means}"
         if transfer.read and writes == ["write"]:
             yield f"CALLS({what})"
@@ -83,13 +88,14 @@ def call_cases(
         decode = f"(int){view.function}_decode{tail}(raw {arguments(scale)}, &number)"
     if fails or tail == "_count":
         encode = f"(int){view.function}_encode{tail}(number {arguments(names)}, &again)"
+    base = f'FIELDSCRIBE_BASE("{transfer.base}") ' if transfer.base else ""
     handle, types = f"{scope.prefix}_device", f"{kind}, {view.raw_type}"
     if transfer.read:
         call = f"{scope.prefix}_read_{item}"
-        yield f"CALL_READ_BY({handle}, {call}, {types}, {arguments(scale)}, {decode})"
+        yield f"CALL_READ_BY({handle}, {call}, {types}, {base}{arguments(scale)}, {decode})"
     for verb in writes:
         call = f"{scope.prefix}_{verb}_{item}"
-        yield f'CALL_WRITE_BY("{verb}", {handle}, {call}, {types}, {arguments(names)}, {decode}, {encode})'
+        yield f'CALL_WRITE_BY("{verb}", {handle}, {call}, {types}, {base}{arguments(names)}, {decode}, {encode})'
 
 
 def _several(view: PointView) -> str:

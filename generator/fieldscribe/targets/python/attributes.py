@@ -252,8 +252,8 @@ def _existence(point: Point, scope: PackageScope) -> Iterator[Node]:
     if choice := _only_for(point, scope.variants):
         yield Group("only_for=(", (python_string(choice[0]), Group("(", tuple(map(python_string, choice[1])))))
         others.remove(choice[0])
-    if others or point.since is not None or point.until is not None:
-        yield "uncertain=True"  # another axis, a point or the firmware decides too
+    if others or point.since is not None or point.until is not None or point.to_end:
+        yield "uncertain=True"  # another axis, a point, the firmware or the length of a block decides too
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:

@@ -48,7 +48,7 @@ class PythonFamily(NamedTuple):
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
     before their names. `line` gives the transport that most people have, `maker` the function that makes a point's
     attribute. `settings` are further parameters of a device's constructor (name, class). `blocks` plans reads of
-    groups.
+    groups; `bases` are class variables that say what addresses count from.
     """
 
     module: str
@@ -60,6 +60,7 @@ class PythonFamily(NamedTuple):
     maker: Callable[[Point], str] = usual_maker
     blocks: Callable[[Device, PackageScope], Node | None] = lambda _device, _scope: None
     settings: tuple[tuple[str, str], ...] = ()
+    bases: Callable[[Device, PackageScope], tuple[Node, ...]] = lambda _device, _scope: ()
 
 
 def in_python(device: Device) -> PythonFamily:
@@ -86,6 +87,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     name_of_point, line = attribute(point.item), in_python(device).line(device)
     settings = "".join([f", {setting}" for setting in line.settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
+    variants += "".join([f", {parameter(given.name)}={given.low}" for given in device.given])
     inside = [f"drive = {name}(line, 1{settings}{variants})", f"print({wait}drive.{name_of_point}.read())"]
     if point.writable:
         inside.append(f"{wait}drive.{name_of_point}.write(value)")
@@ -122,7 +124,7 @@ def _is_quantity(point: Point) -> bool:
 
 
 def device_context(device: Device, names: Identifiers) -> dict[str, object]:
-    """Return the context of the device module: its classes with examples of their use, and the variants' axes."""
+    """Return the context of the device module: its classes with examples, the variants' axes, given numbers."""
     bus = in_python(device)
     classes = ((names.device_class, "", ""), (names.async_class, "Async", "await "))
     return {
@@ -138,6 +140,7 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
             }
             for axis, values in device.variants.items()
         ],
+        "given": [(each.name, parameter(each.name)) for each in device.given],
         "classes": [
             {
                 "name": name,
@@ -155,6 +158,6 @@ def imports_of(device: Device) -> tuple[str, ...]:
     """Return the lines that import the base classes; and what the constructor names, which only variants need."""
     bus = in_python(device)
     used = {bus.device, f"Async{bus.device}"}
-    if device.variants:
+    if device.variants or device.given:
         used |= {bus.transport, f"Async{bus.transport}", *(kind for _, kind in bus.settings)}
     return imported(bus.module, sorted_imports(used))

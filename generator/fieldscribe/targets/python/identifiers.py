@@ -21,7 +21,19 @@ _RESERVED = frozenset(
 """The reserved words, and built-in names that generated code must not hide."""
 
 DEVICE_MEMBERS = frozenset(
-    {"broadcast", "drop_process_data", "forget", "identify", "layouts", "fresh_for", "link", "patience", "point"}
+    {
+        "broadcast",
+        "drop_process_data",
+        "find_blocks",
+        "forget",
+        "identify",
+        "layouts",
+        "set_base",
+        "fresh_for",
+        "link",
+        "patience",
+        "point",
+    }
     | {
         "read_at",
         "read_many",

@@ -187,7 +187,8 @@ def addresses_of(addresses: tuple[int, ...], space: str) -> list[str]:
 
 def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Node:
     """Return a place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
-    beside = (f"index={index}",) if index else ()
+    named = ("index", index), ("base", python_string(point.base) if point.base else "")
+    beside = tuple(f"{key}={text}" for key, text in named if text)
     if point.space not in NUMBERED:
         return _place(keyword, point.space, addresses, beside, scope)
     telegram = () if point.telegram is None else (python_string(point.telegram),)

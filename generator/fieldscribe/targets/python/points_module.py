@@ -57,6 +57,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         family.blocks(device, scope),
         _identifications(device, scope),
     )
+    bases = [laid_out(node, 4) for node in family.bases(device, scope)]
     return {
         "imports": _imports(scope.used - {"enums"}, family),
         "open_points": list(_open_points(device)),
@@ -64,6 +65,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         "profile": laid_out(profile, 4),
         "group_names": "" if not readable else laid_out(assigned("Group", Group("Literal[", tuple(readable), "]")), 0),
         "blocks": "" if blocks is None else laid_out(blocks, 4),
+        "bases": bases,
         "variants": laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
         "identifications": laid_out(assigned("IDENTIFICATIONS: ClassVar", identifications), 4)
         if device.identifications

@@ -41,12 +41,21 @@ def identifiers(device: Device) -> Iterator[Names]:
     for module, kind, names in (
         ("points::documented", "point", [point.item for point in device.points if point.raw_only]),
         ("commands", "command", [command.name for command in device.commands]),
+        ("bases", "base", _bases(device)),
         ("stepped_commands", "command", [command.name for command in device.stepped_commands]),
         ("blocks", "group", [*device.blocks]),
         ("exceptions", "exception", [code.name for code in device.bus.exceptions]),
     ):
         yield from (Names(f"Rust, module `{module}`", Owner(kind, name), (upper(name),)) for name in names)
     yield from in_rust(device.family).identifiers(device)
+
+
+def _bases(device: Device) -> list[str]:
+    """Return the names of all constants for bases and found blocks."""
+    found = [] if device.found is None else [f"{device.found.name}{tail}" for tail in ("", "_marker", "_places")]
+    return found + [
+        f"{base.name}{tail}" for base in device.bases for tail in (("", "_given") if base.block is None else ("",))
+    ]
 
 
 def _of_enum(enum: Enum) -> Iterator[Names]:

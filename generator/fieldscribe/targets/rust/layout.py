@@ -58,10 +58,12 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
 
 
 def array(item: Item, elements: list[str]) -> Lines:
-    """`item = &[elements];`: one line, else a line for each element."""
+    """`item = &[elements];`: one line, else a line for each element; indented by 4 at most."""
     joined = ", ".join(elements)
     if len(joined) <= _ARRAY_WIDTH:
         return (f"{item} = &[{joined}];",)
+    if len(elements) == 1 and len(joined) + 12 <= _WIDTH:
+        return f"{item} =", f"    &[{joined}];"
     return (f"{item} = &[", *(f"    {element}," for element in elements), "];")
 
 

@@ -136,7 +136,8 @@ def _names_runtime(subject: CratePoint) -> bool:
 
 def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
     """Yield the facts about addresses, index, telegram and constant bits."""
-    yield f"at {space_variant(point.space)} {fields.address};"
+    counted = f" from {rust_string(point.base)}" if point.base else ""
+    yield f"at {space_variant(point.space)} {fields.address}{counted};"
     if fields.addresses:
         yield fields.addresses
     if point.words != 1:

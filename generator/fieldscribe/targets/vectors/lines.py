@@ -124,10 +124,12 @@ class Lines:
         self._lines: list[str] = []
         self._chunks: list[str] = []
         self._included: Counter[Lines] = Counter()
+        self._has_bases = False
 
     def set(self, name: str, *values: object) -> None:
         """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
         line = _SETS[name].line(values)
+        self._has_bases = self._has_bases or name == "bases"
         if self._wanted or line != self._in_force.get(name, name):
             self._wanted[name] = line
 
@@ -201,6 +203,8 @@ class Lines:
                 counts[kind] += number * times
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
         for name, row in _SETS.items():
+            if name == "bases" and not self._has_bases:
+                continue
             yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.fields.items())))
         for name, row in self._rows.items():
             if number := counts[name]:

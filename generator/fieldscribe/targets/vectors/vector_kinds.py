@@ -15,6 +15,7 @@ _EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
 
 SETS = {
     "unit": "unit:int framing:word?",
+    "bases": "starts:pairs lasts:pairs",
     "link": "pkw:int pzd:int single_first:int?",
     "point": "point:word",
     "with": "with:pairs?",
@@ -23,7 +24,7 @@ SETS = {
     "telegram": "telegram:word unit:int",
     "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
 }
-"""What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
+"""What vectors share: the unit, its line, bases of addresses, the point, what it needs, a request, message or task."""
 
 KINDS = {
     # conversions between raw number, value (binary64) and count, and whether a raw number may be written

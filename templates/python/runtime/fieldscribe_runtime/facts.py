@@ -42,7 +42,8 @@ if TYPE_CHECKING:
 class Place(Record):
     """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one.
 
-    An element of an array has its `index`, words of a telegram the name of that `telegram`.
+    An element of an array has its `index`, words of a telegram the name of that `telegram`. With a `base`, by its name,
+    the addresses count from that.
     """
 
     space: str
@@ -50,6 +51,7 @@ class Place(Record):
     function: int | None = None
     index: int | None = None
     telegram: str | None = None
+    base: str | None = None
 
     def __str__(self) -> str:
         """Return the place as manuals print it: numbers of parameters and words in decimal, other addresses not."""
@@ -57,7 +59,13 @@ class Place(Record):
             return f"{self.telegram} word {', '.join(map(str, self.addresses))}"
         notation = str if self.space == "parameter" else "0x{:04X}".format
         index = "" if self.index is None else f" index {self.index}"
-        return f"{self.space} {', '.join(map(notation, self.addresses))}{index}"
+        counted = "" if self.base is None else f" from {self.base}"
+        return f"{self.space} {', '.join(map(notation, self.addresses))}{index}{counted}"
+
+    @property
+    def area(self) -> str:
+        """The space, and what addresses in it count from: addresses of one area name the same words."""
+        return self.space if self.base is None else f"{self.space} from {self.base}"
 
     @property
     def label(self) -> str:
@@ -76,7 +84,7 @@ class Place(Record):
 
     def overlaps(self, other: Place) -> bool:
         """Return True if some word or bit belongs to both."""
-        same = (self.space, self.telegram) == (other.space, other.telegram)
+        same = (self.area, self.telegram) == (other.area, other.telegram)
         same_element = self.index == other.index or None in (self.index, other.index)
         return same and same_element and not set(self.addresses).isdisjoint(other.addresses)
 
@@ -121,24 +129,32 @@ class Telegram(Record):
     message: str | None = None
 
 
-def coil(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
+def coil(
+    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
+) -> Place:
     """Return a bit that can be read and written."""
-    return Place("coil", addresses, function, index)
+    return Place("coil", addresses, function, index, base=base)
 
 
-def discrete(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
+def discrete(
+    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
+) -> Place:
     """Return a bit that can be read."""
-    return Place("discrete", addresses, function, index)
+    return Place("discrete", addresses, function, index, base=base)
 
 
-def holding(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
+def holding(
+    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
+) -> Place:
     """Registers that can be read and written."""
-    return Place("holding", addresses, function, index)
+    return Place("holding", addresses, function, index, base=base)
 
 
-def input_register(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
+def input_register(
+    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
+) -> Place:
     """Registers that can be read."""
-    return Place("input", addresses, function, index)
+    return Place("input", addresses, function, index, base=base)
 
 
 def parameter(*addresses: int, function: int | None = None, index: int | None = None) -> Place:

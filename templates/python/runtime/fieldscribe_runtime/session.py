@@ -313,8 +313,15 @@ class Session(NamedPoints, ABC):
         group = what if isinstance(what, str) else None
         points = self._group(what) if isinstance(what, str) else self._listed(what, absent)
         with of_group(group):
+            if group is not None:
+                points = yield from self._there_steps(list(points))
             values = yield from self._values_steps(points, group, None if absent is None else dict(self._refused))
         return {**values, **absent} if absent else values
+
+    def _there_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
+        """Return the points of a group that are in this device; families with blocks look there."""
+        yield from ()
+        return points
 
     def _values_steps(
         self, points: Sequence[Decoding[Any]], group: str | None, refusals: Refusals

@@ -4,10 +4,12 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::base::MOST_BLOCKS;
 use super::function::read_function;
 use super::reply::wrong_length;
 use super::{
-    About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
+    About, Base, Block, BuildError, Command, FoundBlock, Framing, Profile, Reply, ReplyError,
+    Request, LONGEST,
 };
 use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
@@ -132,6 +134,7 @@ struct Unit {
     framing: Framing,
     number: u8,
     transaction: u16,
+    base: Base,
     sent: [u8; LONGEST],
     received: [u8; LONGEST],
     /// How many bytes the last reply had.
@@ -145,14 +148,16 @@ impl Unit {
             framing,
             number,
             transaction: 0,
+            base: Base::NONE,
             sent: [0; LONGEST],
             received: [0; LONGEST],
             length: 0,
         }
     }
 
-    /// Makes the request one of this unit's framing, as its next transaction.
+    /// Makes the request one of this unit's framing, as its next transaction, where its base is known.
     fn number(&mut self, request: &mut Request<'_>) {
+        request.place(&self.base);
         request.framing = self.framing;
         if self.framing == Framing::Tcp {
             self.transaction = self.transaction.wrapping_add(1);
@@ -281,6 +286,51 @@ macro_rules! client {
         }
 
         impl<T: $transport, D> $client<T, D> {
+            /// Says where a base is, and which: addresses of its points count from it until another one is said.
+            pub fn set_base(&mut self, base: Base) {
+                self.unit.base = base;
+            }
+
+            /// Finds a block and sets it as the base; none if the device has no such block.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells; [`BuildError::BadAddress`] for blocks that do not end.
+            pub $($async)? fn find(&mut self, block: &FoundBlock) -> Result<Option<Base>, ClientError<T::Error>> {
+                let chain = block.chain;
+                let mut place = None;
+                for start in chain.places {
+                    let count = u16::try_from(chain.marker.len()).unwrap_or(u16::MAX);
+                    match self.exchange(Request::new(self.unit.number, chain.function, *start, count))$($wait)* {
+                        Ok(Some(reply)) if reply.items().eq(chain.marker.iter().copied()) => {
+                            place = start.checked_add(count);
+                            break;
+                        }
+                        Ok(_) | Err(ClientError::Reply(ReplyError::Exception { .. }, _)) => {}
+                        Err(error) => return Err(error),
+                    }
+                }
+                let Some(mut place) = place else { return Ok(None) };
+                for _ in 0..MOST_BLOCKS {
+                    let request = Request::new(self.unit.number, chain.function, place, 2);
+                    let reply = self.exchange(request)$($wait)*?;
+                    let head = reply.and_then(|reply| Some((reply.item(0)?, reply.item(1)?)));
+                    let Some((id, length)) = head else { return Ok(None) };
+                    if id == chain.end {
+                        return Ok(None);
+                    }
+                    let last = length.saturating_add(1);
+                    let Some(end) = place.checked_add(last) else { break };
+                    if id == block.id {
+                        let base = Base::new(block.name, place, last);
+                        self.set_base(base);
+                        return Ok(Some(base));
+                    }
+                    let Some(next) = end.checked_add(1) else { break };
+                    place = next;
+                }
+                Err(BuildError::BadAddress.into())
+            }
+
             /// The reply to a request, or none if the request goes to all units.
             ///
             /// # Errors
@@ -359,14 +409,16 @@ macro_rules! client {
                 let (words, count) = point.words_from_raw(raw, before[0])?;
                 let (function, address) = point.write_place();
                 let values = words.get(..count).unwrap_or(&words);
-                let mut request = Request::write_values(self.unit.number, function, address, values);
+                let mut request =
+                    Request::write_values(self.unit.number, function, address, values).counted_from(point.base);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
 
             /// The words of a point as data, in the order of their addresses.
             $($async)? fn words_of(&mut self, point: &PointFacts) -> Result<[u16; 4], ClientError<T::Error>> {
                 let (function, mut words) = (read_function(point.space), [0; 4]);
-                let mut request = Request::new(self.unit.number, function, point.address, point.words);
+                let mut request = Request::new(self.unit.number, function, point.address, point.words)
+                    .counted_from(point.base);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
                 self.unit.copy(&request, &mut words);
                 Ok(words)

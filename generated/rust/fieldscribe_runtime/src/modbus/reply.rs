@@ -12,6 +12,7 @@ use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, PointInfo, Readabl
 pub struct Reply<'a, D = AnyDevice> {
     function: u8,
     address: u16,
+    base: &'static str,
     count: u16,
     /// Words with the high byte first, or bits with the first one lowest, and what is behind them.
     data: &'a [u8],
@@ -65,7 +66,7 @@ impl<D> Reply<'_, D> {
             return Err(Error::WrongSpace(Some(P::NAME)));
         };
         let is_bit = is_of_bits(read_function(P::SPACE));
-        let offset = address.checked_sub(self.address);
+        let offset = self.offset(P::BASE, address);
         let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
         let items = places.map(|places| places.map_while(|place| self.item_of(is_bit, place)));
         let raw = items.and_then(|items| P::from_received(items).ok());
@@ -84,11 +85,20 @@ impl<D> Reply<'_, D> {
         if self.function != read_function(facts.space) {
             return Err(Error::WrongSpace(Some(facts.name)));
         }
-        let offset = facts.address.checked_sub(self.address);
+        let offset = self.offset(facts.base, facts.address);
         let places = offset.and_then(|offset| Some(offset..offset.checked_add(facts.words)?));
         let items = places.map(|places| places.map_while(|place| self.item(place)));
         let raw = items.and_then(|items| facts.raw_from_words(items).ok());
         raw.ok_or(Error::NotBrought(Some(facts.name)))
+    }
+
+    /// How far an address, which counts from the base of that name, is behind the first one.
+    fn offset(&self, base: &str, address: u16) -> Option<u16> {
+        if base == self.base {
+            address.checked_sub(self.address)
+        } else {
+            None
+        }
     }
 
     /// The value of a point that the reply brings.
@@ -198,7 +208,7 @@ impl Request<'_> {
             return Err(wrong_length(bytes.len(), around + 4));
         };
         let received = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
-        let expected = (self.address, self.echo_value());
+        let expected = (self.wire_address(), self.echo_value());
         if received == expected {
             Ok(())
         } else {
@@ -217,6 +227,7 @@ impl Request<'_> {
         Reply {
             function: self.function,
             address: self.address,
+            base: self.base.name,
             count,
             data: bytes.get(head + before..).unwrap_or_default(),
             device: PhantomData,

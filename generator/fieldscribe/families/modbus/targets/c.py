@@ -8,7 +8,7 @@ from functools import partial
 
 from fieldscribe.families.modbus import SPACES, Profile, profile_of
 from fieldscribe.families.modbus.targets.c_steps import stepped_views
-from fieldscribe.model import Block, Command, Device, Point
+from fieldscribe.model import Base, Block, Command, Device, Found, Point
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import (
     Descriptor,
@@ -33,6 +33,9 @@ from fieldscribe.text import c_comment, upper
 
 NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = True
+
+
+_MOVED = {"r": "READ", "w": "WRITE", "u": "UPDATE"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +64,17 @@ class BlocksView:
 
 
 @dataclass(frozen=True, slots=True)
+class BaseView:
+    """A base that follows from given numbers: its function, with their ranges, and the sum of their multiples."""
+
+    function: str
+    formula: str
+    parameters: str
+    known: str
+    start: str
+
+
+@dataclass(frozen=True, slots=True)
 class CommandView:
     """A command: a write of a constant, with a name."""
 
@@ -83,6 +97,11 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
     stepped = stepped_views(device.stepped_commands, scope)
+    bases = [_base(base, device, scope) for base in device.bases if base.block is None]
+    found = device.found and f"{scope.prefix}_{device.found.name}"
+    ids = [
+        (f"{scope.upper}_{upper(base.name)}", unsigned(base.block)) for base in device.bases if base.block is not None
+    ]
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
@@ -97,6 +116,12 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
+        yield (
+            Owner("target", "what addresses count from"),
+            [*(base.function for base in bases), *(name for name, _ in ids)],
+        )
+        if found:
+            yield Owner("target", "how blocks are found"), [found, f"{found}_marker", f"{found}_places"]
         for view in blocks:
             yield Owner("group", view.name), (view.array, *view.values.names)
         for command, command_view in zip(device.commands, commands, strict=True):
@@ -115,12 +140,42 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         pads=_bool(profile.pad_coil_bytes_even),
         rtu=_bool("rtu" in profile.framings),
         tcp=_bool("tcp" in profile.framings),
+        bases=bases,
+        found=found,
+        chain=device.found and _chain(device.found),
+        block_ids=ids,
         blocks=blocks,
         block_most=block_most,
         commands=commands,
         stepped=stepped,
         exceptions=exceptions_of(device, scope),
     )
+
+
+def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
+    given = {each.name: each for each in device.given}
+    numbers = [given[name] for name, _ in base.terms]
+    ends = [f"({each.name} {test} {end}U)" for each in numbers for test, end in ((">=", each.low), ("<=", each.high))]
+    return BaseView(
+        f"{scope.prefix}_{base.name}_base",
+        c_comment(base.formula),
+        ", ".join([f"uint16_t {each.name}" for each in numbers]) or "void",
+        " && ".join([end for end in ends if not end.endswith(">= 0U)")]) or "true",
+        " + ".join([f"({factor} * (int64_t){name})" for name, factor in base.terms] + [str(base.offset)]),
+    )
+
+
+def _chain(found: Found) -> dict[str, str]:
+    """Return the literals of how blocks are found."""
+    return {
+        "text": c_comment(found.marker),
+        "marker": ", ".join(map(hexadecimal, found.words)),
+        "places": ", ".join(map(hexadecimal, found.places)),
+        "count": unsigned(len(found.places)),
+        "words": unsigned(len(found.words)),
+        "end": hexadecimal(found.end),
+        "function": unsigned(SPACES[found.space].read),
+    }
 
 
 def _bool(value: bool) -> str:
@@ -142,7 +197,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     name, text = f"{view.function}_frame", point.text is not None
     address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
-    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words)
+    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or ""
     if layouts.scope.calls_only and not text:
         return Frame((), (), Transfer("modbus", *transfers))
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
@@ -153,7 +208,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) else None
+    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) and not point.base else None
     return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
 
 
@@ -176,6 +231,10 @@ def _transfer(function: int | None, address: str, words: int) -> str:
 def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
     """Yield the macros by which the conformance program runs the exchanges of a point."""
     name, text = f"{view.function}_frame", point.text is not None
+    if point.base:
+        yield f'AT_BASE(fieldscribe_modbus_{"text_" if text else ""}{access}, {name}, "{point.base}")'
+        yield from (f"{word}_AT_BASE" for letter, word in _MOVED.items() if letter in access)
+        name = "moved"
     what = f"{name}, {point.words}U" if text else f"{name}, {wire_kind(point)}, {view.raw_type}"
     if not text:
         yield f"LIES({name}, {lies(point)})"

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
+from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of
 from fieldscribe.model import Device
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.python.identifiers import PackageScope
-from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
 
@@ -39,6 +39,7 @@ def _blocks(device: Device, scope: PackageScope) -> Node | None:
     for group, blocks in planned.items():
         rows = [
             (python_string(block.space), f"0x{block.function:02X}", f"0x{block.address:04X}", str(block.count))
+            + (() if block.base is None else (python_string(block.base),))
             for block in blocks
         ]
         calls = [call(block_class, row) for row in rows]
@@ -46,15 +47,36 @@ def _blocks(device: Device, scope: PackageScope) -> Node | None:
     return Group("{", tuple(groups), "}")
 
 
+def _bases(device: Device, scope: PackageScope) -> tuple[Node, ...]:
+    """Return what addresses count from, what is given for that, and how blocks are found."""
+    if not device.bases:
+        return ()
+    bases, maker = [], scope.runtime("Base")
+    for base in device.bases:
+        factors = Group("{", tuple([f"{python_string(name)}: {factor}" for name, factor in base.terms]), "}")
+        facts = (str(base.offset), factors) if base.block is None else (f"block={base.block}",)
+        bases.append(call(f"{python_string(base.name)}: {maker}", facts))
+    given = [f"{python_string(each.name)}: ({each.low}, {each.high})" for each in device.given]
+    nodes = [assigned("BASES: ClassVar", Group("{", tuple(bases), "}"))]
+    nodes += [assigned("GIVEN: ClassVar", Group("{", tuple(given), "}"))] if given else []
+    found = device.found
+    if found is not None:
+        marker, places = (Group("(", tuple(map(str, numbers))) for numbers in (found.words, found.places))
+        chain = python_string(found.name), f"0x{SPACES[found.space].read:02X}", marker, places, f"0x{found.end:04X}"
+        nodes.append(assigned("CHAIN: ClassVar", call(scope.runtime("Chain"), chain)))
+    return tuple(nodes)
+
+
 SERIAL = Line("serial", 'SerialLine("/dev/ttyUSB0", 9600)', 'AsyncSerialLine(SerialLine("/dev/ttyUSB0", 9600))')
 NETWORK = Line("tcp", 'TcpLine("192.168.0.20")', 'AsyncTcpLine("192.168.0.20")')
 
 IN_PYTHON = PythonFamily(
     module=RUNTIME,  # the Modbus names come from the runtime itself
-    exports=frozenset({"Block", "Profile"}),
+    exports=frozenset({"Base", "Block", "Chain", "Profile"}),
     device="Device",
     transport="Transport",
     profile=_profile,
     blocks=_blocks,
+    bases=_bases,
     line=lambda device: SERIAL if "rtu" in device.bus.framings else NETWORK,
 )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldscribe.families.modbus import framings_of, of_bus, profile_of
+from fieldscribe.families.modbus import SPACES, framings_of, of_bus, profile_of
 from fieldscribe.model import Block, Bus, Code, Command, Device, SteppedCommand
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
-from fieldscribe.targets.rust.layout import Item, Lines, array, chain
-from fieldscribe.text import rust_string
+from fieldscribe.targets.rust.layout import Item, Lines, array, binding, chain
+from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording.steps import run_text, steps_texts
 
 _WRITE_COILS = 15
@@ -30,6 +30,8 @@ def context(device: Device) -> dict[str, object]:
         "exception_names": code_names(bus.exceptions),
         "profile": _profile(bus),
         "exceptions": tuple(map(_exception, bus.exceptions)),
+        "bases": tuple(_bases(device)),
+        "base_needs": ", ".join(_base_needs(device)),
         "blocks": tuple((group, _blocks(group, blocks)) for group, blocks in device.blocks.items()),
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array(Item("pub const BLOCKS", "&[(&str, &[Block])]"), groups),
@@ -60,10 +62,41 @@ def _profile(bus: Bus) -> Lines:
     return chain(Item("pub const PROFILE", "Profile"), profile, steps)
 
 
+def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
+    """Yield the comment and the lines of each constant: what bases follow from, and how blocks are found."""
+    found, given = device.found, {each.name: each for each in device.given}
+    if found is not None:
+        name = found.name.upper()
+        for what, addresses in (("MARKER", found.words), ("PLACES", found.places)):
+            words = [f"0x{number:04X}" for number in addresses]
+            yield "", array(Item(f"const {name}_{what}", "&[u16]"), words)
+        chain = f"Chain::new({SPACES[found.space].read}, {name}_MARKER, {name}_PLACES, 0x{found.end:04X})"
+        yield f"The blocks behind {rust_code(found.marker)}.", binding(4, Item(f"pub const {name}", "Chain"), chain)
+    for base in device.bases:
+        name, text = base.name.upper(), rust_string(base.name)
+        if found is not None and base.block is not None:
+            made = f"FoundBlock::new({text}, &{found.name.upper()}, {base.block})"
+            yield f"Block {base.block}.", binding(4, Item(f"pub const {name}", "FoundBlock"), made)
+            continue
+        numbers = [(given[each], factor) for each, factor in base.terms]
+        items = [f"Given::new({each.low}, {each.high}, {factor})" for each, factor in numbers]
+        yield "", array(Item(f"const {name}_GIVEN", "&[Given]"), items)
+        made = f"GivenBase::new({text}, {base.offset}, {name}_GIVEN)"
+        order = ", ".join(each.name for each, _ in numbers)
+        doc = f"{rust_code(base.formula)}: takes {order or 'no number'}."
+        yield doc, binding(4, Item(f"pub const {name}", "GivenBase"), made)
+
+
+def _base_needs(device: Device) -> list[str]:
+    found = ["Chain", "FoundBlock"] if device.found is not None else []
+    return found + (["Given", "GivenBase"] if any(base.block is None for base in device.bases) else [])
+
+
 def _blocks(group: str, blocks: tuple[Block, ...]) -> Lines:
     """Return the lines of a group's constant."""
     items = [
         f"Block::new(Space::{space_variant(block.space)}, {block.function}, 0x{block.address:04X}, {block.count})"
+        + (f".counted_from({rust_string(block.base)})" if block.base else "")
         for block in blocks
     ]
     return array(Item(f"pub const {group.upper()}", "&[Block]"), items)

@@ -26,6 +26,7 @@ KINDS = {
 
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
+_FIRST_BLOCK, _LAST = 40002, 0xFFFF
 _MOST_BYTES = {"rtu_bytes": 256, "tcp_bytes": 260}
 """The longest frames that the protocol allows."""
 
@@ -36,20 +37,28 @@ class ModbusWire:
     def __init__(self, device: Device, framing: str) -> None:
         self.profile, self.bus, self.framing = profile_of(device.bus), device.bus, framing
         self.unit = _good_unit(self.profile)
+        self.starts = starts_of(device)
         self._at_zero: dict[tuple[int, tuple[int, ...]], tuple[bytes, bytes] | None] = {}
 
     def opens(self, lines: Lines) -> None:
-        """Set the unit and the framing."""
+        """Set the unit and the framing, and where bases are."""
         lines.set("unit", self.unit, self.framing)
+        if self.starts:
+            lines.set("bases", self.starts, {name: _LAST - start for name, start in self.starts.items()})
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """Return one request for all words, which must be consecutive."""
-        return self.script(SPACES[point.space].read, point.addresses, words)
+        return self.script(SPACES[point.space].read, self._counted(point, point.addresses), words)
+
+    def _counted(self, point: Point, addresses: tuple[int, ...]) -> tuple[int, ...]:
+        """Return addresses on the wire."""
+        start = self.starts.get(point.base or "", 0)
+        return tuple([start + address for address in addresses]) if start else addresses
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """Return one request for all words, with the function for this count."""
         function = None if keep else self.profile.write_function(point.space, len(words))
-        return None if function is None else self.script(function, point.written.addresses, words)
+        return None if function is None else self.script(function, self._counted(point, point.written.addresses), words)
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """Return one request for consecutive addresses and its reply; None if the device does not allow it.
@@ -96,6 +105,15 @@ class ModbusWire:
             reply = parse_reply(self.framing, request, answer)
             if reply.status != "ok":
                 yield reply.status, [(sent, answer)]
+
+
+def starts_of(device: Device) -> dict[str, int]:
+    """Return a place for each base: with the greatest numbers that can be given; blocks lie apart."""
+    greatest = {each.name: each.high for each in device.given}
+    return {
+        base.name: _FIRST_BLOCK + 1000 * number if base.block is not None else base.at(greatest)
+        for number, base in enumerate(device.bases)
+    }
 
 
 def wires(device: Device) -> list[ModbusWire]:

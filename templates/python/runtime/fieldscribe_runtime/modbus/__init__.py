@@ -2,6 +2,7 @@
 """The Modbus family: frames without any I/O, planned reads, and devices over a transport."""
 
 from ..bits import BitLayout
+from .bases import Base, Chain
 from .device import AsyncModbusDevice, AsyncTransport, ModbusDevice, Transport
 from .frames import (
     BIT_READS,
@@ -53,8 +54,10 @@ __all__ = [
     "WRITE_REGISTERS",
     "AsyncModbusDevice",
     "AsyncTransport",
+    "Base",
     "BitLayout",
     "Block",
+    "Chain",
     "ModbusDevice",
     "ModbusSession",
     "Profile",

@@ -62,6 +62,14 @@ class ModbusDevice(ModbusSession, AnyDevice):
         """Read words or bits by address, without any meaning."""
         return self._run(self._read_at_steps(space, address, count))
 
+    def find_blocks(self) -> dict[int, tuple[int, int]]:
+        """Return the address of each block that the addresses of points may count from, and its last word, by id.
+
+        They are found when the first of them is needed, and anew after `forget()`. Raises BlockError.
+        """
+        blocks = self._run(self._blocks_steps())
+        return {block: (start.address, start.last) for block, start in blocks.items()}
+
     def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""
         self._run(self._write_at_steps(space, address, values))
@@ -83,6 +91,14 @@ class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read words or bits by address, without any meaning."""
         return await self._run(self._read_at_steps(space, address, count))
+
+    async def find_blocks(self) -> dict[int, tuple[int, int]]:
+        """Return the address of each block that the addresses of points may count from, and its last word, by id.
+
+        They are found when the first of them is needed, and anew after `forget()`. Raises BlockError.
+        """
+        blocks = await self._run(self._blocks_steps())
+        return {block: (start.address, start.last) for block, start in blocks.items()}
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""

@@ -5,17 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
 from itertools import count
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from ..about import about_place
 from ..arguments import check_bytes, check_name, check_place, check_values
 from ..bits import BitLayout
-from ..errors import AccessError, RequestError, no_reply
+from ..errors import AccessError, BlockError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
 from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
+from .bases import Base, Bases, Chain, Start
 from .frames import (
     BIT_READS,
     TCP,
@@ -49,6 +50,12 @@ class ModbusSession(Session):
     """The state of one Modbus device."""
 
     PROFILE: ClassVar[Profile]
+    BASES: ClassVar[Mapping[str, Base]] = {}
+    """What addresses count from, by name."""
+    GIVEN: ClassVar[Mapping[str, tuple[int, int]]] = {}
+    """The ends of the numbers that are given when a device is opened."""
+    CHAIN: ClassVar[Chain | None] = None
+    """The blocks that are found."""
 
     def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
         check_framing(framing, self.PROFILE)
@@ -60,6 +67,55 @@ class ModbusSession(Session):
         self._reads: dict[tuple[int, int, int], tuple[Request, bytes]] = {}
         """Requests that read, as they were built."""
         self._readable: frozenset[tuple[str, int]] | None = None
+        self._bases = Bases(self.BASES, self.GIVEN, self.CHAIN) if self.BASES else None
+
+    def set_base(self, name: str, address: int, last: int | None = None) -> None:
+        """Say where a base is that is known from elsewhere, and the last address that counts from it."""
+        if self._bases is None:
+            raise RequestError("bad_base", "the addresses of this device count from 0")
+        self._bases.put(name, address, last)
+
+    def forget(self) -> None:
+        """Read everything anew, and search blocks anew."""
+        super().forget()
+        if self._bases is not None:
+            self._bases.forget()
+
+    def _give(self, **numbers: int | None) -> None:
+        assert self._bases is not None
+        self._bases.give(numbers)
+
+    def _chain_steps(self, address: int, count: int) -> Steps[tuple[int, ...]]:
+        """Read words of the chain of blocks."""
+        if self.CHAIN is None or self.unit == self.PROFILE.broadcast:
+            raise BlockError("no_marker", "blocks are found in a single unit: set_base says where they are")
+        return (yield from self._ask(self.CHAIN.function, address, count))
+
+    def _blocks_steps(self) -> Steps[dict[int, Start]]:
+        """Find the blocks."""
+        if self._bases is None:
+            raise BlockError("no_marker", "the addresses of this device count from no found block")
+        return (yield from self._bases.blocks_steps(self._chain_steps))
+
+    def _start_steps(self, base: str, last: int) -> Steps[int]:
+        """Return the address of a base from which addresses up to the last count."""
+        assert self._bases is not None
+        start = yield from self._bases.start_steps(base, self._chain_steps)
+        if last > start.last:
+            text = f"the block of {base} ends at its word {start.last}, before the word {last}"
+            raise BlockError("behind_end", text)
+        return start.address
+
+    def _there_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
+        """Return the points of a group that the found block has."""
+        base = points[0].facts.at.base if points else None
+        if base is None or self._bases is None or self.BASES[base].block is None:
+            return points
+        try:
+            start = yield from self._bases.start_steps(base, self._chain_steps)
+        except BlockError:
+            return points  # each of them says so when it is read
+        return [point for point in points if max(point.facts.at.addresses) <= start.last]
 
     def _ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
         """One request and its reply."""
@@ -91,9 +147,10 @@ class ModbusSession(Session):
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read the words or bits of a place, in ascending order of address."""
+        start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
         if len(place.addresses) == 1:
-            return (yield from self._ask(read_function(place), place.addresses[0], 1))
-        words = yield from self._ask(read_function(place), place.address, place.span)
+            return (yield from self._ask(read_function(place), start + place.addresses[0], 1))
+        words = yield from self._ask(read_function(place), start + place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
 
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
@@ -119,7 +176,8 @@ class ModbusSession(Session):
         function = single if len(values) == 1 and single in self.PROFILE.functions else block
         if place.function in WRITES:
             function = place.function
-        yield from self._ask(function, place.address, values=values)
+        start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
+        yield from self._ask(function, start + place.address, values=values)
 
     def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
@@ -138,7 +196,9 @@ class ModbusSession(Session):
 
     def _block_steps(self, block: Block, points: Sequence[Point]) -> Steps[dict[str, int]]:
         """Read points by one request."""
-        words = yield from self._ask(block.function, block.address, block.count)
+        last = block.address + block.count - 1
+        start = 0 if block.base is None else (yield from self._start_steps(block.base, last))
+        words = yield from self._ask(block.function, start + block.address, block.count)
         raws: dict[str, int] = {}
         for point in points:
             own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
@@ -148,13 +208,13 @@ class ModbusSession(Session):
     def _note_gaps(self, points: Sequence[Point], *arguments: object) -> None:
         block = arguments[0]
         assert isinstance(block, Block)
-        taken = {(block.space, address) for point in points for address in point.facts.at.addresses}
+        taken = {(block.area, address) for point in points for address in point.facts.at.addresses}
         self._gaps |= {place for place in block.places if place not in taken}
 
     def _holes(self) -> frozenset[tuple[str, int]]:
         """Return the addresses that the device has refused: of points, and between them."""
         places = [self.POINTS[item].facts.at for item in self._refused]
-        return self._gaps.union((place.space, address) for place in places for address in place.addresses)
+        return self._gaps.union((place.area, address) for place in places for address in place.addresses)
 
     @classmethod
     def layouts(cls, group: str, **variants: str) -> tuple[Layout, ...]:
@@ -177,5 +237,5 @@ class ModbusSession(Session):
         if self._readable is None:
             readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._surely_has(one)]
             places = [point.facts.at for point in readable]
-            self._readable = frozenset((place.space, address) for place in places for address in place.addresses)
+            self._readable = frozenset((place.area, address) for place in places for address in place.addresses)
         return self._readable

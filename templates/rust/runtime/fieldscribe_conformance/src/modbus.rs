@@ -2,8 +2,8 @@
 //! Vectors of Modbus frames and of batched reads.
 
 use fieldscribe_runtime::modbus::{
-    AsyncClient, Block, BuildError, Client, ClientError, Command, Framing, Profile, ReplyError,
-    Request, SteppedCommand, LONGEST,
+    AsyncClient, Base, Block, BuildError, Client, ClientError, Command, Framing, Profile,
+    ReplyError, Request, SteppedCommand, LONGEST,
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
@@ -12,15 +12,17 @@ use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Scr
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
-    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+    ($vector:ident, $profile:ident, $base:expr, |$client:ident| $call:expr) => {{
         let found = {
             let mut $client = blocking($vector, $profile);
+            $client.set_base(base($vector, $base));
             let found = $call;
             let script = $client.into_transport();
             exchanged($vector, found, name, &script)?
         };
         let again = {
             let mut $client = waiting($vector, $profile);
+            $client.set_base(base($vector, $base));
             let found = now($call);
             let script = $client.into_transport();
             exchanged($vector, found, name, &script)?
@@ -28,6 +30,18 @@ macro_rules! both {
         same(true, found == again)?;
         found
     }};
+}
+
+/// Where the base of that name is, by the vector.
+fn base(vector: &Vector, name: &'static str) -> Base {
+    let number = |key| {
+        let mut pairs = vector.pairs(key).into_iter();
+        pairs.find(|(known, _)| known == name)?.1.parse().ok()
+    };
+    match (number("starts"), number("lasts")) {
+        (Some(start), Some(last)) => Base::new(name, start, last),
+        _ => Base::at("", 0),
+    }
 }
 
 fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
@@ -112,10 +126,11 @@ pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number>,
 {
-    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let found = both!(vector, profile, P::BASE, |client| client.read_raw::<P>());
     same(vector.number("raw"), found.map(Number::to_number))?;
     if let Some(value) = data_of::<P>(vector) {
-        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+        let found = both!(vector, profile, P::BASE, |client| client
+            .read_point(P::INFO.any()));
         same(Some(value), found)?;
     }
     Ok(())
@@ -126,7 +141,7 @@ pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable + Whole,
 {
-    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let found = both!(vector, profile, P::BASE, |client| client.read_raw::<P>());
     let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
     same(vector.numbers("words"), words.unwrap_or_default())
 }
@@ -144,10 +159,10 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client
+    both!(vector, profile, P::BASE, |client| client
         .write_with::<P>(value, with));
     if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
+        both!(vector, profile, P::BASE, |client| client
             .write_point(P::INFO.any(), value));
     }
     Ok(())
@@ -161,7 +176,7 @@ where
     let words: Vec<u16> = vector.numbers("words");
     let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
     let value = P::decode(raw).into_result().map_err(Error::name)?;
-    both!(vector, profile, |client| client.write::<P>(value));
+    both!(vector, profile, P::BASE, |client| client.write::<P>(value));
     Ok(())
 }
 
@@ -173,9 +188,9 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client.update::<P>(value));
+    both!(vector, profile, P::BASE, |client| client.update::<P>(value));
     if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
+        both!(vector, profile, P::BASE, |client| client
             .write_point(P::INFO.any(), value));
     }
     Ok(())
@@ -187,7 +202,7 @@ where
     P: Writable<Raw: Number> + Whole,
 {
     let unit = vector.raw("unit");
-    let request = Request::write::<P>(unit, vector.raw("raw"));
+    let request = Request::write::<P>(unit, vector.raw("raw")).at(&base(vector, P::BASE));
     let mut client = Client::for_profile(Script::new(vector), profile, framing(vector), unit);
     let found = client.exchange(request).map(|_| ());
     exchanged(vector, found, name, &client.into_transport()).map(|_| ())
@@ -196,7 +211,7 @@ where
 /// A command.
 pub fn command<D>(vector: &Vector, profile: &'static Profile, command: &Command<D>) -> Outcome {
     let command = Command::new(command.function, command.address, command.value);
-    both!(vector, profile, |client| client.command(&command));
+    both!(vector, profile, "", |client| client.command(&command));
     same(vector.raw("value"), command.value.unwrap_or(1))
 }
 

@@ -4,10 +4,11 @@
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
 use fieldscribe_runtime::modbus::{
-    crc, read_function, reply_length, write_function, About, AsyncClient, Block, BuildError,
-    Client, ClientError, Command, Framing, Function, LocalClient, Profile, ReplyError, Request,
+    crc, read_function, reply_length, write_function, About, AsyncClient, Base, Block, BuildError,
+    Chain, Client, ClientError, Command, FoundBlock, Framing, Function, Given, GivenBase,
+    LocalClient, Profile, ReplyError, Request,
 };
-use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Space, Whole};
+use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Point, Space, Whole};
 
 use super::now;
 use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
@@ -18,6 +19,20 @@ made_up!(Group u16, Holding 0x30, &[0x30], 1);
 made_up!(Wide u32, Holding 0x21, &[0x21, 0x22], 2);
 made_up!(Beyond u32, Holding 0xFFFF, &[0xFFFF], 2);
 made_up!(Relay bool, Coil 0x40, &[0x40], 1);
+
+fieldscribe_runtime::point! {
+    /// A word of a block.
+    Placed: u16 = "placed";
+    at Holding 0x0003 from "blocks_7";
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+const CHAIN: Chain = Chain::new(3, &[0x5375, 0x6E53], &[40000, 0], 0xFFFF);
+const SEVENTH: FoundBlock = FoundBlock::new("blocks_7", &CHAIN, 7);
+const SLOTS: &[Given] = &[Given::new(1, 15, 1000), Given::new(0, 3, -10)];
+const SLOT: GivenBase = GivenBase::new("blocks_7", 100, SLOTS);
 
 impl Whole for Word {}
 impl Whole for Long {}
@@ -63,6 +78,39 @@ pub fn check() {
     more_at_once();
     more_now();
     more_staying();
+    bases();
+    found_at_once();
+    found_now();
+    found_staying();
+}
+
+fn bases() {
+    let base = |slot, part| SLOT.at(&[slot, part]);
+    assert_eq!(base(3, 2), Some(Base::at("blocks_7", 3080)));
+    assert_eq!(base(15, 0), Some(Base::new("blocks_7", 15100, 50435)));
+    assert_eq!([base(0, 0), base(16, 0), base(1, 4)], [None; 3]);
+    assert_eq!([SLOT.at(&[3]), SLOT.at(&[3, 0, 0])], [None; 2]);
+    let built = |request: Request<'_>| {
+        let mut frame = [0; 8];
+        request
+            .build(&PROFILE, &mut frame)
+            .map(|_| super::hex(&frame[..6]))
+    };
+    let read = Request::read::<Placed>(5);
+    assert_eq!(built(read), Err(BuildError::NoBase));
+    assert_eq!(
+        built(read.at(&Base::at("other", 7))),
+        Err(BuildError::NoBase)
+    );
+    let within = |last| built(read.at(&Base::new("blocks_7", 0x1000, last)));
+    assert_eq!(within(3).as_deref(), Ok("050310030001"));
+    assert_eq!(within(2), Err(BuildError::BadAddress));
+    let write = Request::write::<Placed>(5, 9).at(&Base::at("blocks_7", 0x1000));
+    assert_eq!(built(write).as_deref(), Ok("050610030009"));
+    let block = Any::new(Space::Holding, 3, 2, 2);
+    assert!(!block.brings::<Placed>() && block.counted_from("blocks_7").brings::<Placed>());
+    assert!(!block.counted_from("blocks_7").brings::<Word>());
+    assert_eq!(Any::of(<Placed as Point>::INFO).base, "blocks_7");
 }
 
 fn errors() {
@@ -98,6 +146,11 @@ fn errors() {
                 BuildError::BadAddress,
                 "bad_address",
                 "the items end beyond the last address",
+            ),
+            (
+                BuildError::NoBase,
+                "bad_base",
+                "nobody said where the base is that the address counts from: use `set_base` or `find`",
             ),
             (
                 BuildError::BadValue,
@@ -595,7 +648,78 @@ fn replies() {
 
 /// The same conversation with the client that blocks and the one that does not.
 macro_rules! conversations {
-    ($tcp:ident $rtu:ident $more:ident $client:ident $wait:ident) => {
+    ($tcp:ident $rtu:ident $more:ident $found:ident $client:ident $wait:ident) => {
+        fn $found() {
+            let step = |sent: &str, came: &str| (rtu(sent), super::hex(&rtu(came)));
+            let talk = |steps: &[(&str, &str)]| {
+                let steps: Vec<_> = steps.iter().map(|(sent, came)| step(sent, came)).collect();
+                $client::for_profile(Line::new(&steps), &PROFILE, Framing::Rtu, 5)
+            };
+            let mut client = talk(&[
+                ("05039c400002", "058302"),
+                ("050300000002", "05030453756e53"),
+                ("050300020002", "05030400010001"),
+                ("050300050002", "05030400070002"),
+                ("050300080001", "0503021234"),
+                ("050600080009", "050600080009"),
+                ("050300070002", "05030456781234"),
+            ]);
+            assert_eq!(
+                $wait(client.read::<Placed>()),
+                Err(ClientError::Build(
+                    BuildError::NoBase,
+                    Some(About::Point("placed"))
+                ))
+            );
+            assert_eq!(
+                $wait(client.find(&SEVENTH)),
+                Ok(Some(Base::new("blocks_7", 5, 3)))
+            );
+            assert_eq!($wait(client.read::<Placed>()), Ok(0x1234));
+            assert_eq!($wait(client.write::<Placed>(9)), Ok(()));
+            let block = Any::new(Space::Holding, 3, 2, 2).counted_from("blocks_7");
+            let reply = $wait(client.read_block(&block)).expect("a reply");
+            assert_eq!(reply.value::<Placed>(), Ok(0x1234));
+            assert_eq!(reply.raw_of(<Placed as Point>::INFO), Ok(0x1234));
+            assert!(reply.value::<Word>().is_err());
+            client.into_transport().done();
+            let marked = ("05039c400002", "05030453756e53");
+            for (steps, found) in [
+                (vec![marked, ("05039c420002", "050304ffff0000")], Ok(None)),
+                (
+                    vec![
+                        marked,
+                        ("05039c420002", "05030400080001"),
+                        ("05039c450002", "050304ffff0000"),
+                    ],
+                    Ok(None),
+                ),
+                (
+                    vec![
+                        ("05039c400002", "05030400000000"),
+                        ("050300000002", "058302"),
+                    ],
+                    Ok(None),
+                ),
+                (
+                    vec![marked, ("05039c420002", "050304000763bc")],
+                    Ok(Some(Base::new("blocks_7", 40002, 0x63BD))),
+                ),
+                (
+                    vec![marked, ("05039c420002", "050304000763bd")],
+                    Err(BuildError::BadAddress.into()),
+                ),
+                (
+                    vec![marked, ("05039c420002", "050304000863bc")],
+                    Err(BuildError::BadAddress.into()),
+                ),
+            ] {
+                let mut client = talk(&steps);
+                assert_eq!($wait(client.find(&SEVENTH)), found);
+                client.into_transport().done();
+            }
+        }
+
         fn $tcp() {
             let step = |sent: &str, came: &str| (super::bytes(sent), came.to_owned());
             let mut client = $client::for_profile(
@@ -741,6 +865,6 @@ macro_rules! conversations {
     };
 }
 
-conversations!(at_once_over_tcp at_once_over_rtu more_at_once Client at_once);
-conversations!(now_over_tcp now_over_rtu more_now AsyncClient now);
-conversations!(staying_over_tcp staying_over_rtu more_staying LocalClient now);
+conversations!(at_once_over_tcp at_once_over_rtu more_at_once found_at_once Client at_once);
+conversations!(now_over_tcp now_over_rtu more_now found_now AsyncClient now);
+conversations!(staying_over_tcp staying_over_rtu more_staying found_staying LocalClient now);

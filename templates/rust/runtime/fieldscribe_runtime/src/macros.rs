@@ -6,7 +6,7 @@
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
-/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[width 24]`: the bits of a
+/// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order, `[words 2]`, `[width 24]`: the bits of a
 ///   number narrower than its type, `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`:
 ///   the bits of the word that are always the same, and what they are;
@@ -48,7 +48,7 @@ macro_rules! point {
     (
         $(#[$attribute:meta])*
         $name:ident $(of $device:ty)?: $raw:ty = $item:literal $(, $code:literal)?;
-        at $space:ident $(($other:literal))? $address:literal;
+        at $space:ident $(($other:literal))? $address:literal $(from $base:literal)?;
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
         $(width $width:literal;)?
@@ -80,6 +80,7 @@ macro_rules! point {
             $(const CODE: Option<&'static str> = Some($code);)?
             const SPACE: $crate::Space = $crate::Space::$space$(($other))?;
             const ADDRESS: u16 = $address;
+            $(const BASE: &'static str = $base;)?
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
             $(const WIDTH: u32 = $width;)?

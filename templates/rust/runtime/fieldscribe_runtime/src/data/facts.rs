@@ -20,6 +20,8 @@ pub struct PointFacts {
     pub space: Space,
     /// The zero-based address on the wire, the lowest if the point has several words.
     pub address: u16,
+    /// What the address counts from, by its name; empty for 0.
+    pub base: &'static str,
     /// The addresses of all words in reading order: the high part or the first characters first.
     pub addresses: &'static [u16],
     /// How many words, or bits of a bit space, the point takes.
@@ -94,6 +96,7 @@ impl PointFacts {
             code: P::CODE,
             space: P::SPACE,
             address: P::ADDRESS,
+            base: P::BASE,
             addresses: P::ADDRESSES,
             words: P::WORDS,
             mask: P::GROUP,

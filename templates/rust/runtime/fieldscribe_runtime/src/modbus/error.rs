@@ -61,6 +61,8 @@ pub enum BuildError {
     BadCount,
     /// The items end beyond the last address.
     BadAddress,
+    /// Nobody said where the base is that the address counts from.
+    NoBase,
     /// A bit is neither 0 nor 1.
     BadValue,
     /// The caller's buffer is too small.
@@ -77,6 +79,7 @@ impl BuildError {
             Self::BadFunction => "bad_function",
             Self::BadCount => "bad_count",
             Self::BadAddress => "bad_address",
+            Self::NoBase => "bad_base",
             Self::BadValue => "bad_value",
             Self::BufferTooSmall => "buffer_too_small",
         }
@@ -94,6 +97,7 @@ impl fmt::Display for BuildError {
             Self::BadFunction => "the device does not know the function",
             Self::BadCount => "the device does not take that many items",
             Self::BadAddress => "the items end beyond the last address",
+            Self::NoBase => "nobody said where the base is that the address counts from: use `set_base` or `find`",
             Self::BadValue => "a bit is neither 0 nor 1",
             Self::BufferTooSmall => "the buffer is too small",
         })

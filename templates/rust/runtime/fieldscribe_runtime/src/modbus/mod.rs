@@ -11,6 +11,7 @@
 //! assert_eq!(request.build(&PROFILE, &mut frame), Ok(8));
 //! ```
 
+mod base;
 mod client;
 mod error;
 mod function;
@@ -19,6 +20,7 @@ mod reply;
 mod request;
 mod steps;
 
+pub use base::{Base, Chain, FoundBlock, Given, GivenBase};
 pub use client::{AsyncClient, Client, ClientError, LocalClient};
 pub use error::{About, BuildError, ReplyError};
 pub use function::{read_function, write_function};

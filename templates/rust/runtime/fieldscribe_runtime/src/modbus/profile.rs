@@ -166,6 +166,8 @@ pub struct Block<D = AnyDevice> {
     pub address: u16,
     /// How many items.
     pub count: u16,
+    /// What the address counts from, by its name; empty for 0.
+    pub base: &'static str,
     device: PhantomData<D>,
 }
 
@@ -178,8 +180,15 @@ impl<D> Block<D> {
             function,
             address,
             count,
+            base: "",
             device: PhantomData,
         }
+    }
+
+    /// The same block, whose address counts from the base of that name.
+    #[must_use]
+    pub const fn counted_from(self, base: &'static str) -> Self {
+        Self { base, ..self }
     }
 
     /// The words, or the bits, of a point that is known at run time only.
@@ -203,7 +212,7 @@ impl<D> Block<D> {
     pub const fn of(point: PointInfo<D>) -> Self {
         let facts = point.facts;
         let function = read_function(facts.space);
-        Self::new(facts.space, function, facts.address, facts.words)
+        Self::new(facts.space, function, facts.address, facts.words).counted_from(facts.base)
     }
 
     /// Whether the block brings the point.
@@ -212,7 +221,7 @@ impl<D> Block<D> {
     where
         D: Accepts<P::Device>,
     {
-        self.covers(P::SPACE, P::ADDRESS, P::WORDS)
+        self.covers(P::SPACE, P::BASE, P::ADDRESS, P::WORDS)
     }
 
     /// Whether the block brings the point as data.
@@ -222,13 +231,13 @@ impl<D> Block<D> {
         D: Accepts<P>,
     {
         let facts = point.facts;
-        facts.access.reads() && self.covers(facts.space, facts.address, facts.words)
+        facts.access.reads() && self.covers(facts.space, facts.base, facts.address, facts.words)
     }
 
-    fn covers(&self, space: Space, address: u16, words: u16) -> bool {
+    fn covers(&self, space: Space, base: &str, address: u16, words: u16) -> bool {
         let offset = address.checked_sub(self.address);
         let end = offset.and_then(|offset| offset.checked_add(words));
-        self.space == space && end.is_some_and(|end| end <= self.count)
+        self.space == space && self.base == base && end.is_some_and(|end| end <= self.count)
     }
 }
 

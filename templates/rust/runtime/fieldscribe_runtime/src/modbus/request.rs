@@ -2,7 +2,7 @@
 //! Requests and their frames.
 
 use super::function::{is_read, read_function, write_function};
-use super::{crc, About, Block, BuildError, Command, Framing, Profile};
+use super::{crc, About, Base, Block, BuildError, Command, Framing, Profile};
 use crate::point::counted;
 use crate::{BitGroup, Point, Readable, Whole, Writable};
 
@@ -41,6 +41,8 @@ pub struct Request<'a> {
     values: Values<'a>,
     /// The name of the point that it reads or writes.
     point: Option<&'static str>,
+    /// What the address counts from.
+    pub(super) base: Base,
 }
 
 impl Request<'static> {
@@ -56,6 +58,7 @@ impl Request<'static> {
             count,
             values: Values::Own([0; 4], 0),
             point: None,
+            base: Base::NONE,
         }
     }
 
@@ -89,7 +92,7 @@ impl Request<'static> {
     /// A request that reads a block.
     #[must_use]
     pub const fn block<D>(unit: u8, block: &Block<D>) -> Self {
-        Self::new(unit, block.function, block.address, block.count)
+        Self::new(unit, block.function, block.address, block.count).counted_from(block.base)
     }
 
     /// A request that gives a command.
@@ -132,6 +135,7 @@ impl<'a> Request<'a> {
             count: u16::try_from(values.len()).unwrap_or(u16::MAX),
             values: Values::Lent(values),
             point: None,
+            base: Base::NONE,
         }
     }
 
@@ -139,8 +143,36 @@ impl<'a> Request<'a> {
     const fn of<P: Point>(self) -> Self {
         Self {
             point: Some(P::NAME),
+            base: Base::named(P::BASE),
             ..self
         }
+    }
+
+    /// The same request, whose address counts from the base of that name.
+    pub(super) const fn counted_from(self, base: &'static str) -> Self {
+        Self {
+            base: Base::named(base),
+            ..self
+        }
+    }
+
+    /// The same request, where its base is known; another base than that of its point or block changes nothing.
+    #[must_use]
+    pub fn at(mut self, base: &Base) -> Self {
+        self.place(base);
+        self
+    }
+
+    /// Says where the base is, if it is this one.
+    pub(super) fn place(&mut self, base: &Base) {
+        if self.base.name == base.name {
+            self.base = *base;
+        }
+    }
+
+    /// The address on the wire.
+    pub(super) const fn wire_address(&self) -> u16 {
+        self.address.wrapping_add(self.base.start)
     }
 
     /// The same request over TCP, as this transaction.
@@ -195,7 +227,7 @@ impl<'a> Request<'a> {
         }
         frame.byte(self.unit);
         frame.byte(self.function);
-        frame.word(self.address);
+        frame.word(self.wire_address());
         self.build_data(profile, &mut frame);
         if self.framing == Framing::Rtu {
             let crc = crc(frame.written()?);
@@ -231,8 +263,13 @@ impl<'a> Request<'a> {
         if self.count == 0 || self.count > known.most || missing {
             return Err(BuildError::BadCount);
         }
+        if !self.base.is_known() {
+            return Err(BuildError::NoBase);
+        }
         let strange = self.function == 8 && self.address != 0;
-        if strange || self.address.checked_add(self.count - 1).is_none() {
+        let end = self.address.checked_add(self.count - 1);
+        let within = end.is_some_and(|end| end <= self.base.last);
+        if strange || !within {
             return Err(BuildError::BadAddress);
         }
         let bits = matches!(self.function, 5 | 15);

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: 0BSD
+"""What addresses count from: numbers that are given when a device is opened, and blocks that are found in it."""
+
+from __future__ import annotations
+
+from copy import copy
+from typing import TYPE_CHECKING
+
+from ..arguments import check_integer, shown
+from ..errors import BlockError, ExceptionReplyError, FieldscribeError, RequestError
+from ..records import Record
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Mapping
+
+    Read = Callable[[int, int], Generator[bytes, bytes, tuple[int, ...]]]
+
+_LAST = 0xFFFF
+_MOST_BLOCKS = 256
+"""So many blocks are walked at most: no device has so many, and a broken one must not keep the line busy."""
+
+
+class Base(Record):
+    """What addresses count from: the found block of that id, or `offset` plus multiples of given numbers."""
+
+    offset: int = 0
+    factors: Mapping[str, int] = {}
+    block: int | None = None
+
+
+class Chain(Record):
+    """Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two."""
+
+    name: str
+    function: int
+    marker: tuple[int, ...]
+    places: tuple[int, ...]
+    end: int
+
+    def walk_steps(self, read: Read) -> Generator[bytes, bytes, dict[int, Start]]:
+        """Return where each block starts, by its id; of two with the same id the first. Raises BlockError."""
+        place = yield from self._search_steps(read)
+        found: dict[int, Start] = {}
+        for _ in range(_MOST_BLOCKS):
+            if place == _LAST:
+                block, length = (yield from read(place, 1))[0], 0
+            elif place < _LAST:
+                block, length = yield from read(place, 2)
+            else:
+                raise BlockError("bad_chain", f"the blocks of {self.name} do not end before the address 65536")
+            if block == self.end:
+                return found
+            last = 1 + length
+            if place + last > _LAST:
+                text = f"the block {block} of {self.name} at {place} has {length} words, and ends beyond 65535"
+                raise BlockError("bad_chain", text)
+            found.setdefault(block, Start(place, last))
+            place += last + 1
+        raise BlockError("bad_chain", f"{self.name} has more than {_MOST_BLOCKS} blocks")
+
+    def _search_steps(self, read: Read) -> Generator[bytes, bytes, int]:
+        """Return the address behind the marker; a place that the device refuses holds none."""
+        for place in self.places:
+            try:
+                words = yield from read(place, len(self.marker))
+            except ExceptionReplyError as error:
+                if error.lost:
+                    raise
+                continue
+            if words == self.marker:
+                return place + len(self.marker)
+        places = ", ".join(map(str, self.places))
+        raise BlockError("no_marker", f"nothing at {places} says where the blocks of {self.name} start")
+
+
+class Start(Record):
+    """The address that others count from, and the last one that does, counted from it."""
+
+    address: int
+    last: int
+
+
+class Bases:
+    """The bases of one device, as far as they are known."""
+
+    def __init__(self, bases: Mapping[str, Base], given: Mapping[str, tuple[int, int]], chain: Chain | None) -> None:
+        self._bases, self._given, self.chain = bases, given, chain
+        self._starts: dict[str, Start] = {}
+        self._numbers: dict[str, int] = {}
+        self._blocks: dict[int, Start] | BlockError | None = None
+
+    def give(self, numbers: Mapping[str, int | None]) -> None:
+        """Take the given numbers; None for one that is not known. Raises RequestError."""
+        for name, number in numbers.items():
+            low, high = self._given[name]
+            if number is None:
+                continue
+            check_integer("bad_base", name, number)
+            if not low <= number <= high:
+                raise RequestError("bad_base", f"{name} is {low} to {high}, not {shown(number)}")
+            self._numbers[name] = number
+
+    def put(self, name: str, address: int, last: int | None = None) -> None:
+        """Take a base that is known from elsewhere; raises RequestError for what is none."""
+        if name not in self._bases:
+            raise RequestError("bad_base", f"there is no base {shown(name)}, only {', '.join(self._bases)}")
+        check_integer("bad_base", "the base", address)
+        last = _LAST - address if last is None else last
+        if not 0 <= address <= address + last <= _LAST:
+            raise RequestError("bad_base", f"the base {name} at {shown(address)} is outside 0..65535")
+        self._starts[name] = Start(address, last)
+
+    def forget(self) -> None:
+        """Search the blocks anew when they are needed."""
+        self._blocks = None
+
+    def blocks_steps(self, read: Read) -> Generator[bytes, bytes, dict[int, Start]]:
+        """Return the blocks of the device by their ids, found once."""
+        if self.chain is None:
+            raise BlockError("no_marker", "the addresses of this device count from no found block")
+        if self._blocks is None:
+            try:
+                self._blocks = yield from self.chain.walk_steps(read)
+            except BlockError as error:
+                self._blocks = error
+                raise
+        if isinstance(self._blocks, FieldscribeError):
+            raise copy(self._blocks)
+        return self._blocks
+
+    def start_steps(self, name: str, read: Read) -> Generator[bytes, bytes, Start]:
+        """Return where a base is. Raises BlockError, or RequestError where a number was not given."""
+        if (known := self._starts.get(name)) is not None:
+            return known
+        base = self._bases[name]
+        if base.block is not None:
+            blocks = yield from self.blocks_steps(read)
+            if base.block not in blocks:
+                has = ", ".join(map(str, blocks)) or "none"
+                raise BlockError("no_block", f"the device has no block {base.block}, only {has}")
+            return blocks[base.block]
+        missing = [each for each in base.factors if each not in self._numbers]
+        if missing:
+            raise RequestError("bad_base", f"where this is depends on {missing[0]}: open the device with {missing[0]}=")
+        address = base.offset + sum(self._numbers[each] * factor for each, factor in base.factors.items())
+        return Start(address, _LAST - address)

@@ -1,0 +1,168 @@
+"""Addresses that count from a base: given when the device is opened, or found in a chain of blocks."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import pytest
+from support.described import made
+from support.python_package import Awaited, Slave, imported, status, write_package
+
+SUNS = (0x5375, 0x6E53)
+
+
+def chain(at: int, *blocks: tuple[int, list[int]], end: int = 0xFFFF) -> dict[int, int]:
+    """The registers of a marker and of blocks, each with its id and its words."""
+    words = [*SUNS]
+    for block, held in blocks:
+        words += [block, len(held), *held]
+    words += [end, 0]
+    return dict(enumerate(words, at))
+
+
+INVERTER = (103, [250, 0xFFFF, 0, 0, 0, 7])
+MODULES = (160, [11, 21, 0, 31, 12, 22, 0, 32])
+"""Two elements of four words."""
+FOUND = chain(50000, (1, [9]), INVERTER, MODULES)
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """The package of the device with bases."""
+    folder = write_package(made("kitchen_blocks"), tmp_path_factory.mktemp("bases"))
+    yield from imported(folder, "kitchen_blocks")
+
+
+class Registers(Slave):
+    """Answers from registers; what is not there is refused. `asked` has the first address and count of each read."""
+
+    def __init__(self, held: Mapping[int, int]) -> None:
+        super().__init__()
+        self.held = dict(held)
+        self.asked: list[tuple[int, int]] = []
+
+    def _answer(self, pdu: bytes) -> bytes:
+        address, count = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
+        if pdu[0] == 6:
+            self.held[address] = count
+            return pdu
+        self.asked.append((address, count))
+        places = range(address, address + count)
+        if not self.held.keys() >= set(places):
+            return bytes((pdu[0] | 0x80, 2))
+        words = [self.held[place] for place in places]
+        return bytes((pdu[0], 2 * count)) + b"".join(word.to_bytes(2, "big") for word in words)
+
+
+def test_given(package: Any) -> None:
+    """Addresses count from what is given; two devices of one line have their own."""
+    line = Registers({5: 1, 3005: 405, 3006: 0, 3007: 8, 3008: 3, 15021: 500})
+    third, last = package.KitchenBlocks(line, 1, slot=3, half=0), package.KitchenBlocks(line, 1, slot=15, half=1)
+    assert (third.firmware.read(), third.level.read(), third.energy.read(), last.level.read()) == (1, 40.5, 8, 50.0)
+    third.level.write(12.5)
+    third.mode.write(2)
+    assert (line.held[3005], line.held[3008]) == (125, 5)
+    assert str(third.level.facts.at) == "holding 0x0005 from slot_half"
+
+
+@pytest.mark.parametrize(
+    ("given", "needle"),
+    [
+        ({"slot": 0, "half": 0}, "slot is 1 to 15, not 0"),
+        ({"slot": 16, "half": 0}, "slot is 1 to 15, not 16"),
+        ({"slot": "3", "half": 0}, "slot is an integer"),
+        ({"slot": 3}, "open the device with half="),
+        ({}, "open the device with slot="),
+    ],
+)
+def test_given_wrongly(package: Any, given: dict[str, Any], needle: str) -> None:
+    """What is not given, or no such number, is said before anything is sent."""
+    line = Registers({})
+
+    def read() -> object:
+        return package.KitchenBlocks(line, 1, **given).level.read()
+
+    wrong, message = status(read)
+    assert wrong == "bad_base"
+    assert needle in message
+    assert not line.asked
+
+
+def test_found(package: Any) -> None:
+    """The blocks are searched once, and anew when all is forgotten."""
+    line = Registers(FOUND)
+    device = package.KitchenBlocks(line, 1)
+    assert device.current.read() == 25.0
+    assert line.asked[:6] == [(40000, 2), (0, 2), (50000, 2), (50002, 2), (50005, 2), (50013, 2)]
+    assert line.asked[6:] == [(50023, 2), (50008, 1), (50007, 1)]
+    line.asked.clear()
+    assert device.read_many("modules") == {
+        "module_id_index_1": 11,
+        "module_id_index_2": 12,
+        "module_limit_index_1": 21,
+        "module_limit_index_2": 22,
+        "module_energy_index_1": 31,
+        "module_energy_index_2": 32,
+    }
+    assert line.asked == [(50015, 4), (50019, 4)]
+    device.module_limit_index_2.write(5)
+    assert line.held[50020] == 5
+    assert device.find_blocks() == {1: (50002, 2), 103: (50005, 7), 160: (50013, 9)}
+    line.held = chain(0, INVERTER)
+    device.forget()
+    assert device.current.read() == 25.0
+    assert list(device.find_blocks()) == [103]
+
+
+def test_found_with_await(package: Any) -> None:
+    """The async device does the same."""
+
+    device = package.KitchenBlocksAsync(Awaited(Registers(FOUND)), 1)
+    assert asyncio.run(device.current.read()) == 25.0
+    assert asyncio.run(device.find_blocks())[160] == (50013, 9)
+
+
+HOSTILE = {
+    "no_marker": ({40000: 0, 40001: 0}, "no_marker"),
+    "endless": (dict.fromkeys(range(50000, 65536), 0) | dict(enumerate(SUNS, 50000)), "bad_chain"),
+    "too long": (chain(50000, (7, [0] * 3)) | {50003: 0xFFFF}, "bad_chain"),
+    "to the last word": (chain(50000) | {50002: 5, 50003: 65535 - 50004 + 1}, "bad_chain"),
+    "cut off": (dict(list(chain(50000, (7, [0])).items())[:5]), "exception"),
+    "without the block": (chain(50000, (7, [])), "no_block"),
+    "short": (chain(50000, (103, [250])), "behind_end"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_chains(package: Any, name: str) -> None:
+    """A search ends, says what is wrong, and is not repeated for each point."""
+    held, expected = HOSTILE[name]
+    line = Registers(held)
+    device = package.KitchenBlocks(line, 1)
+    assert status(device.current.read)[0] == expected
+    assert len(line.asked) < 300
+    asked = len(line.asked)
+    assert status(device.current.read)[0] == expected
+    assert expected not in {"no_marker", "bad_chain"} or len(line.asked) == asked
+
+
+def test_several_at_once(package: Any) -> None:
+    """A group whose block is not there says so at each point, or at once."""
+    device = package.KitchenBlocks(Registers(chain(0, MODULES)), 1)
+    values = device.read_many("inverter", errors="return")
+    assert {one.status for one in values.values()} == {"no_block"}
+    assert status(lambda: device.read_many("inverter"))[0] == "no_block"
+
+
+def test_known_from_elsewhere(package: Any) -> None:
+    """A base may be said; what lies behind its end is not asked for."""
+    line = Registers(dict.fromkeys(range(100, 140), 1))
+    device = package.KitchenBlocks(line, 1)
+    device.set_base("models_160", 100, 5)
+    assert device.module_id_index_1.read() == 1
+    assert status(device.module_id_index_2.read)[0] == "behind_end"
+    assert line.asked == [(102, 1)]
+    for arguments in (("models_161", 1), ("slot", -1), ("slot", 65536), ("slot", 1, 65535), ("slot", "1")):
+        assert status(lambda put=arguments: device.set_base(*put))[0] == "bad_base"
