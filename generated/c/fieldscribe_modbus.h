@@ -410,9 +410,11 @@ static inline bool fieldscribe_modbus_is_within(fieldscribe_modbus_base base, ui
 static inline fieldscribe_modbus_reading fieldscribe_modbus_reading_at(
     fieldscribe_modbus_base base, const fieldscribe_modbus_reading *what)
 {
-    const bool within = fieldscribe_modbus_is_within(base, what->address, what->count);
-    const fieldscribe_modbus_reading at = {what->function,
-        (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), (uint16_t)(within ? what->count : 0U)};
+    fieldscribe_modbus_reading at = {
+        what->function, (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), 0U};
+    if (fieldscribe_modbus_is_within(base, what->address, what->count)) {
+        at.count = what->count;
+    }
     return at;
 }
 
@@ -420,9 +422,11 @@ static inline fieldscribe_modbus_reading fieldscribe_modbus_reading_at(
 static inline fieldscribe_modbus_writing fieldscribe_modbus_writing_at(
     fieldscribe_modbus_base base, const fieldscribe_modbus_writing *what)
 {
-    const bool within = fieldscribe_modbus_is_within(base, what->address, what->count);
-    const fieldscribe_modbus_writing at = {what->function,
-        (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), (uint16_t)(within ? what->count : 0U)};
+    fieldscribe_modbus_writing at = {
+        what->function, (uint16_t)(((uint32_t)base.start + what->address) & 0xFFFFU), 0U};
+    if (fieldscribe_modbus_is_within(base, what->address, what->count)) {
+        at.count = what->count;
+    }
     return at;
 }
 
@@ -1321,7 +1325,7 @@ fieldscribe_modbus_status fieldscribe_modbus_write_row(
 static bool fieldscribe_modbus_is_marked(fieldscribe_modbus_unit *unit, const fieldscribe_modbus_chain *chain,
     uint16_t place, fieldscribe_modbus_status *status)
 {
-    uint16_t words[FIELDSCRIBE_MODBUS_MARKER_MOST] = {0U};
+    uint16_t words[FIELDSCRIBE_MODBUS_MARKER_MOST] = {0};
     const fieldscribe_modbus_reading what = {chain->function, place, chain->marker_words};
     size_t at;
     bool same;

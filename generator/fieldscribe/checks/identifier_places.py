@@ -151,6 +151,10 @@ class IdentifierPlaces:
             return next(node.span("name") for node in listed if node["name"] == owner.name)
         if owner.kind == "group":
             return next(node.span("group") for node in scope.groups if node["group"] == owner.name)
+        if owner.kind == "base":
+            based = ((node, scope.base_of(node)) for node in scope.groups)
+            group = next(node for node, base in based if base is not None and base.name == owner.name)
+            return group.span("base" if "base" in group else "block")
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None

@@ -8,6 +8,7 @@ from contextlib import suppress
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, print_json
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
+from fieldscribe.conversation import bases
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import Explanation, explain_point
 from fieldscribe.conversation.lookup import Match, advice, find, prefixes
@@ -57,9 +58,8 @@ def run(arguments: Namespace) -> int:
     """Print all explanations of WHAT; return the exit code."""
     device, what = placed(open_device(arguments), arguments), arguments.what
     if arguments.settings:
-        raise StopError(
-            f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
-        )
+        message = f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
+        raise StopError(message, bases.advice(device.bases))
     if not what.strip():
         raise StopError("there is nothing to explain", "give a code, a name or an address")
     found = _points(device, find(device, what), as_documented=arguments.as_documented)

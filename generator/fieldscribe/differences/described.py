@@ -22,6 +22,8 @@ _OF_ENUM = ("", "enum", "open", "name of the enum")
 """The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
+_DECLARED = {"document": "documents", "variant": "variants"}
+"""The key of the head under which things of a kind are declared, if it is not the kind."""
 _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "responses"}
 
 
@@ -130,10 +132,10 @@ class Described:
             return next(
                 (_said(node, fact) or node.span("group") for node in scope.groups if node["group"] == name), None
             )
-        if kind in _OF_BUS:
+        if kind in _OF_BUS or kind == "base":
             owner = Owner(kind, name)
             return _found(lambda: self._owners.thing(owner).place)
-        holder = scope.header.get({"document": "documents", "variant": "variants"}.get(kind, ""))
+        holder = scope.header.get(_DECLARED.get(kind, kind))
         return holder.key_span(name) if holder and name in holder else None
 
     def _of_device(self, fact: str) -> Span:

@@ -13,7 +13,7 @@ from fieldscribe.targets.rust.subjects import CratePoint, scope_of
 from fieldscribe.text import upper
 
 CONSTANTS = frozenset(
-    {"name", "code", "space", "address", "words", "width", "unit", "raw_min", "raw_max", "shift", "mask"}
+    {"name", "code", "space", "address", "base", "words", "width", "unit", "raw_min", "raw_max", "shift", "mask"}
     | {"decimals", "display_decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
     | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
     | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale", "facts"}

@@ -35,6 +35,7 @@ NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = True
 
 
+_LAST = 0xFFFF
 _MOVED = {"r": "READ", "w": "WRITE", "u": "UPDATE"}
 
 
@@ -116,10 +117,9 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
-        yield (
-            Owner("target", "what addresses count from"),
-            [*(base.function for base in bases), *(name for name, _ in ids)],
-        )
+        for base in device.bases:
+            of_block = f"{scope.upper}_{upper(base.name)}", f"{scope.prefix}_{base.name}_base"
+            yield Owner("base", base.name), (of_block[base.block is None],)
         if found:
             yield Owner("target", "how blocks are found"), [found, f"{found}_marker", f"{found}_places"]
         for view in blocks:
@@ -155,13 +155,17 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
 def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
     given = {each.name: each for each in device.given}
     numbers = [given[name] for name, _ in base.terms]
-    ends = [f"({each.name} {test} {end}U)" for each in numbers for test, end in ((">=", each.low), ("<=", each.high))]
+    ends = [f"({each.name} >= {each.low}U)" for each in numbers if each.low]
+    ends += [f"({each.name} <= {each.high}U)" for each in numbers if each.high < _LAST]
+    terms = [(factor, f"({abs(factor)}U * (uint32_t){name})") for name, factor in base.terms]
+    terms += [(base.offset, f"{abs(base.offset)}U")] if base.offset or not terms else []
+    (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive, and stands first
     return BaseView(
         f"{scope.prefix}_{base.name}_base",
         c_comment(base.formula),
         ", ".join([f"uint16_t {each.name}" for each in numbers]) or "void",
-        " && ".join([end for end in ends if not end.endswith(">= 0U)")]) or "true",
-        " + ".join([f"({factor} * (int64_t){name})" for name, factor in base.terms] + [str(base.offset)]),
+        " && ".join(ends),
+        "".join([first, *(f" {'-' if factor < 0 else '+'} {text}" for factor, text in others)]),
     )
 
 
