@@ -139,15 +139,18 @@ def comment(value: str) -> str:
     return f"# ? {cleaned if len(cleaned) <= _LONGEST_COMMENT else cleaned[:_LONGEST_COMMENT] + ' …'}"
 
 
-def snake(title: str, otherwise: str) -> str:
-    """Return a title as a short name in snake_case; `otherwise` if it holds no letter, and before a digit."""
+def snake(title: str, otherwise: str, *, articles: bool = False) -> str:
+    """Return a title as a short name in snake_case; `otherwise` if it holds no letter, and before a digit.
+
+    Without `articles` it has no words such as `the` and `a`.
+    """
     text = title.translate(_GERMAN)
     for symbol, word in _SYMBOLS.items():
         text = text.replace(symbol, word)
     plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
     words = re.findall(r"[a-z0-9]+", plain)
     name = ""
-    for word in [word for word in words if not _ARTICLES.fullmatch(word)] or words:
+    for word in [word for word in words if articles or not _ARTICLES.fullmatch(word)] or words:
         if name and len(name) + len(word) >= _LONGEST_NAME:
             break
         name = f"{name}_{word}" if name else word[:_LONGEST_NAME]
@@ -162,9 +165,9 @@ class Names:
     def __init__(self) -> None:
         self._taken: set[str] = set()
 
-    def give(self, name: str, suffix: str = "") -> str:
-        """Return the name; if it is taken, with the suffix or else a number behind it."""
-        candidates = chain((name, f"{name}_{suffix}") if suffix else (name,), (f"{name}_{n}" for n in count(2)))
+    def give(self, name: str, *suffixes: str) -> str:
+        """Return the name; if it is taken, with the first suffix that makes it free or else a number behind it."""
+        candidates = chain((name,), (f"{name}_{one}" for one in suffixes if one), (f"{name}_{n}" for n in count(2)))
         given = next(candidate for candidate in candidates if candidate not in self._taken)
         self._taken.add(given)
         return given

@@ -6,6 +6,7 @@ cannot say stays as a question at the point (`points`) or as a comment at the gr
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -17,7 +18,7 @@ from fieldscribe.importing.sunspec.models import Group, Model
 from fieldscribe.importing.sunspec.points import Facts, note_of
 
 _FOUND = "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
-_LONGEST_TITLE = 120
+_LONGEST_TITLE, _LONGEST_CODE = 120, 40
 
 
 class Imported(NamedTuple):
@@ -80,6 +81,11 @@ def _title(group: Group) -> str:
     return (group.label or group.name)[:_LONGEST_TITLE]
 
 
+def _snake(title: str, otherwise: str) -> str:
+    """Return a name with all words of a title; `MaxChaRte` has three."""
+    return snake(re.sub("(?<=[a-z]{2})(?=[A-Z])", " ", title), otherwise, articles=True)
+
+
 def _repeats(group: Group) -> bool:
     return group.count != 1 or any(map(_repeats, group.groups))
 
@@ -125,19 +131,21 @@ class _Drafter:
 
     def _add(self, group: Group, place: _Place) -> None:
         """Draft a group and those within."""
-        path = (*place.path, group.name)
+        path, number = (*place.path, group.name), str(place.model.id)
         draft = DraftGroup(_title(group), "holding", "" if not place.path else ".".join(path)[:_LONGEST_TITLE])
-        draft.name = self._group_names.give(snake("_".join(path), "model"), str(place.model.id))
-        draft.document = f"model_{place.model.id}"
+        draft.name = self._group_names.give(_snake("_".join(path), "model"), number)
+        draft.document = f"model_{number}"
         place = self._repeated(group, place, draft)
         text = " ".join(filter(None, (place.text, group.text)))
-        draft.facts |= {"block": str(place.model.id), **({"note": note_of(text)} if text else {}), **place.shared}
+        draft.facts |= {"block": number, **({"note": note_of(text)} if text else {}), **place.shared}
         words, scope = 0, dict(place.scope)
         for point in group.points:
             drafted = DraftPoint(0, "holding", (point.label or point.name)[:_LONGEST_TITLE], point.name)
             if point.name in self._doubles:
-                drafted.code = ".".join((*path, point.name))
-            drafted.name = self._names.give(snake(drafted.title, "point"), draft.name)
+                code = ".".join((number, *path[1:], point.name))
+                drafted.code = code if len(code) <= _LONGEST_CODE else f"{number}.{point.name}"
+            of_group = _snake(group.name, "group") if place.path else ""
+            drafted.name = self._names.give(_snake(drafted.title, "point"), of_group, number)
             if place.start is None:
                 drafted.questions.append("place: it lies behind elements whose number a point holds; `--count` says it")
             else:
