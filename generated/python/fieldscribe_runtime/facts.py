@@ -129,23 +129,17 @@ class Telegram(Record):
     message: str | None = None
 
 
-def coil(
-    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
-) -> Place:
+def coil(*addresses: int, function: int | None = None, index: int | None = None, base: str | None = None) -> Place:
     """Return a bit that can be read and written."""
     return Place("coil", addresses, function, index, base=base)
 
 
-def discrete(
-    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
-) -> Place:
+def discrete(*addresses: int, function: int | None = None, index: int | None = None, base: str | None = None) -> Place:
     """Return a bit that can be read."""
     return Place("discrete", addresses, function, index, base=base)
 
 
-def holding(
-    *addresses: int, function: int | None = None, index: int | None = None, base: str | None = None
-) -> Place:
+def holding(*addresses: int, function: int | None = None, index: int | None = None, base: str | None = None) -> Place:
     """Registers that can be read and written."""
     return Place("holding", addresses, function, index, base=base)
 

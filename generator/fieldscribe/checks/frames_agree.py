@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from fieldscribe import wording
@@ -31,12 +31,17 @@ class Seen:
     request: Any = None
     words: Words | None = None
     written: bool = False
+    starts: Mapping[str, int] = field(default_factory=dict)
+    """Where the bases are that the frame knows, by name."""
 
     def raw(self, point: Point, indexed: Collection[str]) -> int | None:
         """Return the raw number that the frame carries of a point; None if it carries none."""
         where, index = point.telegram or point.space, (point.index or 0) if point.space in indexed else 0
         addresses, known = (point.written if self.written else point.place).addresses, self.words or {}
-        words = [word for address in addresses for word in known.get((where, address, index), ())]
+        if point.base is not None and point.base not in self.starts:
+            return None
+        start = self.starts.get(point.base or "", 0)
+        words = [word for address in addresses for word in known.get((where, start + address, index), ())]
         return raw_of(point, words) if len(words) == point.words else None
 
 
@@ -55,6 +60,9 @@ def check(analysis: Analysis) -> None:
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
     for located in analysis.located_frames:
         read_frame = read(analysis, located, seen)
+        bases = {base.name: base for base in analysis.scope.bases.values()}
+        known = {name: base for name, base in bases.items() if located.given.keys() >= set(base.wanted)}
+        read_frame.starts = {name: base.at(located.given) for name, base in known.items()}
         if read_frame.words is not None:
             _compare_meaning(analysis, located, read_frame, points)
             if located.frame.direction == "request":

@@ -1,4 +1,4 @@
-"""The `telegram` and the `addressing` of a group apply to points of it."""
+"""The `telegram`, the `block` and the `addressing` of a group apply to points of it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,24 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(analysis: Analysis) -> None:
-    """Report a telegram without points, and an address rule that cannot be read."""
+    """Report a telegram without points, points outside of a block, and an address rule that cannot be read."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     for resolved in analysis.resolved:
         group = resolved.facts.group
         groups.setdefault(id(group), group)
+        found = analysis.scope.found
+        if (
+            "block" in group
+            and found is not None
+            and resolved.point.space != found.space
+            and "space" in resolved.facts.node
+        ):
+            message = (
+                f"`{resolved.point.name}` is in no block: those of `{found.name}` are in the space `{found.space}`"
+            )
+            hint = "write it in another group, or leave `space` out"
+            analysis.report.error("two-meanings", message, resolved.facts.span("space"), hint)
         if resolved.point.space == SPACE or "space" in resolved.facts.failed:
             with_words.add(id(group))
     for key, group in groups.items():

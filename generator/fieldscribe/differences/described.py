@@ -22,8 +22,8 @@ _OF_ENUM = ("", "enum", "open", "name of the enum")
 """The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
-_DECLARED = {"document": "documents", "variant": "variants"}
-"""The key of the head under which things of a kind are declared, if it is not the kind."""
+_DECLARED = {"document": "documents", "variant": "variants", "given": "given", "found": "found"}
+"""The key of the head under which things of a kind are declared."""
 _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "responses"}
 
 
@@ -135,7 +135,7 @@ class Described:
         if kind in _OF_BUS or kind == "base":
             owner = Owner(kind, name)
             return _found(lambda: self._owners.thing(owner).place)
-        holder = scope.header.get(_DECLARED.get(kind, kind))
+        holder = scope.header.get(_DECLARED.get(kind, ""))
         return holder.key_span(name) if holder and name in holder else None
 
     def _of_device(self, fact: str) -> Span:

@@ -11,6 +11,7 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.model import Base, Found, Given
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import FactError, formula_value, integer, interval
+from fieldscribe.text import shortened
 
 _MOST_BASES = 65536
 """The most bases of a group: all of them are worked out."""
@@ -47,6 +48,9 @@ def read_bases(scope: Scope) -> None:
 def _given(scope: Scope, nodes: Map) -> Iterator[Given]:
     for name, node in nodes.items():
         ends = interval(str(node["range"]), node.span("range"), scope.report)
+        if name in scope.axes:
+            message = f"`{name}` is given, and an axis of variants"
+            scope.report.error("duplicate-name", message, nodes.key_span(name), "rename one of them")
         if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST:
             message = f"`{name}` lies outside 0..{_LAST}"
             scope.report.error("wrong-choice", message, node.span("range"), "correct the range")
@@ -144,7 +148,7 @@ def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
             raise FactError("bad-formula", f"`{formula}` does not rise in whole steps", span, hint)
         if not 0 <= base.at(chosen) <= _LAST:
             where = ", ".join(f"{name} {number}" for name, number in zip(used, numbers, strict=True))
-            message = f"the base is {base.at(chosen)} for {where or 'all devices'}"
+            message = f"the base is {shortened(str(base.at(chosen)))} for {where or 'all devices'}"
             raise FactError("address-outside-space", message, span, "correct the formula, or the range under `given`")
     return base
 

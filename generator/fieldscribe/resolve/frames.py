@@ -16,7 +16,7 @@ from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
-from fieldscribe.resolve.values import FactError, number, whole
+from fieldscribe.resolve.values import FactError, integer, number, whole
 from fieldscribe.wording.exact import number_text
 
 RAW = ".raw"
@@ -25,10 +25,11 @@ RAW = ".raw"
 
 @dataclass(frozen=True, slots=True)
 class LocatedFrame:
-    """A frame with its text."""
+    """A frame with its text, and what it says of numbers that bases follow from."""
 
     frame: Frame
     node: Map
+    given: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def about(self) -> Named:
@@ -59,8 +60,11 @@ def frames_of(scope: Scope, bus: Bus, symbols: SymbolTable, points: Mapping[str,
             continue
         if not _known_framing(scope, node) or reader_of(scope).refuses(scope, bus, node):
             continue
+        before = result[answers].given if answers is not None else {}
         result[name] = LocatedFrame(
-            _frame(scope, bus, node, bytes.fromhex(digits), _meaning_of(scope, node, symbols, points)), node
+            _frame(scope, bus, node, bytes.fromhex(digits), _meaning_of(scope, node, symbols, points)),
+            node,
+            {**before, **_given(scope, node)},
         )
     return list(result.values())
 
@@ -109,12 +113,28 @@ def _meaning_of(scope: Scope, node: Map, symbols: SymbolTable, points: Mapping[s
     """Return the raw numbers that a frame carries according to `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
+    if settings is not None and (bases := _bases(scope) & settings.keys()):
+        settings = settings.copied()
+        for name in bases:
+            del settings[name]
     for point, raw_number in StatedValues(scope, settings).numbers(symbols, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
     says: Map | None = node.get("says")
     if says is None:
         return {}
     return {point.item: raw_number for point, raw_number in StatedValues(scope, says, held).numbers(symbols, points)}
+
+
+def _bases(scope: Scope) -> set[str]:
+    """Return the names of what is given or found."""
+    return {*scope.given, *(base.name for base in scope.bases.values() if base.block is not None)}
+
+
+def _given(scope: Scope, node: Map) -> Mapping[str, int]:
+    """Return what the frame says of numbers that are given, and of places of found blocks."""
+    settings = node.get("with", {})
+    numbers = {name: integer(settings[name], settings.span(name), scope.report) for name in _bases(scope) & {*settings}}
+    return {name: number for name, number in numbers.items() if number is not None}
 
 
 @dataclass(frozen=True, slots=True)

@@ -157,6 +157,8 @@ def _reduced(
     names = {point.name for point in points}
     groups = {point.group for point in points}
     kept = {each.name for each in commands} | {each.name for each in stepped}
+    counted = {point.base for point in points}
+    bases = tuple(base for base in device.bases if base.name in counted)
     command_places = {f"command:{command.name}" for command in device.all_commands if command.name not in kept}
     reduced = replace(
         device,
@@ -165,6 +167,9 @@ def _reduced(
         enums=_enums_of(device, points),
         blocks=_blocks(device, points),
         commands=commands,
+        given=tuple(each for each in device.given if any(each.name in base.wanted for base in bases)),
+        found=device.found if any(base.block is not None for base in bases) else None,
+        bases=bases,
         stepped_commands=stepped,
         frames=tuple(frame for frame in device.frames if names.issuperset(frame.meaning)),
         errata=tuple(

@@ -6,8 +6,9 @@
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
-/// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order, `[words 2]`, `[width 24]`: the bits of a
-///   number narrower than its type, `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
+/// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order,
+///   `[words 2]`, `[width 24]`: the bits of a number narrower than its type, `[write_at 0x2028]`:
+///   where it is written, if that is elsewhere, `[index 1]`,
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`:
 ///   the bits of the word that are always the same, and what they are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;

@@ -141,6 +141,7 @@ HEADS = (
         GROUP,
         "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it.",
         ["slot * 1000"],
+        Whole(),
         Text(200),
     ),
     Key(

@@ -155,15 +155,15 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
 def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
     given = {each.name: each for each in device.given}
     numbers = [given[name] for name, _ in base.terms]
-    ends = [f"({each.name} >= {each.low}U)" for each in numbers if each.low]
-    ends += [f"({each.name} <= {each.high}U)" for each in numbers if each.high < _LAST]
-    terms = [(factor, f"({abs(factor)}U * (uint32_t){name})") for name, factor in base.terms]
+    ends = [f"({each.name}_number >= {each.low}U)" for each in numbers if each.low]
+    ends += [f"({each.name}_number <= {each.high}U)" for each in numbers if each.high < _LAST]
+    terms = [(factor, f"({abs(factor)}U * (uint32_t){name}_number)") for name, factor in base.terms]
     terms += [(base.offset, f"{abs(base.offset)}U")] if base.offset or not terms else []
     (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive, and stands first
     return BaseView(
         f"{scope.prefix}_{base.name}_base",
         c_comment(base.formula),
-        ", ".join([f"uint16_t {each.name}" for each in numbers]) or "void",
+        ", ".join([f"uint16_t {each.name}_number" for each in numbers]) or "void",
         " && ".join(ends),
         "".join([first, *(f" {'-' if factor < 0 else '+'} {text}" for factor, text in others)]),
     )

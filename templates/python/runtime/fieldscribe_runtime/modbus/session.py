@@ -81,7 +81,7 @@ class ModbusSession(Session):
         if self._bases is not None:
             self._bases.forget()
 
-    def _give(self, **numbers: int | None) -> None:
+    def _give(self, numbers: Mapping[str, int | None]) -> None:
         assert self._bases is not None
         self._bases.give(numbers)
 
