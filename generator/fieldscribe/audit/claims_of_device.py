@@ -104,6 +104,8 @@ def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim
     for key in ("at", *identifiers, "value", "length", "wears"):
         for number in numbers_in(entry.get(key)):
             yield from maker.number(key, number, entry.span(key))
+    for number in numbers_in(entry.get("steps")):  # some are computed, as a complement is
+        yield from maker.number("steps", number, entry.span("steps"), optional=True)
     yield from maker.label("title", notation.label(entry.get("title")), entry.span("title"))
     layout = entry.get("layout", Map(entry.file, entry.start))
     names = ("Byte", *notation.written("byte"))

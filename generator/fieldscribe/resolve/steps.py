@@ -128,6 +128,9 @@ class Steps:
         if not 0 <= address <= last + 1 - len(words):
             message = f"the words lie outside 0..{last}"
             raise FactError("address-outside-space", message, node.span("at"), "`at` is the number on the wire")
+        if any(low < address + len(words) and address <= high for low, high in self.bus.gaps.get(space, ())):
+            message = "the words lie in a gap that no request may touch"
+            raise FactError("address-in-gap", message, node.span("at"), "leave their addresses out of the gap")
         return space, address, words
 
     def _word(self, value: Any, span: Span, ends: tuple[int, int]) -> Word:
