@@ -1074,6 +1074,12 @@ static inline uint64_t fieldscribe_fix64(uint64_t raw, uint64_t mask, uint64_t b
     return (raw & ~mask) | bits;
 }
 
+/* The word with its bytes exchanged. */
+static inline uint16_t fieldscribe_exchanged(uint16_t word)
+{
+    return (uint16_t)((((uint32_t)word & 0xFFU) << 8) | ((uint32_t)word >> 8));
+}
+
 /* Words to numbers and back, high word first. */
 static inline uint32_t fieldscribe_join32(uint16_t high, uint16_t low)
 {
@@ -1665,7 +1671,7 @@ typedef enum fieldscribe_type {
 typedef struct fieldscribe_layout {
     uint8_t type;        /* a fieldscribe_type */
     uint8_t words;       /* 1, 2 or 4 */
-    uint16_t order;      /* a hexadecimal digit a word, the high word first: its place (0x01: high word first) */
+    uint16_t order;      /* a hexadecimal digit a word, the high one first: its place, and 8 if its low byte is first */
     bool shares;         /* other points have bits in its word: these are written as they were read */
     uint8_t shift;       /* the position of its lowest bit in the word */
     uint64_t mask;       /* its bits in the words */
@@ -1780,7 +1786,13 @@ static bool fieldscribe_layout_fits(
 /* The position of a word; `significance` counts from the low word. */
 static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
 {
-    return ((size_t)layout->order >> (4U * significance)) & 0xFU;
+    return ((size_t)layout->order >> (4U * significance)) & 3U;
+}
+
+/* A word with its bytes in the order of the layout. */
+static uint16_t fieldscribe_layout_word(const fieldscribe_layout *layout, uint16_t word)
+{
+    return ((layout->order & 8U) != 0U) ? fieldscribe_exchanged(word) : word;
 }
 
 /* The low 32 bits of the words, one number. */
@@ -1789,7 +1801,8 @@ static uint32_t fieldscribe_layout_joined(const fieldscribe_layout *layout, cons
     uint32_t number = 0U;
     uint8_t left;
     for (left = layout->words; left > 0U; --left) {
-        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+        const uint16_t word = words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+        number = (number << 16) | fieldscribe_layout_word(layout, word);
     }
     return number;
 }
@@ -1800,7 +1813,8 @@ static uint64_t fieldscribe_layout_joined_wide(const fieldscribe_layout *layout,
     uint64_t number = 0U;
     uint8_t left;
     for (left = layout->words; left > 0U; --left) {
-        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+        const uint16_t word = words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+        number = (number << 16) | fieldscribe_layout_word(layout, word);
     }
     return number;
 }
@@ -1831,7 +1845,7 @@ static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t 
     uint64_t left = (number & ~layout->fixed_mask) | layout->fixed_bits;
     uint8_t at;
     for (at = 0U; at < layout->words; ++at) {
-        words[fieldscribe_layout_place(layout, at)] = (uint16_t)(left & 0xFFFFU);
+        words[fieldscribe_layout_place(layout, at)] = fieldscribe_layout_word(layout, (uint16_t)(left & 0xFFFFU));
         left >>= 16;
     }
 }
@@ -1842,7 +1856,8 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
     uint32_t number = bits;
     if (layout->shares) {
         const uint32_t mask = (uint32_t)(layout->mask & 0xFFFFU);
-        number = (words[0] & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
+        const uint16_t word = fieldscribe_layout_word(layout, words[0]);
+        number = (word & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
     }
     fieldscribe_layout_store(layout, number, words);
 }

@@ -53,7 +53,7 @@ def facts(package: Package, vector: Vector) -> bool:
     found["only_for"] = [facts.only_for[0], *facts.only_for[1]] if facts.only_for else []
     apart = facts.write_at
     found |= {"write_space": apart and apart.space, "write_addresses": list(apart.addresses) if apart else []}
-    typed = vector["type"] == "text" or point.wire == _wire(package.runtime, vector["type"])
+    typed = vector["type"] == "text" or _is_wire(package.runtime, point.wire, vector["type"])
     return typed and _chosen(package, point) and all(vector[key] == value for key, value in found.items())
 
 
@@ -157,6 +157,7 @@ CHECKS: Mapping[str, Check] = {
 """The checks of this theme by the kind of vector."""
 
 
-def _wire(runtime: Any, name: str) -> Any:
-    """Return the type of that name; one without a constant has its sign and width in its name."""
-    return getattr(runtime, name.upper(), None) or runtime.Type(int(name[1:]), name[0] == "s")
+def _is_wire(runtime: Any, wire: Any, name: str) -> bool:
+    """Whether a type has that name; one without a constant has its sign and width in its name."""
+    named = getattr(runtime, name.upper(), None) or runtime.Type(int(name[1:]), name[0] == "s")
+    return bool((wire.bits, wire.signed) == (named.bits, named.signed))

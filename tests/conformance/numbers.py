@@ -62,7 +62,7 @@ def told(package: Package, vector: Vector) -> bool:
 
 def _is_only_decoded(package: Package, point: Any, raw: int) -> bool:
     """Whether a value is one that no point takes: of more than 53 bits, or no finite number."""
-    if any(point.wire is one for one in (package.runtime.F32, package.runtime.F64)):
+    if isinstance(getattr(point._form, "form", point._form), package.runtime.Floating):
         return not math.isfinite(point.decode(raw))
     return not getattr(point._form, "encodes", True)
 

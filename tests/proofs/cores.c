@@ -224,6 +224,7 @@ void prove_bits(void)
 
 void prove_words(void)
 {
+    words[0] = fieldscribe_exchanged(words[0]);
     fieldscribe_split32(pattern, &words[0], &words[1]);
     fieldscribe_split64(big, &words[0], &words[1], &words[2], &words[3]);
     (void)fieldscribe_join32(words[0], words[1]);

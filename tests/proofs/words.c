@@ -24,6 +24,7 @@ static void lay(uint8_t type, uint8_t count)
     layout.words = count;
     layout.shares = number % 2U != 0U;
     layout.order = count == 4U ? 0x0123U : count == 2U ? (number % 2U != 0U ? 0x01U : 0x10U) : 0x00U;
+    layout.order = (uint16_t)(layout.order | (number & 8U));
     layout.shift = (uint8_t)(layout.shift & 0xFU);
 }
 
@@ -64,6 +65,12 @@ void prove_layout_place(uint8_t significance)
     if (significance < 4U) {
         (void)fieldscribe_layout_place(&layout, significance);
     }
+}
+
+void prove_layout_word(uint16_t word)
+{
+    lay(layout.type, 1U);
+    (void)fieldscribe_layout_word(&layout, word);
 }
 
 void prove_layout_joined(void)

@@ -15,6 +15,8 @@ from .rules import Bound, Raws, decimal_text, high_end, low_end
 from .special import NO_CODES
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from .fast import Way
     from .named import NamedNumber
     from .special import Codes
@@ -34,6 +36,7 @@ class Type(Record):
 
     bits: int
     signed: bool = False
+    low_byte_first: bool = False
 
     def limits(self, width: int) -> tuple[int, int]:
         """Return the smallest and the largest number in `width` bits of this type."""
@@ -43,6 +46,10 @@ class Type(Record):
         """Return the number that the lowest `width` bits of `pattern` hold."""
         pattern &= (1 << width) - 1
         return pattern - (1 << width) if self.signed and pattern >> width - 1 else pattern
+
+    def ordered(self, words: Sequence[int]) -> Sequence[int]:
+        """Return words with their high byte first, or as they travel."""
+        return [(word & 0xFF) << 8 | word >> 8 for word in words] if self.low_byte_first else words
 
 
 BIT = Type(1)
@@ -179,7 +186,8 @@ class Integer(Form[int, int]):
 class Bit(Form[bool, bool]):
     """A coil or a single bit."""
 
-    wire = BIT
+    def __init__(self, wire: Type = BIT) -> None:
+        self.wire = wire
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Both states as they are listed."""

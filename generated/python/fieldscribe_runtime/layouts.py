@@ -203,7 +203,8 @@ class Layout:
         for point in self.points:
             if not isinstance(point, Encoding) or point.facts.write_at is not None:
                 raise AccessError(f"{point.label} cannot be written with these words")
-            bits = self._full if point.facts.bits is None else point.insert(0, -1) | (point.facts.fixed or (0, 0))[0]
+            fixed = point.wire.ordered([*(point.facts.fixed or (0, 0))])[0]
+            bits = self._full if point.facts.bits is None else point.insert(0, -1) | fixed
             said.update({address: said[address] | bits for address in addresses_of(point)})
             written.append(point)
         gaps = ", ".join([str(address) for address, bits in said.items() if bits != self._full])
@@ -251,7 +252,8 @@ def _is_whole(point: Point) -> bool:
     """Return True if the raw number is its words as they are, the high one first."""
     addresses = point.facts.at.addresses
     in_order = list(addresses) == sorted(addresses)
-    return point.facts.bits is None and point.wire.bits in _LETTERS and in_order
+    plain = point.facts.bits is None and not point.wire.low_byte_first
+    return plain and point.wire.bits in _LETTERS and in_order
 
 
 def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]:
@@ -280,7 +282,7 @@ def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> P
     decoder = point.sure_decoder if isinstance(point, Decoding) else itself
     if whole.get(point.facts.at.address) is point:
         return Piece(point, fields[0], decoder, int, True)
-    if len(fields) == 1:
+    if len(fields) == 1 and not point.wire.low_byte_first:
         return Piece(point, fields[0], bits_of(*point.bit_field, decoder), bits_of(*point.bit_field, itself), False)
     chosen = [at - fields[0] for at in fields]
 

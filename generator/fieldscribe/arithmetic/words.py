@@ -53,18 +53,23 @@ def split(raw: int, count: int) -> tuple[int, ...]:
     return tuple(raw >> 16 * place & 0xFFFF for place in reversed(range(count)))
 
 
+def exchanged(point: Point, *words: int) -> tuple[int, ...]:
+    """Return words with their bytes as the point has them: exchanged if its low byte comes first."""
+    return tuple([(word & 0xFF) << 8 | word >> 8 for word in words]) if point.swapped else words
+
+
 def raw_of(point: Point, words: Sequence[int]) -> int:
     """Return the raw number of a point from its words, high part first; for a text, all words as one number."""
-    pattern = joined(words)
+    pattern = joined(exchanged(point, *words))
     if point.text is not None:
         return pattern
     low = 0 if point.bits is None else point.bits[1]
     return number_of(pattern >> low & mask_of(point.width), point.width, signed=point.info.signed)
 
 
-def words_of(point: Point, raw: int) -> tuple[int, ...]:
-    """Return the unsigned words of a raw number."""
-    return split(raw, point.words)
+def words_of(point: Point, raw: int, count: int = 0) -> tuple[int, ...]:
+    """Return the unsigned words of a raw number; `count` if these are not as many as the point has."""
+    return exchanged(point, *split(raw, count or point.words))
 
 
 def group_mask(point: Point) -> int:
@@ -76,8 +81,8 @@ def insert(point: Point, word: int, raw: int) -> int:
     """Return the word with the bits of a point replaced and its constant bits set."""
     low = 0 if point.bits is None else point.bits[1]
     mask = group_mask(point)
-    word = word & ~mask & 0xFFFF | raw << low & mask
-    return word if point.fixed is None else word & ~point.fixed.mask | point.fixed.bits
+    word = exchanged(point, word)[0] & ~mask & 0xFFFF | raw << low & mask
+    return exchanged(point, word if point.fixed is None else word & ~point.fixed.mask | point.fixed.bits)[0]
 
 
 def with_fixed(point: Point, raw: int) -> int:

@@ -232,6 +232,18 @@ POINT: FactTable = (
         text=lambda point, _: wording.words_text(point) if len(point.addresses) > 1 else "",
     ),
     Fact(
+        "byte_order",
+        "The order of the two bytes in each word, if it is not the usual one: `low first`.",
+        null_or(one_of("low first")),
+        WIRE,
+        shared="shape",
+        value=lambda point, _: "low first" if point.swapped else None,
+        yaml=("bytes",),
+        label="Order of bytes",
+        text=lambda point, _: "low byte first" if point.swapped else "",
+        remark="{}",
+    ),
+    Fact(
         "base",
         "What its addresses count from, by name; null: they count from 0.",
         TEXT_OR_NULL,

@@ -200,8 +200,10 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("access", "r/w|readwrite|read[-_ /]write|wr|w/r", "{key}: rw"),
     ("access", "wo|write|writeonly|write[-_ ]only|w/o", "{key}: w"),
     ("access", "-|no|n/a|false|reserved", "{key}: none"),
-    ("words", "big|be|big endian|abcd|high|msw first|hi lo|normal", "{key}: high first"),
-    ("words", "little|le|little endian|cdab|low|lsw first|lo hi|swap|swapped", "{key}: low first"),
+    ("words bytes", "big|be|big endian|abcd|high|msw first|hi lo|normal", "{key}: high first"),
+    ("words bytes", "dcba", "write `words: low first` and `bytes: low first`"),
+    ("words bytes", "badc", "write `bytes: low first`"),
+    ("words bytes", "little|le|little endian|cdab|low|lsw first|lo hi|swap|swapped", "{key}: low first"),
     ("words", "[0-9]+", r"a count of words is `length: \g<0>`"),
     ("keeps", "eeprom|flash|nvram|permanent", "{key}: yes"),
     ("keeps", "ram|volatile", "{key}: no"),
@@ -240,7 +242,7 @@ _WIDTH = "the `type` says how wide a number is (u16, u32, ...), `characters` how
 _FUNCTION = "the `space` says what is read and written; function codes stand under `functions` of the `bus`"
 _NO_VALUE = "write `special: {7FFFh: {name: not_available, no_value: yes}}`"
 _SERIAL = "settings of the line stand together: `serial: {baud: 9600}`"
-_ORDER = "the order of words is `words: high first` or `words: low first`; the bytes of a word have one order"
+_ORDER = "the order of words is `words: high first` or `words: low first`, that of bytes in words `bytes: low first`"
 
 KEYS: Mapping[str, tuple[str, str]] = {
     name: (ours, hint)
@@ -254,7 +256,7 @@ KEYS: Mapping[str, tuple[str, str]] = {
         ("limits values valid_range allowed", "range", ""),
         ("min max minimum maximum min_value max_value", "range", "both ends are one range: `range: low..high`"),
         ("datatype data_type format encoding_type dtype", "type", ""),
-        ("size len count quantity width bytes nwords word_count", "type", _WIDTH),
+        ("size len count quantity width nwords word_count", "type", _WIDTH),
         ("takes words", "length", ""),
         ("byte_order byteorder endianness endian word_order wordorder swap byteswap", "words", _ORDER),
         ("description label text desc caption", "title", ""),

@@ -161,6 +161,7 @@ class Point:
     text = _Shared(lambda point: point.shape.text)
     digits = _Shared(lambda point: point.shape.digits)
     patterns = _Shared(lambda point: point.shape.patterns)
+    swapped = _Shared(lambda point: point.shape.swapped)
     fixed = _Shared(lambda point: point.shape.fixed)
     info = _Shared(lambda point: point.shape.info)
     form = _Shared(lambda point: point.shape.form)

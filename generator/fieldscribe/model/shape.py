@@ -21,7 +21,7 @@ class Shape:
     type holds larger ones: those are an overflow. `specials` are no quantities; `specials_of` names the type, group
     or format of those that the point shares with others. `display` is the number of decimals that people see, None
     if the description gives none; no computation depends on it. `patterns` is True if an enum names floating-point
-    numbers: raw numbers are their patterns.
+    numbers: raw numbers are their patterns. `swapped` is True if the low byte of each word comes first.
 
     Equal shapes are one object, so that the facts derived below are computed once.
     """
@@ -42,6 +42,7 @@ class Shape:
     most_raw: int | None = None
     display: int | None = None
     patterns: bool = False
+    swapped: bool = False
 
     def __hash__(self) -> int:
         """Hash the facts that usually differ, because titles have no hash; equality compares all facts."""

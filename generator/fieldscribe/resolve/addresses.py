@@ -15,7 +15,7 @@ from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Place
 from fieldscribe.resolve.bases import last_address
-from fieldscribe.resolve.encodings import Encoding
+from fieldscribe.resolve.encodings import Encoding, low_first
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
@@ -112,7 +112,7 @@ class Places:
             return _FROM_ROW
         words = self._count(facts, encoding)
         last = self._last_address(facts)
-        return _Layout(words, self._low_first(facts, encoding.type), last - words + 1)
+        return _Layout(words, low_first(facts, "words", self._order, encoding.type), last - words + 1)
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
@@ -131,8 +131,8 @@ class Places:
         if not text:
             self._check_parted(facts, words)
         printed = words[0] if text else min(words)  # of a text the word with the first characters, else the lowest
-        low_first = not text and self._low_first(facts, encoding.type)
-        return Place(words[::-1] if low_first else words, self.references(facts, printed))
+        downwards = not text and low_first(facts, "words", self._order, encoding.type)
+        return Place(words[::-1] if downwards else words, self.references(facts, printed))
 
     def _words_per_frame(self, facts: PointFacts) -> int:
         """Return how many words of the point's telegram one frame carries; 0 if the telegram is not multiplexed."""
@@ -171,12 +171,6 @@ class Places:
         if encoding.bits is not None or encoding.space in self.scope.family.indexed:  # an index names a whole value
             return 1
         return -(-encoding.width // 16) if facts.untyped is None else int(facts.get("length", 1))
-
-    def _low_first(self, facts: PointFacts, type_name: str) -> bool:
-        """Return True if the word with the low part of a number comes first."""
-        type_name = f"f{facts.pattern_bits}" if facts.pattern_bits else type_name
-        order = self._order.get(type_name) if isinstance(self._order, Map) else self._order
-        return bool((facts.get("words") or order) == "low first")
 
     def _text_words(self, facts: PointFacts, raw: object, last: int, key: str) -> tuple[int, ...]:
         """Return the words of a text in reading order: from its first word, or from one end to the other.

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import quoted
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import space_hint, suggest_bits
 from fieldscribe.model import Special, carrier_of, type_info
 from fieldscribe.resolve.memo import Memo
@@ -20,7 +21,7 @@ class Encoding(NamedTuple):
     """The encoding of a point, known before any formula is read.
 
     `width` is the number of bits of the raw number, `holds` the least and the greatest raw number. `specials_of` names
-    the special codes if the point shares them with others.
+    the special codes if the point shares them with others. `swapped` says that the low byte of each word comes first.
     """
 
     space: str
@@ -30,6 +31,7 @@ class Encoding(NamedTuple):
     holds: tuple[int, int]
     specials: tuple[Special, ...]
     specials_of: str
+    swapped: bool = False
 
 
 class Encodings:
@@ -53,7 +55,17 @@ class Encodings:
         width = info.bits if bits is None else bits[0] - bits[1] + 1
         holds = ends_of(width, signed=info.signed)
         carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
-        return Encoding(space, carrier, bits, width, holds, *self._codes.of(facts, name, bits))
+        order = None if self._scope.bus is None else self._scope.bus.get("bytes")
+        words = self._scope.family.spaces[space] == "word" and name != "text"
+        swapped = words and low_first(facts, "bytes", order, carrier if bits is None else "u16")
+        return Encoding(space, carrier, bits, width, holds, *self._codes.of(facts, name, bits), swapped)
+
+
+def low_first(facts: PointFacts, key: str, order: object, carrier: str) -> bool:
+    """Return True if the low part comes first: as the point or its group says, else `order` of the bus for its type."""
+    name = f"f{facts.pattern_bits}" if facts.pattern_bits else carrier
+    usual = order.get(name) if isinstance(order, Map) else order
+    return bool((facts.get(key) or usual) == "low first")
 
 
 def _space_of(scope: Scope, facts: PointFacts) -> str:

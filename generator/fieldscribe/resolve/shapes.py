@@ -116,6 +116,7 @@ class Shapes:
             text=text,
             digits=digits,
             patterns=facts.pattern_bits > 0,
+            swapped=encoding.swapped and facts.untyped is None,
             fixed=fixed_of(scope, facts, encoding.bits, encoding.width) if "w" in access else None,
         )
         shape = self._interner.shape(replace(shape, display=_display_of(facts, shape, bounds)))

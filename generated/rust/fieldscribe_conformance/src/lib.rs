@@ -767,7 +767,12 @@ where
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), words_of::<P>(raw).as_slice())?;
-    let all = raw.into_words();
+    let mut all = raw.into_words();
+    if P::LOW_BYTE_FIRST {
+        for word in all.as_mut() {
+            *word = word.swap_bytes();
+        }
+    }
     let above = all.as_ref().len() - words.len();
     in_order(&words, P::ADDRESSES, &all.as_ref()[above..])?;
     let more = [words.as_slice(), &[0]].concat();

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from fieldscribe.arithmetic import words
 from fieldscribe.arithmetic.codec import Settings
-from fieldscribe.arithmetic.words import group_mask, split
+from fieldscribe.arithmetic.words import exchanged, group_mask
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.modbus import FAMILY, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
@@ -27,7 +28,7 @@ def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, .
     """Return the unsigned words (or the bit) of a raw number, in ascending order of their addresses."""
     if point.type == "bit":
         return (raw,)
-    return tuple(word for _, word in sorted(zip(addresses, split(raw, len(addresses)), strict=True)))
+    return tuple(word for _, word in sorted(zip(addresses, words.words_of(point, raw, len(addresses)), strict=True)))
 
 
 def write_request(
@@ -36,12 +37,12 @@ def write_request(
     """Return the request that writes a raw number, and its bytes. Raises RefusedError."""
     addresses, profile = point.written.addresses, profile_of(device.bus)
     if point.bits is not None:
-        mask = group_mask(point)
+        mask, bits = exchanged(point, group_mask(point), raw << point.bits[1] & group_mask(point))
         raise RefusedError(
             "shared_word",
             f"{label(point)} shares its word with other points, so no single request can write it",
             f"read {hex_text(min(addresses))}, replace the bits of mask {hex_text(mask)} "
-            f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
+            f"by {hex_text(bits)}, and write the word back",
         )
     if point.base is not None:
         message = f"the address of {label(point)} counts from a base, and nobody said where that is"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldscribe.arithmetic.codec import Settings
-from fieldscribe.arithmetic.words import insert, with_fixed, words_in, words_of
+from fieldscribe.arithmetic.words import with_fixed, words_in, words_of
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, default_link, link_of, write_task
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
@@ -68,8 +68,8 @@ def process_words(
     for point in points:
         raw = settings.get(point.name)
         if isinstance(raw, int):
-            for place, word in zip(point.addresses, words_of(point, raw), strict=False):
-                words.setdefault(place, insert(point, word, word) if point.bits is None else word)
+            for place, word in zip(point.addresses, words_of(point, with_fixed(point, raw)), strict=False):
+                words.setdefault(place, word)
     for point in points:
         place = point.addresses[0] if point.addresses else link.pzd
         if point.fixed is not None and place < link.pzd and place not in words:

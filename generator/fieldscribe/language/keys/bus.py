@@ -52,10 +52,18 @@ KEYS = (
         Text(form=forms.WORD_ORDER),
         _BY_TYPE,
     ),
+    Key(
+        "bytes",
+        BUS,
+        "The order of the two bytes in each word, for all types or by type.",
+        ["high first", {"f32": "low first"}],
+        Text(form=forms.WORD_ORDER),
+        _BY_TYPE,
+    ),
     *(
-        Key(name, _BY_TYPE, "The order of words of this type.", ["low first"], WORD_ORDER)
+        Key(name, _BY_TYPE, "The order in points of this type.", ["low first"], WORD_ORDER)
         for name, info in TYPES.items()
-        if info.bits > 16
+        if info.bits >= 16
     ),
     Key(
         "gaps",

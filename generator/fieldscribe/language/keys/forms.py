@@ -72,7 +72,7 @@ TYPE = Form(
     "a type",
     "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit and text",
 )
-WORD_ORDER = Form("^(high|low) first$", "an order of words", "write `high first` or `low first`")
+WORD_ORDER = Form("^(high|low) first$", "an order", "write `high first` or `low first`")
 _TIME = "[1-9][0-9]{0,5} (ms|s|min)"
 TIME = Form(f"^{_TIME}$", "a time", "write a number and a unit: 500 ms, 2 s, 10 min")
 RUN = Form(

@@ -55,10 +55,9 @@ KEYS = (
     Key(
         "bytes",
         _OF_TEXTS,
-        "The order of the bytes in a word: low first if the first character of a text stands in the low byte.",
+        "The order of the two bytes in each word; of a text, low first if its first character stands in the low byte.",
         ["low first"],
         WORD_ORDER,
-        of=TEXTS,
     ),
     Key(
         "range",

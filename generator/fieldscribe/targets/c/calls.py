@@ -142,4 +142,5 @@ def _bits_of_raw(view: PointView) -> str:
         return f"{view.function}_insert(word, raw)"
     if view.point.words > 1:
         return f"{view.function}_to_words(raw, words)"
-    return {"bool": "raw ? 1U : 0U", "uint16_t": "raw"}.get(view.raw_type, "(uint16_t)raw")
+    word = {"bool": "raw ? 1U : 0U", "uint16_t": "raw"}.get(view.raw_type, "(uint16_t)raw")
+    return f"fieldscribe_exchanged({word})" if view.point.swapped else word

@@ -92,7 +92,7 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         yield from (f'NAMED("{name}", {scope.upper}_{macro}_{upper(name)})' for name in first.values())
     yield from _place_cases(view)
     if point.bits is not None:
-        yield f"BITS({function}, {kind}, {view.macro})"
+        yield f"{'EXCHANGED_' if point.swapped else ''}BITS({function}, {kind}, {view.macro})"
     elif has_words(point):
         yield f"WORDS({function}, {kind}, {point.words}U)"
     elif point.text is None:

@@ -56,23 +56,29 @@ def has_words(point: Point) -> bool:
     """Return True if the point has word functions: a text, a bit group and a word that is the raw number have none."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
-    return point.text is None and point.bits is None and not plain
+    return point.text is None and point.bits is None and (not plain or point.swapped)
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
     """Yield the functions between a raw number and its own words."""
     kind, info = raw_type(point), point.info
+    places = [f"words[{place}]" for place in places_of(point)]
+    swaps = [f"{place} = fieldscribe_exchanged({place});" for place in places if point.swapped]
+    read = [f"fieldscribe_exchanged({place})" if swaps else place for place in places]
     if point.words == 1:
-        mask, sign = ("words[0]", "0x8000U") if info.bits == 16 else ("words[0] & 0xFFU", "0x80U")
-        split = "words[0] = (uint16_t)raw;"
-        joined = f"({kind})fieldscribe_signed({mask}, {sign})"
+        sign = "0x8000U" if info.bits == 16 else "0x80U"
+        split = f"words[0] = {'raw ? 1U : 0U' if info.bits == 1 else '(uint16_t)raw'};"
+        joined = read[0] if info.bits == 16 else f"{read[0]} & 0xFFU"
+        if info.signed:
+            joined = f"({kind})fieldscribe_signed({joined}, {sign})"
+        elif info.bits < 16:
+            joined = f"{read[0]} != 0U" if info.bits == 1 else f"({kind})({joined})"
     else:
-        places = [f"words[{place}]" for place in places_of(point)]
         above = info.bits // 16 - point.words  # words that the type has and the wire has not
         into = ", ".join(["&above"] * above + [f"&{place}" for place in places])
         split = f"fieldscribe_split{info.bits}((uint{info.bits}_t)raw, {into});"
         split = f"uint16_t above; {split}" if above else split
-        joined = f"fieldscribe_join{info.bits}({', '.join(['0U'] * above + places)})"
+        joined = f"fieldscribe_join{info.bits}({', '.join(['0U'] * above + read)})"
         if point.width % 16:
             joined = f"{joined} & {hexadecimal(mask_of(point.width))}"
         if point.shape.narrow and info.signed:
@@ -81,7 +87,7 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         elif info.signed:
             joined = f"fieldscribe_signed{info.bits}({joined})"
     words = f"uint16_t words[{point.words}]"
-    yield function(f"{INLINE} void", f"{name}_to_words", (f"{kind} raw", words), split)
+    yield function(f"{INLINE} void", f"{name}_to_words", (f"{kind} raw", words), split, *swaps)
     yield function(f"{INLINE} {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
 
 
@@ -97,7 +103,8 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     assert point.bits is not None
     kind, low = raw_type(point), point.bits[1]
     place = f"{hexadecimal(group_mask(point))}, {low}U"
-    extract = f"fieldscribe_extract(word, {place})"
+    word = "fieldscribe_exchanged(word)" if point.swapped else "word"
+    extract = f"fieldscribe_extract({word}, {place})"
     if kind == "bool":
         extract = f"{extract} != 0U"
     elif point.info.signed:
@@ -105,9 +112,11 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     elif kind != "uint16_t":
         extract = f"({kind})({extract})"
     number = "raw ? 1U : 0U" if kind == "bool" else "(uint16_t)raw" if point.info.signed else "raw"
-    insert = f"fieldscribe_insert(word, {place}, {number})"
+    insert = f"fieldscribe_insert({word}, {place}, {number})"
     if point.fixed is not None:
         insert = f"fieldscribe_fix({insert}, {constant_bits(point)})"
+    if point.swapped:
+        insert = f"fieldscribe_exchanged({insert})"
     yield function(f"{INLINE} {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};")
     parameters = ("uint16_t word", f"{kind} raw")
     yield function(f"{INLINE} uint16_t", f"{name}_insert", parameters, f"return {insert};")

@@ -61,7 +61,7 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     """Return the form of values that are no special codes."""
     kind = scope.runtime(_FORMS.get(point.form, point.form.capitalize()))
     if point.form == "bit":
-        return f"{kind}()"
+        return call(kind, [_wire(point, scope)] if point.swapped else ())
     if point.text is not None:
         layout = point.text
         encoding = [] if layout.encoding == "ascii" else [python_string(layout.encoding)]
@@ -86,9 +86,12 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
 
 def _wire(point: Point, scope: PackageScope) -> Node:
     """Return the type on the wire: `U16`; one that has no constant as `Type(24)`."""
-    if not point.shape.narrow:
+    shape = point.shape
+    if not shape.narrow and not shape.swapped:
         return scope.runtime(point.type.upper())
-    return call(scope.runtime("Type"), (str(point.width), *["signed=True"] * point.info.signed))
+    facts = {"signed": shape.info.signed, "low_byte_first": shape.swapped}
+    bits = point.width if shape.narrow else shape.info.bits
+    return call(scope.runtime("Type"), (str(bits), *[f"{name}=True" for name, holds in facts.items() if holds]))
 
 
 def _scaled(point: Point, scope: PackageScope) -> Iterator[Node]:

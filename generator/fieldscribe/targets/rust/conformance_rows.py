@@ -181,7 +181,7 @@ def _has_place(point: Point) -> bool:
 
 def _has_words(point: Point) -> bool:
     """Return True if the words of the point differ from its raw number."""
-    return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
+    return point.bits is None and point.text is None and (point.words > 1 or point.info.signed or point.swapped)
 
 
 def _references(point: Point) -> Tokens:

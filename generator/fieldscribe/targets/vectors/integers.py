@@ -141,10 +141,11 @@ def bits(lines: Lines, encoding: PointEncoding) -> None:
     tries = [(0, ones), (0xFFFF, 0), (0x5A3C, 0x5555 & ones), (0xA5C3, 0xAAAA & ones)]
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
     for word, put in dict.fromkeys(tries):
-        raw, result = word >> low & ones, word & ~(ones << low) | put << low
+        held = bytes_exchanged(shape, word)
+        raw, result = held >> low & ones, held & ~(ones << low) | put << low
         if shape.fixed is not None:
             result = result & ~shape.fixed.mask | shape.fixed.bits
-        lines.add("bits", word, as_raw(shape, raw), as_raw(shape, put), result)
+        lines.add("bits", word, as_raw(shape, raw), as_raw(shape, put), bytes_exchanged(shape, result))
 
 
 OTHER_BITS = 0xA5C3
@@ -157,7 +158,7 @@ def words(lines: Lines, encoding: PointEncoding) -> None:
     if order is None or encoding.bits is not None or shape.text is not None:
         return
     count = shape.words
-    if count < 2 and not shape.info.signed:
+    if count < 2 and not shape.info.signed and not shape.swapped:
         return
     raws = [as_raw(shape, pattern) for pattern in (_wide_patterns(count) if count > 1 else _NARROW)]
     lines.add_all("words", [(raw, words_of(encoding, order, raw)) for raw in raws])
@@ -186,13 +187,18 @@ def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, recei
     pattern = raw & (1 << 16 * count) - 1
     if received and encoding.shape.narrow:
         pattern ^= mask_of(16 * count - encoding.shape.width, encoding.shape.width)
-    return tuple([pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order])
+    in_reading_order = [pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order]
+    return tuple([bytes_exchanged(encoding.shape, word) for word in in_reading_order])
+
+
+def bytes_exchanged(shape: Shape, word: int) -> int:
+    """Return a word as it travels: with the low byte first if the point has it so."""
+    return int.from_bytes(word.to_bytes(2, "little" if shape.swapped else "big"), "big")
 
 
 def _shared_word(encoding: PointEncoding, low: int, raw: int, *, received: bool) -> int:
     ones, fixed = (1 << encoding.shape.width) - 1, encoding.shape.fixed
     word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
-    if fixed is None:
-        return word
-    constant = fixed.bits ^ fixed.mask if received else fixed.bits
-    return word & ~fixed.mask | constant
+    if fixed is not None:
+        word = word & ~fixed.mask | (fixed.bits ^ fixed.mask if received else fixed.bits)
+    return bytes_exchanged(encoding.shape, word)

@@ -205,6 +205,7 @@ class Point(Guided):
 
     def joined(self, words: Sequence[int]) -> int:
         """Return the same for what are known to be the words of the point."""
+        words = self.wire.ordered(words)
         if self.facts.bits is not None:
             return self.wire.number(words[0] >> self._lowest_bit, self.width)
         pattern = 0
@@ -228,7 +229,7 @@ class Point(Guided):
         words = [0] * self.size
         for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
             words[place] = raw >> 16 * part & 0xFFFF
-        return tuple(words)
+        return tuple(self.wire.ordered(words))
 
     @cached_property
     def _order(self) -> Sequence[int]:
@@ -243,15 +244,15 @@ class Point(Guided):
 
     def extract(self, word: int) -> int:
         """Return the raw number of a bit group, from its whole word."""
-        return self.wire.number(self._number(word) >> self._lowest_bit, self.width)
+        return self.wire.number(self.wire.ordered([self._number(word)])[0] >> self._lowest_bit, self.width)
 
     def insert(self, word: int, raw: int) -> int:
         """Return the whole word with this bit group replaced, and with the constant bits set."""
         mask = (1 << self.width) - 1
-        word, raw = self._number(word), self._number(raw)
+        word, raw = self.wire.ordered([self._number(word)])[0], self._number(raw)
         result = word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
         fixed, bits = self.facts.fixed or (0, 0)
-        return result & ~fixed | bits
+        return self.wire.ordered([result & ~fixed | bits])[0]
 
     @property
     def bit_field(self) -> tuple[int, int, int]:

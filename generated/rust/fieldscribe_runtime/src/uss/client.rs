@@ -13,7 +13,7 @@ use crate::client::{
     MOST_NEEDS,
 };
 use crate::error::lead;
-use crate::point::joined;
+use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
@@ -385,7 +385,7 @@ macro_rules! client {
 
             /// Sets a point to a raw number that was checked.
             fn put<P: Sent>(&mut self, raw: P::Raw) -> Result<(), Error> {
-                self.drive.process = self.drive.with_words::<P>(raw.into_words().as_ref())?;
+                self.drive.process = self.drive.with_words::<P>(split::<P>(raw).as_ref())?;
                 Ok(())
             }
 
@@ -540,7 +540,7 @@ macro_rules! client {
 
             /// Sends a point with a raw number that was checked.
             $($async)? fn send_words<P: Sent>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
-                let process = self.drive.with_words::<P>(raw.into_words().as_ref())?;
+                let process = self.drive.with_words::<P>(split::<P>(raw).as_ref())?;
                 self.send_process::<P>(process)$($wait)*
             }
 

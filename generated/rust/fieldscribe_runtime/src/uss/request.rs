@@ -6,7 +6,8 @@ use core::fmt;
 use super::{
     check_byte, element, BuildError, Link, Parameter, Profile, Reply, LAST_PARAMETER, START,
 };
-use crate::{BitGroup, Error, Point, Raw, Readable, Whole, Writable};
+use crate::point::split;
+use crate::{BitGroup, Error, Point, Readable, Whole, Writable};
 
 /// What a parameter part carries as a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,13 +103,13 @@ impl Request {
     /// A request that changes a parameter's raw number until the power is off.
     #[must_use]
     pub fn write<P: Writable + Whole + Parameter>(unit: u8, raw: P::Raw) -> Self {
-        Self::change::<P>(unit, raw.into_words().as_ref(), false)
+        Self::change::<P>(unit, split::<P>(raw).as_ref(), false)
     }
 
     /// A request that changes a parameter's raw number in the EEPROM too, which stands so many writes only.
     #[must_use]
     pub fn store<P: Writable + Whole + Parameter>(unit: u8, raw: P::Raw) -> Self {
-        Self::change::<P>(unit, raw.into_words().as_ref(), true)
+        Self::change::<P>(unit, split::<P>(raw).as_ref(), true)
     }
 
     /// A request that writes a word back with a group of its bits replaced, until the power is off.

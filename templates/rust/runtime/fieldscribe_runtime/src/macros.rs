@@ -7,8 +7,8 @@
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
 /// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order,
-///   `[words 2]`, `[width 24]`: the bits of a number narrower than its type, `[write_at 0x2028]`:
-///   where it is written, if that is elsewhere, `[index 1]`,
+///   `[words 2]`, `[width 24]`: the bits of a number narrower than its type, `[low_byte_first true]` of each word,
+///   `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`:
 ///   the bits of the word that are always the same, and what they are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
@@ -53,6 +53,7 @@ macro_rules! point {
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
         $(width $width:literal;)?
+        $(low_byte_first $low_byte_first:literal;)?
         $(write_at $write_address:literal;)?
         $(index $index:literal;)?
         $(telegram $telegram:literal;)?
@@ -85,6 +86,7 @@ macro_rules! point {
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
             $(const WIDTH: u32 = $width;)?
+            $(const LOW_BYTE_FIRST: bool = $low_byte_first;)?
             $(const WRITE_ADDRESS: u16 = $write_address;)?
             $(const INDEX: Option<u8> = Some($index);)?
             $(const TELEGRAM: Option<&'static str> = Some($telegram);)?

@@ -107,6 +107,8 @@ pub trait Point: Sized {
     /// The bits of the raw number, if its words hold fewer than its type; else 0. Its words then come first in
     /// [`Raw::Words`], and what is behind them does not count.
     const WIDTH: u32 = 0;
+    /// Whether the low byte of each word comes first.
+    const LOW_BYTE_FIRST: bool = false;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
     /// With how many decimals people see the value, where the description says it.
@@ -191,8 +193,8 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     /// The word's fixed bits are put in too.
     fn insert(word: u16, raw: Self::Raw) -> u16 {
         let [bits] = raw.into_words();
-        let word = insert(word, Self::SHIFT, Self::MASK, bits);
-        (word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS)
+        let word = insert(ordered::<Self>(word), Self::SHIFT, Self::MASK, bits);
+        ordered::<Self>((word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS))
     }
 }
 
@@ -200,14 +202,14 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
 #[must_use]
 #[inline]
 pub fn group<P: BitGroup>(word: u16) -> u16 {
-    extract(word, P::SHIFT, P::MASK)
+    extract(ordered::<P>(word), P::SHIFT, P::MASK)
 }
 
 /// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
 #[must_use]
 #[inline]
 pub fn signed_group<P: BitGroup>(word: u16) -> u16 {
-    extract_signed(word, P::SHIFT, P::MASK)
+    extract_signed(ordered::<P>(word), P::SHIFT, P::MASK)
 }
 
 /// A word whose decimal digits each mean something.
@@ -440,7 +442,8 @@ pub(crate) fn joined<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
 
 /// The raw number from words in reading order; of a number narrower than its type, the bits that it has.
 #[inline]
-pub(crate) fn joined_in_order<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
+pub(crate) fn joined_in_order<P: Point>(mut words: <P::Raw as Raw>::Words) -> P::Raw {
+    order_bytes::<P>(words.as_mut());
     if P::WIDTH == 0 {
         return P::Raw::from_words(words);
     }
@@ -465,7 +468,28 @@ pub(crate) fn split<P: Point>(raw: P::Raw) -> <P::Raw as Raw>::Words {
         let above = words.as_ref().len().saturating_sub(usize::from(P::WORDS));
         words.as_mut().rotate_left(above);
     }
+    order_bytes::<P>(words.as_mut());
     words
+}
+
+/// A word with its high byte first, or back.
+#[inline]
+const fn ordered<P: Point>(word: u16) -> u16 {
+    if P::LOW_BYTE_FIRST {
+        word.swap_bytes()
+    } else {
+        word
+    }
+}
+
+/// The same of each word, but for a group of bits, which was taken out of its word.
+#[inline]
+fn order_bytes<P: Point>(words: &mut [u16]) {
+    if P::LOW_BYTE_FIRST && !P::IS_GROUPED {
+        for word in words {
+            *word = ordered::<P>(*word);
+        }
+    }
 }
 
 /// The words that count.

@@ -193,6 +193,7 @@ pub(super) struct RawType {
     pub(super) from_words: fn([u16; 4]) -> i128,
     pub(super) into_words: fn(i128) -> Option<[u16; 4]>,
     pub(super) is_signed: bool,
+    pub(super) low_byte_first: bool,
 }
 
 impl RawType {
@@ -214,6 +215,16 @@ impl RawType {
                 Some(words)
             },
             is_signed: <P::Raw as Raw>::ENDS.0 < 0,
+            low_byte_first: P::LOW_BYTE_FIRST,
+        }
+    }
+
+    /// A word with its high byte first, or back.
+    pub(super) const fn ordered(&self, word: u16) -> u16 {
+        if self.low_byte_first {
+            word.swap_bytes()
+        } else {
+            word
         }
     }
 }

@@ -32,7 +32,7 @@ impl PointFacts {
         if let (Some(mask), [word, ..]) = (self.mask, &mut words) {
             let is_signed = self.raw.is_signed;
             let take = if is_signed { extract_signed } else { extract };
-            *word = take(*word, mask.trailing_zeros(), mask);
+            *word = take(self.raw.ordered(*word), mask.trailing_zeros(), mask);
         }
         (self.raw.from_words)(words)
     }
@@ -52,8 +52,8 @@ impl PointFacts {
         let mut words = (self.raw.into_words)(raw).ok_or_else(|| self.refused(raw))?;
         if let (Some(mask), [first, ..]) = (self.mask, &mut words) {
             let (fixed_mask, fixed_bits) = (low_word(self.fixed.0), low_word(self.fixed.1));
-            *first = insert(word, mask.trailing_zeros(), mask, *first);
-            *first = (*first & !fixed_mask) | fixed_bits;
+            *first = insert(self.raw.ordered(word), mask.trailing_zeros(), mask, *first);
+            *first = self.raw.ordered((*first & !fixed_mask) | fixed_bits);
         }
         Ok(words)
     }
