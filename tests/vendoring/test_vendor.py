@@ -206,6 +206,19 @@ def test_all_in_one_file_beside_another_version(tmp_path: Path) -> None:
     assert "OLDER_L200_DESCRIPTION_VERSION_NUMBER 9000UL" in (out / "older_l200.h").read_text("utf-8")
 
 
+@pytest.mark.parametrize("how", [(), ("--single-file",), ("--no-frames",)])
+def test_a_command_with_steps_comes_with_what_it_needs(how: tuple[str, ...], tmp_path: Path) -> None:
+    """The points of its conditions, which are read, and the function that fills in the words of a step."""
+    assert vendor("c", ROOT / "tests/devices/kitchen_sink", "--out", tmp_path, "--points", "ask", *how) == 0
+    headers = {path.name: path.read_text("utf-8") for path in tmp_path.glob("*.h")}
+    text = "".join(headers.values())
+    assert "bool fieldscribe_modbus_steps_fill(" in text
+    assert "#define KITCHEN_SINK_COMMAND_ASK_STEPS 5U" in text
+    assert "KITCHEN_SINK_COMMAND_CLOSE_BREAKER" not in text
+    assert "KITCHEN_SINK_CONTROL_MODE_ADDRESS" in text
+    compiles(tmp_path, "kitchen_sink.h" if "--single-file" in how else "kitchen_sink_modbus.h")
+
+
 def test_points_alone_need_no_frames(tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A020", "--no-frames") == 0
     constants = ["fieldscribe.h", "fieldscribe_modbus_facts.h", "hitachi_l200.h", "hitachi_l200_modbus.h"]
