@@ -53,6 +53,13 @@ SLIPS = [
     ("eastron_sdm630", "measurements.yaml", {"unit: kvarh": "unit: kWh"}, "unit"),
     ("eastron_sdm630", "measurements.yaml", {"!= single_phase_two_wire": "== three_phase_four_wire"}, "when"),
     (
+        "fronius_datamanager",
+        "settings.yaml",
+        {"10 ** reference_voltage_exponent": "10 ** maximum_power_exponent"},
+        "scale",
+    ),
+    ("fronius_datamanager", "controls.yaml", {"access: rw, ": ""}, "access"),
+    (
         "hitachi_l200",
         "coils.yaml",
         {"0: {name: forward": "0: {name: reverse", "1: {name: reverse": "1: {name: forward"},

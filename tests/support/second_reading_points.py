@@ -20,6 +20,7 @@ def place_of(point: Point) -> Facts:
     return {
         "space": point.space,
         "telegram": point.telegram,
+        "base": point.base,
         "address": point.address if point.address is not None else point.item,
         "index": point.index,
         "bits": bits,
