@@ -13,7 +13,15 @@ from fieldscribe.targets import knows, target
 from support.described import compile_in, group, head, made, shipped, together
 
 LANGUAGES = ("c", "python", "rust")
-SHIPPED = ("eastron_sdm630", "hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
+SHIPPED = (
+    "eastron_sdm630",
+    "fronius_datamanager",
+    "hitachi_l200",
+    "jumo_controller",
+    "nord_sk5xxe",
+    "siemens_mm4",
+    "woodward_mpu2s",
+)
 MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
 
 

@@ -18,7 +18,15 @@ from support.places import ROOT
 
 pytestmark = pytest.mark.usefixtures("loads_once")
 
-DEVICES = ["eastron_sdm630", "hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
+DEVICES = [
+    "eastron_sdm630",
+    "fronius_datamanager",
+    "hitachi_l200",
+    "jumo_controller",
+    "nord_sk5xxe",
+    "siemens_mm4",
+    "woodward_mpu2s",
+]
 
 
 class Output(NamedTuple):

@@ -84,7 +84,15 @@ FILLED = (point_templates, attributes, python_enums, conformance, point_macros, 
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")
-SHIPPED = ("eastron_sdm630", "hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
+SHIPPED = (
+    "eastron_sdm630",
+    "fronius_datamanager",
+    "hitachi_l200",
+    "jumo_controller",
+    "nord_sk5xxe",
+    "siemens_mm4",
+    "woodward_mpu2s",
+)
 DEVICES: dict[str, Callable[[], Device]] = {
     **{name: partial(shipped, name) for name in SHIPPED},
     **{
