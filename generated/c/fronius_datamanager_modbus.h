@@ -698,7 +698,10 @@ static inline void fronius_datamanager_fronius_group_decode(
     }
 }
 
-/* ---- Commands of several requests: fieldscribe_modbus_steps.h says how a program goes through their steps ---- */
+/*
+ * ---- Commands of several requests: fieldscribe_modbus_steps.h says how a program goes through their steps ----
+ * with fieldscribe_modbus_steps_fill, fieldscribe_modbus_read and fieldscribe_modbus_write
+ */
 
 /*
  * Use integers: by caller
