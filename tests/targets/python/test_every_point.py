@@ -70,6 +70,39 @@ def _allowed(name: str) -> dict[str, Vector]:
     return {one["point"]: one for one in sorted(fine, key=lambda one: one["raw"] != 0)}
 
 
+@pytest.mark.full(seconds=2)
+def test_models_are_found_and_read_where_they_stand() -> None:
+    """An inverter has the models in the order and with the lengths of the map of its maker."""
+    models = {1: 65, 103: 50, 120: 26, 121: 30, 122: 44, 123: 24, 160: 48, 124: 24, 0xFFFF: 0}
+    name, start = "fronius_datamanager", 40002
+    with contextmanager(imported)(PACKAGES, name) as package, server(FramerType.RTU, addresses=0x10000) as port:
+        peer = Peer(port)
+
+        def put(address: int, *words: int) -> None:
+            peer.put({"space": "holding", "address": address}, *words)
+
+        put(40000, 0x5375, 0x6E53)
+        for model, length in models.items():
+            put(start, model, length)
+            start += 2 + length
+        put(40004, *(int.from_bytes(b"Fronius".ljust(32, b"\0")[at : at + 2], "big") for at in range(0, 32, 2)))
+        put(40079, 2301, 2302, 2303, 0xFFFF)
+        put(40232, 5000)
+        put(40250, 0xFFFE)
+        put(40255, 0xFFFF)
+        put(40292, 431)
+        with transport("tcp").TcpLine("127.0.0.1", port, framing="rtu") as line:
+            inverter = package.FroniusDatamanager(line, 1)
+            assert inverter.identify() == {}
+            assert inverter.manufacturer.read() == "Fronius"
+            assert [float(inverter.phase_b_voltage.read()), float(inverter.power_limit.read())] == [230.2, 50.0]
+            assert float(inverter.module_current_index_2.read()) == 43.1
+            inverter.power_limit.write(70)
+            assert peer.words({"space": "holding", "address": 40232, "words": 1}) == [7000]
+            inverter.use_integers.send()
+            assert peer.words({"space": "holding", "address": 215, "words": 1}) == [6]
+
+
 @pytest.mark.full(seconds=5)
 def test_every_point_on_a_can_bus() -> None:
     """Telegrams as python-can sends them, and parameters of a unit that lives on python-can."""
