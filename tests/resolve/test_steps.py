@@ -85,6 +85,19 @@ def test_constant_bits_are_written_with_bits(tmp_path: Path) -> None:
     assert (second.within, third.read) == (180_000, None)
 
 
+def test_low_bytes_come_first_where_the_point_says_so(tmp_path: Path) -> None:
+    """Of numbers of a word, of several, and of bits with the constant bits beside them."""
+    points = "- {name: one, at: 1, bytes: low first}\n- {name: two, at: 2, type: u32, bytes: low first}\n"
+    points += "- {name: bits, at: 4, bits: 3..0, fixed: {15: 1}, bytes: low first}\n"
+    steps = "[{write: {one: 1234h}}, {write: {two: 12345678h}}, {write: {bits: 5}}, {wait: {bits: 5}, within: 1 s}]"
+    device, findings = compile_in(tmp_path, described(points, commands=f"[{{name: go, steps: {steps}}}]"))
+    assert device is not None, findings
+    words = [[(word.constant, word.mask) for word in step.words] for step in _command(device, "go").steps]
+    assert words == [
+        [(0x3412, 0xFFFF)], [(0x3412, 0xFFFF), (0x7856, 0xFFFF)], [(0x0580, 0x0F80)], [(0x0500, 0x0F00)],
+    ]  # fmt: skip
+
+
 def test_export_and_explanation_have_each_step() -> None:
     """The exported model has the words, the explanation a row and the frames of each request."""
     exported = next(one for one in export_model(kitchen_sink())["stepped_commands"] if one["name"] == "ask")

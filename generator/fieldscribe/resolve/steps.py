@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, check
-from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
+from fieldscribe.arithmetic.words import exchanged, group_mask, insert, with_fixed, words_of
 from fieldscribe.conditions import Condition
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.parser import VARIABLES
@@ -216,8 +216,10 @@ class Steps:
             self._check(point, with_fixed(point, raw) if word.factor == 0 else raw, span, action)
         if word.factor == 0:
             return self._constants(point, with_fixed(point, word.constant), action)
-        if point.words != 1 or (point.bits is not None and min(self._extremes(word)) < 0):
-            message = f"`{point.name}` takes no formula: it is several words, or bits with a sign"
+        if point.words != 1 or point.swapped or (point.bits is not None and min(self._extremes(word)) < 0):
+            message = (
+                f"`{point.name}` takes no formula: it is several words, has its low byte first, or bits with a sign"
+            )
             raise FactError("steps", message, span, "write its words by `at` and `words`")
         shift = 0 if point.bits is None else point.bits[1]
         [fixed] = self._constants(point, 0, action)
@@ -226,10 +228,9 @@ class Steps:
     def _constants(self, point: Point, raw: int, action: str) -> tuple[Word, ...]:
         if point.bits is None:
             return tuple(map(Word, words_of(point, raw)))
-        mask, word = group_mask(point), insert(point, 0, raw)
-        if action == "write":
-            return (Word(word, mask=mask | (point.fixed.mask if point.fixed else 0)),)
-        return (Word(word & mask, mask=mask),)
+        fixed = point.fixed.mask if point.fixed is not None and action == "write" else 0
+        [mask] = exchanged(point, group_mask(point) | fixed)
+        return (Word(insert(point, 0, raw) & mask, mask=mask),)
 
     def _check(self, point: Point, raw: int, span: Span, action: str) -> None:
         """Raise FactError if the point cannot hold the raw number, or a step must not write it."""
