@@ -1206,8 +1206,8 @@ static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t cou
 }
 
 /*
- * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one the low
- * byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; where it is 0 the first one ends it.
+ * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one has
+ * the low byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; the first 0 ends it.
  */
 static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool low_first)
 {
@@ -1234,7 +1234,8 @@ FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t len
         --end;
     }
     for (at = 0U; at < (most + (most % in_word)); ++at) {
-        const uint32_t code = (uint32_t)((at < end) ? codes[at] : fill) << fieldscribe_packed_shift(at, in_word, low_first);
+        const uint32_t shift = fieldscribe_packed_shift(at, in_word, low_first);
+        const uint32_t code = (uint32_t)((at < end) ? codes[at] : fill) << shift;
         const uint32_t other = ((at % in_word) == 0U) ? 0U : words[at / in_word];
         words[at / in_word] = (uint16_t)(other | code);
     }
