@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate keys test core newer bench mutants prove misra fuzz audit-power check clean
+.PHONY: generate keys test core newer bench mutants prove misra fuzz audit-power corpus check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -62,6 +62,10 @@ mutants:            ## change one thing at a time and list what no test notices 
 audit-power:        ## change one fact of each manual at a time and list what the audit misses (MANUALS=folder SEED=1 COUNT=200 ONLY=devices)
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests $(PYTHON) -m audit_power --manuals $(MANUALS) --seed $(or $(SEED),1) --count $(or $(COUNT),200) $(ONLY)
+
+corpus:             ## measure the importers on a collection of files (FOLDER=templates of wb-mqtt-serial)
+	@sh generator/setup.sh tests
+	PYTHONPATH=tests nice $(PYTHON) -m corpus "$(FOLDER)"
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

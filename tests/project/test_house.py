@@ -55,6 +55,7 @@ ROOMS = (
 """The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""
 
 NAMES_A_FAMILY = {
+    "importing.wb.templates": "the protocols of a gateway",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",
     "language.keys.places": "examples of whole files and messages",

@@ -149,6 +149,9 @@ VIEWS = """\
 - {name: i, at: 8, when: exists(target_torque)}
 - {name: j, at: 3, view_of: c}
 - {name: exists, at: 9}
+- {name: l, at: 11, since: firmware 1.2, when: mode == 1}
+- {name: m, at: 12, since: firmware 1.10, when: exists(l)}
+- {name: n, at: 13, when: "(not exists(c) or model == large) and mode == 1"}
 - {name: k, at: 10, when: exists == 3}
 """
 
@@ -174,6 +177,9 @@ def test_existence_is_written_out_and_properties_name_variants(tmp_path: Path) -
         "target_torque": "mode.raw in (2, 3)",
         "i": "mode.raw in (2, 3)",
         "k": "exists.raw == 3",
+        "l": "mode.raw == 1",
+        "m": "mode.raw == 1",
+        "n": "model == large and mode.raw == 1",
     }
     units = {point.name: (point.unit.symbol, point.title["en"]) for point in device.points if "target" in point.name}
     assert units == {"target_speed": ("Hz", "Target (speed)"), "target_torque": ("V", "Target (torque)")}

@@ -7,7 +7,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from types import ModuleType
 
-from fieldscribe.cli import import_sunspec, import_table
+from fieldscribe.cli import import_sunspec, import_table, import_wb
 from fieldscribe.cli.common import StopError, some_path
 from fieldscribe.importing.headings import ROLES
 
@@ -30,6 +30,7 @@ ends with 1 when the file holds no table of points (no model), has no such colum
 KINDS: dict[str, tuple[ModuleType, str]] = {
     "table": (import_table, "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual"),
     "sunspec": (import_sunspec, "models of SunSpec: a file `model_103.json`, or a folder of them"),
+    "wb": (import_wb, "a device template of wb-mqtt-serial: `.json`, `.json.jinja`"),
 }
 """The module of each kind of file, with what it reads. It has `add_arguments` for its options alone, and `run`."""
 

@@ -23,6 +23,9 @@ from fieldscribe.importing.headings import Columns, columns_of, is_column_number
 from fieldscribe.importing.tables import Table, UnreadableError
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 
+_OVERLAPS = ("address-taken", "bits-overlap")
+"""Errors about points with the same words."""
+
 
 class Draft(NamedTuple):
     """The drafted groups, all tables that were read, and the family of their spaces."""
@@ -164,10 +167,16 @@ def _withdraw_rejected(lines: Sequence[Line]) -> bool:
     withdrawn: set[tuple[int, str]] = set()
     for finding in errors:
         spans = [finding.span, *(span for span, _ in finding.related)]
-        owner = next((line for span in spans if (line := lines[span.line - 1]).point is not None), None)
-        if owner is None or owner.point is None:
+        owned = [line for span in spans if (line := lines[span.line - 1]).owner is not None]
+        if not owned or (owner := owned[0].owner) is None:
             raise ValueError(finding.message)
-        if (id(owner.point), owner.key) not in withdrawn:  # one fact may have several errors
-            withdrawn.add((id(owner.point), owner.key))
-            owner.point.withdraw(owner.key, finding.message)
+        key = owned[0].key
+        if (id(owner), key) in withdrawn:  # one fact may have several errors
+            continue
+        withdrawn.add((id(owner), key))
+        other = owned[1].owner if finding.rule in _OVERLAPS and len(owned) > 1 else None
+        if isinstance(owner, DraftPoint) and isinstance(other, DraftPoint):
+            owner.share(other, key, finding.message)
+        else:
+            owner.withdraw(key, finding.message)
     return bool(errors)

@@ -22,9 +22,10 @@ _SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+"
 _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|von")
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
-    *("at", "bits", "access", "format", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
-    *("default_in_units", "enum", "open", "flags", "characters", "words", "special", "changes", "when"),
-    *("sets", "indices", "most", "reserved", "note"),
+    *("at", "bits", "write_at", "view_of", "access", "format", "type", "length", "words", "bytes", "coding"),
+    *("characters", "per_word", "padding", "range", "range_in_units", "scale", "unit", "display", "default"),
+    *("default_in_units", "enum", "open", "flags", "special", "fixed", "changes", "when", "since", "sets"),
+    *("indices", "most", "each", "reserved", "note"),
 )
 """The order of a point's facts."""
 
@@ -55,6 +56,10 @@ class Head:
     title: str = ""
     facts: Sequence[str] = ()
     kind: str = "tables"
+    blocks: Sequence[DraftBlock] = ()
+    """Facts of the head that the compiler may reject."""
+    bus: Sequence[str] = ()
+    """The lines of the bus, if they are known."""
 
 
 @dataclass(slots=True)
@@ -76,6 +81,22 @@ class DraftPoint:
     """The base of a printed reference, and the number as it is printed."""
     flags: dict[str, str] = field(default_factory=dict)
     questions: list[str] = field(default_factory=list)
+    titles: Mapping[str, str] = field(default_factory=dict)
+    """Its titles in other languages than that of the draft."""
+    remarks: list[str] = field(default_factory=list)
+    """What a reader should know, and need not settle."""
+    views: bool = False
+    """Whether it may have the words of other points."""
+
+    def share(self, other: DraftPoint, key: str, reason: str) -> None:
+        """Become a view of another point that stands at the same address, or it of this one; else leave `key` open."""
+        viewed = self.facts.get("view_of"), other.facts.get("view_of")
+        if not self.views or None not in viewed:
+            self.withdraw(key, reason)
+        elif viewed[0] is None:
+            self.facts["view_of"] = viewed[1] or other.name
+        else:
+            other.facts["view_of"] = self.name
 
     def withdraw(self, key: str, reason: str) -> None:
         """Replace a fact that does not compile by a question; where there is none to replace, all facts.
@@ -118,13 +139,35 @@ class DraftGroup:
     name: str = ""
     document: str = "manual"
     facts: dict[str, str] = field(default_factory=dict)
+    titles: Mapping[str, str] = field(default_factory=dict)
+
+    def withdraw(self, key: str, reason: str) -> None:
+        """Replace a fact that does not compile by a comment. Raises ValueError if there is none."""
+        if key not in self.facts:
+            raise ValueError(reason)
+        self.comments.append(f"{key}: {self.facts.pop(key)}? {reason}")
+
+
+@dataclass(slots=True)
+class DraftBlock:
+    """Lines of the head that become a question if the compiler rejects them, and what a person must settle there."""
+
+    lines: list[str]
+    questions: list[str] = field(default_factory=list)
+
+    def withdraw(self, key: str, reason: str) -> None:
+        """Replace the lines by a question. Raises ValueError if there are none."""
+        if not self.lines:
+            raise ValueError(reason)
+        self.questions.append(f"{key}: {' '.join(line.strip() for line in self.lines)}? {reason}")
+        self.lines = []
 
 
 class Line(NamedTuple):
-    """A line of the draft, with the point and the key that it belongs to."""
+    """A line of the draft, with what it belongs to, and by which key."""
 
     text: str
-    point: DraftPoint | None = None
+    owner: DraftPoint | DraftGroup | DraftBlock | None = None
     key: str = ""
 
 
@@ -184,9 +227,14 @@ def label_map(labels: Mapping[str, str], key: str, language: str) -> str:
     return "".join(lines)
 
 
-def _titles(title: str, language: str) -> str:
-    words = scalar(title)
-    return f"{{en: {words}}}" if language == "en" else f"{{en: {words}, {language}: {words}}}"
+def _titles(title: str, language: str, others: Mapping[str, str] | None = None) -> str:
+    return titles_text(title, {} if language == "en" else {language: title}, others or {})
+
+
+def titles_text(english: str, *others: Mapping[str, str]) -> str:
+    """Return a text in English and in other languages, as titles are written."""
+    texts = {"en": english} | {language: text for each in others for language, text in each.items()}
+    return f"{{{', '.join(f'{language}: {scalar(text)}' for language, text in texts.items())}}}"
 
 
 def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], list[Line], list[Line]]:
@@ -205,7 +253,8 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
         *(line for block, (name, point) in enums.items() for line in _enum_lines(block, name, point)),
         *(line for group in groups for line in (Line("---"), *_group_lines(group, head.language, enums))),
     ]
-    return [Line(text) for text in top], [Line(text) for text in _head_lines(head, groups)], body
+    blocks = [line for block in head.blocks for line in _block_lines(block)]
+    return [Line(text) for text in top], [*(Line(text) for text in _head_lines(head, groups)), *blocks], body
 
 
 def _shared_enums(points: Iterable[DraftPoint]) -> dict[str, tuple[str, DraftPoint]]:
@@ -221,7 +270,7 @@ def _shared_enums(points: Iterable[DraftPoint]) -> dict[str, tuple[str, DraftPoi
 
 def _enum_lines(block: str, name: str, point: DraftPoint) -> Iterator[Line]:
     """Yield an enum that several points share; what is wrong with it is a question at the first."""
-    yield Line(f"  {name}:", point, "enum")
+    yield Line(f"  {scalar(name)}:", point, "enum")
     yield from (Line(f"  {text}", point, "enum") for text in block[1:].split("\n"))
 
 
@@ -243,8 +292,16 @@ def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:
             yield f"    sha256: {document.sha256}"
         else:
             yield f"    edition: sha256 {document.sha256}"
+    if head.bus:
+        yield from head.bus
+        return
     yield comment("framings, unit addresses and functions, with the most of each request")
     yield from family(head.family).part("description").bus_of({group.space for group in groups}).splitlines()
+
+
+def _block_lines(block: DraftBlock) -> Iterator[Line]:
+    yield from (Line(text, block, block.lines[0].partition(":")[0]) for text in block.lines)
+    yield from (Line(comment(question)) for question in block.questions)
 
 
 def _known(text: str, otherwise: str, question: str) -> str:
@@ -254,12 +311,12 @@ def _known(text: str, otherwise: str, question: str) -> str:
 def _group_lines(group: DraftGroup, language: str, enums: Mapping[str, tuple[str, DraftPoint]]) -> Iterator[Line]:
     accesses = [point.facts.get("access", "") for point in group.points]
     access = "" if "" in accesses else max(sorted(set(accesses)), key=accesses.count)
-    yield Line(f"group: {group.name}")
-    yield Line(f"title: {_titles(group.title, language)}")
+    yield Line(f"group: {scalar(group.name)}")
+    yield Line(f"title: {_titles(group.title, language, group.titles)}")
     yield Line(f"space: {group.space}")
     yield Line(f"access: {access}" if access else comment("not every row prints an access; without the key it is rw"))
-    yield Line(f"source: {{document: {group.document}, section: {scalar(group.section or group.title)}}}")
-    yield from (Line(f"{key}: {value}") for key, value in group.facts.items())
+    yield Line(f"source: {{document: {group.document}, section: {scalar(line(group.section or group.title)[:200])}}}")
+    yield from (Line(f"{key}: {value}", group, key) for key, value in group.facts.items())
     references = {_numbering(point.reference[1]): point.reference[0] for point in group.points if point.reference}
     if references:
         numberings = ", ".join(f"{name}: wire + {base}" for name, base in references.items())
@@ -282,12 +339,12 @@ def _point_lines(
     """Yield the key and the text of each line of a point; its questions come last."""
     if point.code:
         yield "code", f"code: {scalar(point.code)}"
-    yield "name", f"name: {point.name}"
-    yield "title", f"title: {_titles(point.title or point.name, language)}"
+    yield "name", f"name: {scalar(point.name)}"
+    yield "title", f"title: {_titles(point.title or point.name, language, point.titles)}"
     for key in sorted(point.facts, key=_KEYS.index):
         value = point.facts[key]
         if key == "enum" and value in enums:
-            value = enums[value][0]
+            value = scalar(enums[value][0])
         if not (key == "access" and value == access):
             first, *further = f"{key}: {value}".replace(": \n", ":\n").split("\n")
             yield key, first
@@ -299,3 +356,4 @@ def _point_lines(
     if point.reference and point.facts["at"] != "~":
         yield "printed", f"printed: {{{_numbering(point.reference[1])}: {point.reference[1]}}}"
     yield from (("", comment(question)) for question in point.questions)
+    yield from (("", f"# {line(remark)}") for remark in point.remarks)

@@ -6,7 +6,19 @@ from fractions import Fraction
 from math import ceil, floor
 
 from fieldscribe import conditions
-from fieldscribe.conditions import Clauses, Condition, TooManyClausesError, all_of, any_of, opposite
+from fieldscribe.conditions import (
+    ANY,
+    Clause,
+    Clauses,
+    Condition,
+    TooManyClausesError,
+    all_of,
+    any_of,
+    ends_before,
+    opposite,
+    possible,
+    version_of,
+)
 from fieldscribe.language.formula.conditions import (
     EXISTS,
     NOT_EXISTS,
@@ -68,10 +80,18 @@ def _clauses(facts: PointFacts, scales: Scales, written: Written, asking: tuple[
     if not all(resolved.values()):
         return ()
     try:
-        return any_of([all_of([resolved[comparison] for comparison in clause]) for clause in stated])
+        clauses = any_of([all_of([resolved[comparison] for comparison in clause]) for clause in stated])
     except TooManyClausesError as error:
         formula_finding(FormulaError(str(error), 0, "simplify it"), written.span, report)
         return ()
+    if any(comparison.op in (EXISTS, NOT_EXISTS) for comparison in comparisons):
+        return tuple(clause for clause in clauses if not _contradicts_itself(clause)) or clauses
+    return clauses
+
+
+def _contradicts_itself(clause: Clause) -> bool:
+    """Return True if comparisons of raw numbers exclude each other, as the conditions of several points may do."""
+    return not possible((each for each in clause if isinstance(each.than[0], int)), lambda _: ANY)
 
 
 def _resolved(
@@ -105,7 +125,7 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
         raise FormulaError(message, column, "compare what the first of them compares")
     if any(point in asking for point in points):
         raise FormulaError(f"`{name}` exists by a condition that leads back to itself", column, "write it out")
-    versions = next((key for point in points for key in ("since", "until") if point.get(key) is not None), None)
+    versions = next((key for point in points for key in ("since", "until") if _is_open(key, point, asking[0])), None)
     if versions is not None:
         raise FormulaError(
             f"`{name}` has `{versions}`, which no condition can tell", column, f"write `{versions}` at this point, too"
@@ -116,6 +136,16 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
     if not all(parts):
         raise FactError
     return any_of(parts)
+
+
+def _is_open(key: str, point: PointFacts, asking: PointFacts) -> bool:
+    """Return True if a point has a first (last) version, and the point that asks is there in others, too."""
+    version, mine = point.get(key), asking.get(key)
+    if version is None:
+        return False
+    first, last = (version, mine) if key == "since" else (mine, version)
+    words = [found and found[0] for found in (version_of(version), version_of(mine or ""))]
+    return words[0] != words[1] or ends_before(last, first)
 
 
 def _clauses_of_point(scales: Scales, point: PointFacts, asking: tuple[PointFacts, ...]) -> Clauses:

@@ -1,0 +1,146 @@
+"""What a template says about the whole device: bus, slots, identification, and what is written to set it up."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from fieldscribe.families import families
+from fieldscribe.importing.draft_text import DraftBlock, DraftGroup, DraftPoint, Names, scalar
+from fieldscribe.importing.wb.parameters import Parameters
+from fieldscribe.importing.wb.templates import in_slots
+from fieldscribe.importing.wb.values import number_of, objects
+from fieldscribe.text import line
+from fieldscribe.wording.exact import number_text
+
+FAMILY = next(family for family in families() if "holding" in family.spaces)
+_SIGNATURE = (200, 20)
+"""Where devices of Wiren Board hold their model: the first register, and how many, with a character in each."""
+_TIMES = {
+    "response_timeout_ms": "response_timeout", "response_timeout": "response_timeout",
+    "frame_timeout_ms": "frame_timeout", "guard_interval_us": "guard_interval",
+    "min_request_interval": "request_interval",
+}  # fmt: skip
+_LONGEST, _MOST_STEPS = 1_000_000, 1000
+"""The longest time in milliseconds, and the steps that a command can have."""
+_SHOWN = {
+    *("name", "id", "channels", "parameters", "groups", "translations", "setup", "protocol", "stride", "shift"),
+    *("enable_wb_continuous_read", "preserve_setup_order", "force_frame_timeout", "device_max_fail_cycles"),
+    *("max_read_registers", "max_write_registers", "deprecated", *_TIMES),
+}
+"""What is read, or how the gateway goes about its work: no fact of the device."""
+
+
+def bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
+    """Return the bus, with the most of each request and with times."""
+    spaces = {group.space for group in groups} | {_space(item) for item in objects(body.get("setup"))}
+    lines = FAMILY.part("description").bus_of(spaces).splitlines()
+    for key, pattern in (("max_read_registers", "(read_.*_registers)"), ("max_write_registers", "(write_registers)")):
+        most = number_of(body.get(key))
+        if most and 0 < most <= 125:
+            lines = [re.sub(f" {pattern}$", rf" {{name: \1, max: {most}}}", text) for text in lines]
+    times = {name: time for key, name in _TIMES.items() if 0 < (time := _milliseconds(key, body)) <= _LONGEST}
+    listed = [f"    {name}: {number_text(time)} ms" for name, time in times.items()]
+    return [*lines, *(["  timing:", *listed] if listed else [])]
+
+
+def _milliseconds(key: str, body: Mapping[str, Any]) -> Fraction:
+    time = number_of(body.get(key)) or Fraction(0)
+    return time / 1000 if key.endswith("_us") else time
+
+
+def base_of(body: Mapping[str, Any]) -> dict[str, str]:
+    """Return the base of a module's addresses, which depends on its slot, as the fact of a group."""
+    stride, shift = number_of(body.get("stride")), number_of(body.get("shift"))
+    if not in_slots(body) or not stride:
+        return {}
+    return {"base": f"slot * {stride}{f' + {shift}' if shift else ''}"}
+
+
+def identification(template: Mapping[str, Any], names: Names) -> list[DraftGroup]:
+    """Return the group of the register that tells devices from others."""
+    if not _signatures(template):
+        return []
+    first, count = _SIGNATURE
+    facts = {
+        "at": f"{first}..{first + count - 1}",
+        "access": "r",
+        "type": "text",
+        "characters": str(count),
+        "per_word": "1",
+        "padding": "00h",
+    }
+    point = DraftPoint(
+        0, "holding", "Device signature", name=names.give("device_signature"), facts=facts, wire=first, views=True
+    )
+    group = DraftGroup("Identification", "holding", "hw", [point], name="identification", document="template")
+    return [group]
+
+
+def _signatures(template: Mapping[str, Any]) -> dict[str, str]:
+    """Return the signatures of the devices that a template is for, and their first firmware."""
+    listed = objects(template.get("hw"))
+    return {str(each["signature"]): str(each.get("fw", "")) for each in listed if each.get("signature")}
+
+
+def first_firmware(template: Mapping[str, Any]) -> dict[str, str]:
+    """Return the first firmware that a template is for, as the fact of a group, if all its devices have the same."""
+    versions = set(_signatures(template).values())
+    return {"since": scalar(f"firmware {versions.pop()}")} if len(versions) == 1 and versions != {""} else {}
+
+
+def blocks_of(template: Mapping[str, Any], parameters: Parameters) -> list[DraftBlock]:
+    """Return further facts of the head."""
+    body, blocks = template["device"], []
+    signatures = _signatures(template)
+    if signatures:
+        block = DraftBlock([f"identify: {{device_signature: [{', '.join(map(scalar, signatures))}]}}"])
+        if not first_firmware(template):
+            block.questions += [f"not carried: fw: {text} of {name}" for name, text in signatures.items() if text]
+        blocks.append(block)
+    if in_slots(body):
+        blocks.append(DraftBlock(["given: {slot: {range: 1..4}}"]))
+    blocks.append(_set_up(body, parameters))
+    if parameters.units:
+        listed = [
+            f"  {scalar(unit)}: {{name: {scalar(unit)}, quantity: as the template has it}}" for unit in parameters.units
+        ]
+        blocks.append(DraftBlock(["units:", *listed]))
+    lost = DraftBlock([], [f"not carried: {key}: {body[key]}" for key in body if key not in _SHOWN])
+    return [*blocks, lost]
+
+
+def _writes(body: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the writes that set a device up, in the order in which the gateway sends them."""
+    writes = objects(body.get("setup"))
+    if not body.get("preserve_setup_order"):
+        writes.sort(key=lambda item: (_space(item), number_of(item.get("address")) or 0))
+    return writes
+
+
+def _space(item: Mapping[str, Any]) -> str:
+    return str(item.get("reg_type", "holding"))
+
+
+def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
+    """Return the commands of these writes; a step has no base, so those of a module in a slot are not carried."""
+    block, steps = DraftBlock([]), list[str]()
+    for item in _writes(body):
+        address, value, form = number_of(item.get("address")), number_of(item.get("value")), item.get("format", "u16")
+        when = parameters.condition(str(item["condition"]), block.questions) if item.get("condition") else True
+        is_word = _space(item) in ("holding", "coil") and form in ("u16", "s16") and None not in (address, value)
+        if not is_word or in_slots(body):
+            block.questions.append(
+                f"not carried: setup: {item.get('title')}: {item.get('address')} = {item.get('value')}"
+            )
+        elif when is not False:
+            condition = "" if when is True else f", when: {scalar(str(when))}"
+            facts = f"{{space: {_space(item)}, at: {address}, words: [{value}]{condition}}}"
+            steps.append(f"  - {facts}  # {line(str(item.get('title', '')))}")
+    for number, first in enumerate(range(0, len(steps), _MOST_STEPS), 1):
+        name = "set_up" if number == 1 else f"set_up_{number}"
+        head = [] if block.lines else ["commands:"]
+        block.lines += [*head, f"- name: {name}", "  run: first", "  steps:", *steps[first : first + _MOST_STEPS]]
+    return block

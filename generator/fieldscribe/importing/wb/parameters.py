@@ -1,0 +1,112 @@
+"""What the names of parameters mean in conditions: a point, or the choice of a person, which becomes a variant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
+from fieldscribe.importing.wb.conditions import Condition, any_of, condition_of
+from fieldscribe.importing.wb.rows import Row
+from fieldscribe.importing.wb.values import Texts
+from fieldscribe.wording.exact import number_text
+
+_MOST_VALUES, _LONGEST = 200, 500
+
+
+class Parameters:
+    """The parameters of a template by id."""
+
+    def __init__(self, rows: Sequence[Row], texts: Texts) -> None:
+        self._rows: dict[str, list[Row]] = {}
+        for row in rows:
+            if row.is_parameter:
+                self._rows.setdefault(row.key, []).append(row)
+        names = Names()
+        self._axes = {key: names.give(snake(key, "choice")) for key, rows in self._rows.items() if rows[0].is_choice}
+        self._texts = texts
+        self.units = list(dict.fromkeys(row.unit for row in rows if row.unit))
+        self._asking: Row | None = None
+
+    @property
+    def blocks(self) -> list[DraftBlock]:
+        """The variants: what a person chooses, and no register holds."""
+        lines = []
+        for key, axis in self._axes.items():
+            row, names = self._rows[key][0], Names()
+            lines += [f"  {axis}:", f"    title: {titles_text(row.point.title, row.point.titles)}", "    values:"]
+            for number, label in self._choices(key).items():
+                english = self._texts.english(label)
+                name = scalar(names.give(snake(english, "number"), str(abs(number))))
+                title = titles_text(english, self._texts.others(label))
+                lines.append(f"      {name}: {{number: {number}, title: {title}}}")
+        return [DraftBlock(["variants:", *lines])] if lines else []
+
+    def _choices(self, key: str) -> dict[int, str]:
+        """Return the numbers that can be chosen, with their names."""
+        choices: dict[int, str] = {}
+        for row in self._rows[key]:
+            numbers = row.labels or {number: str(number) for number in row.choices[:_MOST_VALUES]}
+            choices = numbers | choices
+        return dict(sorted(choices.items()))
+
+    def compared(self, name: str, sign: str, number: int) -> Condition:
+        """Return the condition that a parameter compares so with a number; one that is not there equals none."""
+        if name in self._axes:
+            return f"{self._axes[name]}.number {sign} {number}"
+        rows = self._rows.get(name, [])
+        if not rows:
+            return sign == "!="
+        return any_of([_comparison(row, sign, number) for row in rows if row.compares(sign, number)])
+
+    def defined(self, name: str) -> Condition:
+        """Return the condition that a parameter exists."""
+        if name in self._axes:
+            return True
+        return any_of([self._exists(row) for row in self._rows.get(name, [])])
+
+    def _exists(self, row: Row) -> Condition:
+        """Return that a point exists; by its own condition, if it came later than the point that asks."""
+        if "condition" not in row.item:
+            return True
+        first, asking = row.item.get("fw"), self._asking.item.get("fw") if self._asking else None
+        if not first or first == asking:
+            return f"exists({row.point.name})"
+        if self._asking is not None:
+            self._asking.point.questions.append(
+                f"not carried: condition: before {row.point.name} came with firmware {first}"
+            )
+        return condition_of(str(row.item["condition"]), self)
+
+    def set_condition(self, row: Row) -> None:
+        """Set when a point exists."""
+        text, point = row.item.get("condition"), row.point
+        if not text or row.is_choice:
+            return
+        self._asking = row
+        when = self.condition(str(text), point.questions)
+        self._asking = None
+        if when is False:
+            point.remarks.append(f"the template has the condition {text}, which is never true")
+        elif isinstance(when, str):
+            point.facts["when"] = scalar(when)
+
+    def condition(self, text: str, questions: list[str]) -> Condition:
+        """Return a condition as a description writes it; True, and a question, if that cannot be."""
+        try:
+            when = condition_of(text, self)
+        except (ValueError, RecursionError) as error:
+            questions.append(f"not carried: condition: {text}: {error}")
+            return True
+        if isinstance(when, str) and len(when) > _LONGEST:
+            questions.append(f"not carried: condition: {text}")
+            return True
+        return when
+
+
+def _comparison(row: Row, sign: str, number: int) -> str:
+    """Return the comparison of a point with a value."""
+    raw = row.raw(Fraction(number))
+    if row.labels or "scale" in row.point.facts:
+        return f"{row.point.name}.raw {sign} {number_text(raw)}"
+    return f"{row.point.name} {sign} {number}"

@@ -1,0 +1,78 @@
+"""Reads a template of wb-mqtt-serial: JSON with comments, or what a Jinja template renders to (`.json.jinja`)."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.wb import rendering
+from fieldscribe.safe_files import read_regular
+from fieldscribe.text import line
+
+PROTOCOLS = ("modbus", "modbus_io")
+"""The protocols of templates that are read; that of modules in slots comes second."""
+MOST_BYTES = 16 << 20
+_WALL_SECONDS = 60
+_LINT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+
+def read_template(path: Path) -> dict[str, Any]:
+    """Return the object that a template holds; its numbers are int or Fraction. Raises UnreadableError, OSError."""
+    text = _text(path)
+    plain = _LINT.sub(lambda match: match[1] or re.sub(r"[^\n]", "", match[0]), text)
+    try:
+        read = json.loads(plain, parse_float=_number, parse_constant=_number)
+    except json.JSONDecodeError as error:
+        where = 0 if path.suffix == ".jinja" else error.lineno
+        raise UnreadableError(f"this is no JSON: {error.msg}, in line {error.lineno} as rendered", where) from error
+    except (RecursionError, ValueError) as error:
+        raise UnreadableError(f"this is no JSON: {line(str(error))[:200]}") from error
+    if not isinstance(read, dict) or not isinstance(read.get("device"), dict):
+        raise UnreadableError("this is no template: there is no `device`", hint="templates are those of wb-mqtt-serial")
+    if (protocol := read["device"].get("protocol", PROTOCOLS[0])) not in PROTOCOLS:
+        hint = f"templates with {' or '.join(PROTOCOLS)} are read"
+        raise UnreadableError(f"the protocol is {line(str(protocol))[:40]}", hint=hint)
+    return read
+
+
+def in_slots(body: Mapping[str, Any]) -> bool:
+    """Return True for modules whose addresses depend on the slot that they stand in."""
+    return body.get("protocol") == PROTOCOLS[1]
+
+
+def _number(text: str) -> Fraction:
+    if len(text) > 40 or not re.fullmatch(r"-?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?", text):
+        raise ValueError(f"{text[:40]} is no number")
+    return Fraction(text)
+
+
+def _text(path: Path) -> str:
+    data = read_regular(path, MOST_BYTES).data
+    if path.suffix == ".jinja":
+        data = _rendered(path)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnreadableError("this is no UTF-8") from error
+
+
+def _rendered(path: Path) -> bytes:
+    """Return what a Jinja template renders to, in a process of its own. Raises UnreadableError where it fails."""
+    command = [sys.executable, "-I", rendering.__file__, str(path.absolute())]
+    try:
+        ended = subprocess.run(command, capture_output=True, timeout=_WALL_SECONDS, check=False)  # noqa: S603 # all ours
+    except subprocess.TimeoutExpired as error:
+        raise UnreadableError(f"the template is not rendered after {_WALL_SECONDS} s") from error
+    if ended.returncode == 0:
+        return ended.stdout
+    if ended.returncode < 0:
+        raise UnreadableError(f"the template is not rendered after {rendering.SECONDS} s of a processor")
+    reason = line(ended.stderr.decode("utf-8", "replace").strip().rpartition("\n")[2])[:200]
+    raise UnreadableError(f"the template does not render: {reason}")

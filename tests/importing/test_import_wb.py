@@ -1,0 +1,272 @@
+"""`import wb`: templates to the description of a device, what is not carried, and templates that break out or loop."""
+
+from __future__ import annotations
+
+import json
+import os
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.importing.wb import rendering
+from fieldscribe.importing.wb.conditions import Condition, condition_of
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+FOLDER = Path(__file__).parent / "wb"
+
+
+@pytest.mark.parametrize("template", ["heater.json", "relays.json.jinja"])
+def test_a_template_becomes_a_device(template: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """FIELDSCRIBE_ACCEPT=1 writes the drafts; look at the difference."""
+    assert main(["import", "wb", str(FOLDER / template), "--device", "heater"]) == 0
+    draft, report = capsys.readouterr()
+    path = FOLDER / f"{template.partition('.')[0]}.draft"
+    if os.environ.get("FIELDSCRIBE_ACCEPT"):
+        path.write_text(f"{draft}# {report}", "utf-8")
+    assert f"{draft}# {report}" == path.read_text("utf-8")
+
+
+def rows(**facts: Any) -> dict[str, Any]:
+    return {"device": {"channels": [{"name": "A", "address": 1} | facts]}}
+
+
+@pytest.mark.parametrize(
+    ("facts", "line"),
+    [
+        ({"format": "s24"}, "type: s24"),
+        ({"format": "double", "word_order": "little_endian"}, "words: low first"),
+        ({"format": "s16", "scale": -0.1, "offset": 4}, "scale: value = raw * -0.1 + 4"),
+        ({"scale": 0.1, "min": 0, "max": 9999}, "range_in_units: 0..6553.5"),
+        ({"scale": 0.25, "min": 0.1, "max": 1}, "range: 1..4"),
+        ({"enum": [0, 10], "enum_titles": ["a", "b"], "scale": 10}, "1: {name: b, en: b}"),
+        ({"address": "0x10:4:2"}, "bits: 5..4"),
+        ({"address": "16:8:0"}, "bits: 15..8"),
+        ({"format": "s16", "error_value": "0xFFFE"}, "special: {-2: error}"),
+        ({"units": "Па"}, "unit: Pa"),
+        ({"type": "lux"}, "unit: lx"),
+        ({"scale": 0.00610352, "round_to": 0.01}, "display: {decimals: 2}"),
+        ({"write_address": "0x20"}, "write_at: 32"),
+        ({"readonly": True}, "access: r"),
+        ({"reg_type": "press_counter"}, "space: input"),
+        ({"default": 7}, "default: 7"),
+        ({"scale": 0.5, "default": 7}, "default_in_units: 7"),
+        ({"description": "why"}, "note: {en: why}"),
+        ({"fw": "1.10.0"}, "since: firmware 1.10.0"),
+        ({"format": "string8", "string_data_size": 3}, "characters: 6"),
+        ({"address": "x"}, "# ? not carried: at: x"),
+        ({"scale": "much"}, "# ? not carried: scale: much"),
+        ({"min": 1, "format": "float"}, "# ? not carried: range: 1..None"),
+        ({"enum": ["a", 1]}, "# ? not carried: enum: ['a', 1]"),
+        ({"on_value": 5}, "# ? not carried: on_value: 5, off_value: None"),
+        ({"address": 70000}, "# ? at: 70000? "),
+    ],
+)
+def test_a_fact(facts: dict[str, Any], line: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert line in imported(rows(**facts), tmp_path, capsys)
+
+
+def imported(template: Any, folder: Path, capsys: pytest.CaptureFixture[str], name: str = "config-a.json") -> str:
+    """Return the draft of a template, or the message."""
+    path = folder / name
+    path.write_text(template if isinstance(template, str) else json.dumps(template), "utf-8")
+    main(["import", "wb", str(path)])
+    draft, message = capsys.readouterr()
+    return draft or message
+
+
+class Known:
+    """Parameters of which `gone` is none, and `far` exists under a condition."""
+
+    def compared(self, name: str, sign: str, number: int) -> Condition:
+        return sign == "!=" if name == "gone" else f"{name} {sign} {number}"
+
+    def defined(self, name: str) -> Condition:
+        known: dict[str, Condition] = {"gone": False, "far": "exists(far)"}
+        return known.get(name, True)
+
+
+@pytest.mark.parametrize(
+    ("template", "description"),
+    [
+        ("a==1", "a == 1"),
+        ("(((a==1)))&&!(b>-2)", "a == 1 and not (b > -2)"),
+        ("a==1||a==2||b==3||a==2", "a in (1, 2) or b == 3"),
+        ("a!=1&&(b==1||c<=2)", "a != 1 and (b == 1 or c <= 2)"),
+        ("3<=a", "a >= 3"),
+        ("isDefined(far)==0||far==1", "not exists(far) or far == 1"),
+        ("isDefined(far)&&b==1", "exists(far) and b == 1"),
+        ("isDefined(a)==0||a==1", "a == 1"),
+        ("gone==1", False),
+        ("gone!=1||a==1", True),
+        ("a==1&&(2==2)", "a == 1"),
+        ("b==0&&(!(b==0)||a==1)", "b == 0 and a == 1"),
+        *(
+            (text, None)
+            for text in ("", "a", "a=1", "a==b", "a==1.5", "f(a)", "a<b<c", "a==1)", "(" * 900, "a+1==2", "a" * 5000)
+        ),
+        *((text, None) for text in ("isDefined(a,b)", "isDefined('a')", "__import__('os')", "[a for a in b]", "a:=1")),
+    ],
+)
+def test_conditions(template: str, description: Condition | None) -> None:
+    """None stands for what cannot be read."""
+    if description is None:
+        with pytest.raises(ValueError, match=r"understood|number|characters"):
+            condition_of(template, Known())
+    else:
+        assert condition_of(template, Known()) == description
+
+
+@pytest.mark.parametrize(
+    ("template", "message"),
+    [
+        ("{{ ''.__class__ }}", "access to attribute '__class__' of 'str' object is unsafe"),
+        ("{{ [].extend([1]) }}", "access to attribute 'extend' of 'list' object is unsafe"),
+        ("{{ cycler.__init__.__globals__ }}", "is unsafe"),
+        ("{% include '../secret.json' %}", "../secret.json"),
+        ("{% include 'link.json' %}", "link.json"),
+        ("{{ missing }}", "'missing' is undefined"),
+        ("{% for %}", "does not render"),
+        ("{{ 1 / 0 }}", "division by zero"),
+        ("{% macro a() %}{{ a() }}{% endmacro %}{{ a() }}", "recursion"),
+        ("{% for a in range(1000000) %}{% endfor %}", "Range too big"),
+        ("{{ 'a' * 900000000 }}", "it needs more than"),
+        ("{% for a in range(99999) %}{{ 'a' * 1000 }}{% endfor %}", "more than 16777216 characters"),
+        ("\ufeff{", "this is no JSON"),
+    ],
+)
+def test_a_template_that_breaks_out_or_fails(
+    template: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "secret.json").write_text('{"device": {"channels": [{"name": "Secret", "address": 1}]}}', "utf-8")
+    folder = tmp_path / "templates"
+    folder.mkdir()
+    (folder / "link.json").symlink_to(tmp_path / "secret.json")
+    assert message in imported(template, folder, capsys, "a.json.jinja")
+
+
+LOOPS = (
+    "{% for a in range(90000) %}" * 6 + "{% endfor %}" * 6,
+    "{% set l = [0] %}{% for a in l %}{% set _ = l.append(0) %}{% endfor %}",
+)
+
+
+@pytest.mark.parametrize("template", LOOPS)
+def test_a_template_that_loops_is_stopped(
+    template: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a limit of one second."""
+    program = tmp_path / "rendering.py"
+    text = Path(rendering.__file__).read_text("utf-8")
+    program.write_text(text.replace("MOST_CHARACTERS = 20,", "MOST_CHARACTERS = 1,"), "utf-8")
+    monkeypatch.setattr(rendering, "__file__", str(program))
+    assert "the template is not rendered after" in imported(template, tmp_path, capsys, "a.json.jinja")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("", "this is no JSON: Expecting value, in line 1"),
+        ("[" * 100_000, "this is no JSON"),
+        ('{"device": 9' + "9" * 5_000 + "}", "this is no JSON"),
+        ('{"device": {"scale": 1e999999999}}', "is no number"),
+        ("[]", "there is no `device`"),
+        ('{"device": []}', "there is no `device`"),
+        ('{"device": {"protocol": "milur"}}', "the protocol is milur"),
+        ('{"device": {}}', "the template has 0 channels and parameters"),
+        ('// a\n/* b\n*/ {"device": {\n"a" 1}}', "config-a.json:4: this is no JSON: Expecting ':' delimiter"),
+    ],
+)
+def test_what_is_no_template(content: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert message in imported(content, tmp_path, capsys)
+
+
+_KEYS = (
+    *(
+        "name",
+        "id",
+        "title",
+        "address",
+        "write_address",
+        "reg_type",
+        "format",
+        "type",
+        "units",
+        "scale",
+        "offset",
+        "enum",
+        "min",
+        "max",
+    ),
+    *(
+        "enum_titles",
+        "on_value",
+        "off_value",
+        "error_value",
+        "round_to",
+        "condition",
+        "fw",
+        "default",
+        "readonly",
+        "consists_of",
+    ),
+    *("string_data_size", "word_order", "byte_order", "description", "group"),
+)
+_VALUES: st.SearchStrategy[Any] = st.one_of(
+    st.sampled_from(
+        [
+            "u8",
+            "s16",
+            "u32",
+            "float",
+            "string",
+            "bcd16",
+            "holding",
+            "coil",
+            "switch",
+            "a==1",
+            "1:2:3",
+            "0x1F",
+            "little_endian",
+        ]
+    ),
+    st.integers(-70000, 70000),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.text(max_size=8),
+    st.booleans(),
+    st.none(),
+    st.lists(st.integers(-3, 3), max_size=3),
+    st.just({"address": 1}),
+)
+_ITEMS = st.dictionaries(st.sampled_from(_KEYS), _VALUES, max_size=9)
+_DRAWN = count()
+
+
+@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    device=st.fixed_dictionaries(
+        {"channels": st.lists(_ITEMS, min_size=1, max_size=4)},
+        optional={
+            "parameters": st.one_of(
+                st.lists(_ITEMS, max_size=3), st.dictionaries(st.sampled_from("abc"), _ITEMS), _VALUES
+            ),
+            "setup": st.lists(_ITEMS, max_size=2),
+            "groups": st.one_of(st.lists(_ITEMS, max_size=2), _VALUES),
+            "translations": st.one_of(
+                st.dictionaries(st.sampled_from(["en", "de", "x"]), st.dictionaries(st.text(max_size=3), _VALUES)),
+                _VALUES,
+            ),
+            **dict.fromkeys(("stride", "shift", "max_read_registers", "guard_interval_us", "other"), _VALUES),
+        },
+    ),
+    hardware=st.one_of(st.lists(st.dictionaries(st.sampled_from(["signature", "fw"]), _VALUES), max_size=2), _VALUES),
+)
+def test_whatever_a_template_holds_compiles(
+    device: dict[str, Any], hardware: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"{next(_DRAWN)}.json"
+    path.write_text(json.dumps({"device": device, "hw": hardware}), "utf-8")
+    assert main(["import", "wb", str(path)]) == 0, capsys.readouterr().err
+    capsys.readouterr()
