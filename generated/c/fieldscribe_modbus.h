@@ -482,10 +482,10 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_find(fieldscrib
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_words(&device->unit, &at, &word, at.count) \
                                              : status;
 
-#define FIELDSCRIBE_MODBUS_BASED_WRITE_WORDS(function, address, count, type, encoded, split) \
+#define FIELDSCRIBE_MODBUS_BASED_WRITE_WORDS(function, address, number, type, encoded, split) \
     type raw = (type)0; \
-    uint16_t words[count]; \
-    const fieldscribe_modbus_writing what = {function, address, count}; \
+    uint16_t words[number]; \
+    const fieldscribe_modbus_writing what = {function, address, number}; \
     const fieldscribe_modbus_writing at = fieldscribe_modbus_writing_at(base, &what); \
     const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
     split; \

@@ -18,7 +18,7 @@ FOLDER = Path(__file__).parent / "sunspec"
 
 DRAFTS = {
     "inverter": ["--models", "1,103,160"],
-    "curves": ["--models", "707"],
+    "curves": ["--models", "707", "--most", "2"],
     "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3"],
     "all_types": ["--models", "63001"],
 }

@@ -163,9 +163,16 @@ FOUND: FactTable = (
 BASE: FactTable = (
     NAME,
     Fact("formula", "How the author writes it.", STRING, DOCS),
-    Fact("offset", "What is added to the multiples of given numbers.", INTEGER, WIRE),
+    Fact("offset", "What is added to the multiples, or to the start of the block.", INTEGER, WIRE),
     Fact("terms", "The factors of given numbers.", map_of(INTEGER), WIRE, value=lambda base, _: dict(base.terms)),
     Fact("block", "The id of the found block; null: no block.", INTEGER_OR_NULL, WIRE),
+    Fact(
+        "counts",
+        "The factors of what points of the block hold.",
+        map_of(INTEGER),
+        WIRE,
+        value=lambda base, _: {name: factor for name, _, factor in base.counts},
+    ),
 )
 _SENDER = Fact(
     "direction",

@@ -188,9 +188,10 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Base:
-    """What addresses of a group count from: the start of a found block, or `offset` plus multiples of given numbers.
+    """What addresses of a group count from: `offset` plus multiples of given numbers, or a place in a found block.
 
-    `terms` has pairs of a given number and its factor; `block` is the id of the block.
+    `terms` has pairs of a given number and its factor. `block` is the id of the block; the base is `offset` words
+    behind its start, plus multiples of what `counts` hold: each a point, its address in the block, and its factor.
     """
 
     name: str
@@ -198,6 +199,12 @@ class Base:
     offset: int
     terms: tuple[tuple[str, int], ...]
     block: int | None
+    counts: tuple[tuple[str, int, int], ...] = ()
+
+    @property
+    def starts_block(self) -> bool:
+        """Return True if this is the start of a found block."""
+        return self.block is not None and not self.counts and not self.offset
 
     @property
     def wanted(self) -> list[str]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from math import prod
 
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Base, Found, Given
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import FactError, formula_value, integer, interval
@@ -16,6 +19,8 @@ from fieldscribe.text import shortened
 _MOST_BASES = 65536
 """The most bases of a group: all of them are worked out."""
 _LAST = 65535
+_NO_COUNTS = frozenset(("bits", "format", "indices", "record", "scale", "sets", "space", "variants", "cases"))
+"""Keys of a row that is no plain word."""
 _USUAL_SPACE, _USUAL_END = "holding", 0xFFFF
 
 
@@ -42,7 +47,7 @@ def read_bases(scope: Scope) -> None:
             number = 2
             while names.setdefault(name, base.formula) != base.formula:
                 name, number = f"{base.name}_{number}", number + 1
-            scope.bases[id(group)] = Base(name, base.formula, base.offset, base.terms, base.block)
+            scope.bases[id(group)] = replace(base, name=name)
 
 
 def _given(scope: Scope, nodes: Map) -> Iterator[Given]:
@@ -99,10 +104,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
         key = "base" if block is None else "block"
         message = f"addresses of the family {scope.family.name} count from 0"
         raise FactError("wrong-choice", message, group.key_span(key), f"leave `{key}` out")
-    if formula is not None and block is not None:
-        hint = "leave one of them out"
-        raise FactError("two-meanings", "the group has a `base` and a `block`", group.key_span("block"), hint)
-    if formula is not None:
+    if formula is not None and block is None:
         return _by_formula(scope, group, str(formula))
     number, found = integer(block, group.span("block"), scope.report), scope.found
     if number is None or (found is None and scope.header.get("found")):
@@ -116,7 +118,46 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
     if number == found.end:
         hint = "a block has another id"
         raise FactError("wrong-choice", f"{number} ends the chain `{found.name}`", group.span("block"), hint)
-    return Base(f"{found.name}_{number}", f"{found.name} {number}", 0, (), number)
+    start = Base(f"{found.name}_{number}", f"{found.name} {number}", 0, (), number)
+    return start if formula is None else _in_block(scope, group, str(formula), start)
+
+
+def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
+    """Return the base that lies behind the start of a block, by what points of the block hold. Raises FactError."""
+    span, places = group.span("base"), dict(_counting_points(scope, group))
+    unknown = f"points of the block that can count are: {', '.join(places) or 'none'}"
+
+    def value(*counted: str, held: int = 1) -> Fraction:
+        numbers = {name: Fraction(held if name in counted else 0) for name in places}
+        return formula_value(formula, numbers, span, unknown)
+
+    used = [name for name in places if re.search(rf"\b{name}\b", formula)]
+    offset = value()
+    factors = {name: value(name) - offset for name in used}
+    rises = value(*used, held=3) == offset + 3 * sum(factors.values())
+    if not rises or any(number < 0 or number.denominator > 1 for number in (offset, *factors.values())):
+        hint = "write it as a sum of multiples, such as `points * 2 + 10`"
+        raise FactError("bad-formula", f"`{formula}` does not rise in whole steps", span, hint)
+    counts = tuple((name, places[name], int(factor)) for name, factor in factors.items())
+    return Base(f"{start.name}_behind", f"{start.formula} + {formula}", int(offset), (), start.block, counts)
+
+
+def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
+    """Yield the points of the same block that can count words, with their addresses: whole words in plain places."""
+    for other in scope.groups:
+        if _whole(other.get("block")) == _whole(group["block"]) and other.keys().isdisjoint(("base", "addressing")):
+            for row in other["points"]:
+                at = _whole(row.get("at"))
+                if at is not None and row.get("type", "u16") == "u16" and row.keys().isdisjoint(_NO_COUNTS):
+                    yield str(row["name"]), at
+
+
+def _whole(value: object) -> int | None:
+    """Return a whole number in any notation; None for anything else."""
+    try:
+        return parse_integer(str(value))
+    except NumberError:
+        return None
 
 
 def _by_formula(scope: Scope, group: Map, formula: str) -> Base:

@@ -34,8 +34,11 @@ def address_text(address: int) -> str:
 
 
 def base_text(base: Base) -> str:
-    """Return what addresses count from: `slot * 1000`, or `block 103 of models`."""
-    return line(base.formula) if base.block is None else f"block {base.block} of {base.name.rpartition('_')[0]}"
+    """Return what addresses count from: `slot * 1000`, `block 103 of models`, `block 705 of models + points * 2`."""
+    if base.block is None:
+        return line(base.formula)
+    chain, _, behind = line(base.formula).partition(f" {base.block}")
+    return f"block {base.block} of {chain}{behind}"
 
 
 def words_text(point: Point) -> str:

@@ -166,3 +166,23 @@ def test_known_from_elsewhere(package: Any) -> None:
     assert line.asked == [(102, 1)]
     for arguments in (("models_161", 1), ("slot", -1), ("slot", 65536), ("slot", 1, 65535), ("slot", "1")):
         assert status(lambda put=arguments: device.set_base(*put))[0] == "bad_base"
+
+
+@pytest.mark.parametrize(("points", "curves"), [(4, 2), (0, 0), (2, 4)])
+def test_behind_what_points_count(package: Any, points: int, curves: int) -> None:
+    """What lies behind counted words is found by reading the counts, once."""
+    words = [points, curves, *(number % 2 for number in range(14))]
+    line = Registers(chain(40000, (705, words)))
+    device = package.KitchenBlocks(line, 1)
+    place = 40002 + points * 2 + curves + 1 + 3
+    line.held[place], line.held[place + 1], line.held[place + 2] = 1, 0, 99
+    assert (device.curve_access.read().name, device.curve_time.read()) == ("CLOSED", 99)
+    assert line.asked[-4:] == [(40004, 1), (40005, 1), (place, 1), (place + 1, 2)]
+    device.curve_access.write(package.CurveAccess.OPEN)
+    assert line.held[place] == 0
+
+
+def test_behind_the_end_of_the_block(package: Any) -> None:
+    """A device that counts more than its block has is answered with what is wrong."""
+    device = package.KitchenBlocks(Registers(chain(40000, (705, [9000, 0, 0, 0]))), 1)
+    assert status(device.curve_time.read)[0] == "behind_end"

@@ -21,11 +21,16 @@ _MOST_BLOCKS = 256
 
 
 class Base(Record):
-    """What addresses count from: the found block of that id, or `offset` plus multiples of given numbers."""
+    """What addresses count from: `offset` plus multiples of given numbers, or a place in the found block of that id.
+
+    This lies `offset` words behind the start of the block, plus multiples of what the words of `counts` hold: by
+    their addresses in the block.
+    """
 
     offset: int = 0
     factors: Mapping[str, int] = {}
     block: int | None = None
+    counts: Mapping[int, int] = {}
 
 
 class Chain(Record):
@@ -86,6 +91,7 @@ class Bases:
     def __init__(self, bases: Mapping[str, Base], given: Mapping[str, tuple[int, int]], chain: Chain | None) -> None:
         self._bases, self._given, self.chain = bases, given, chain
         self._starts: dict[str, Start] = {}
+        self._behind: dict[str, Start] = {}
         self._numbers: dict[str, int] = {}
         self._blocks: dict[int, Start] | BlockError | None = None
 
@@ -113,6 +119,7 @@ class Bases:
     def forget(self) -> None:
         """Search the blocks anew when they are needed."""
         self._blocks = None
+        self._behind.clear()
 
     def blocks_steps(self, read: Read) -> Generator[bytes, bytes, dict[int, Start]]:
         """Return the blocks of the device by their ids, found once."""
@@ -130,7 +137,7 @@ class Bases:
 
     def start_steps(self, name: str, read: Read) -> Generator[bytes, bytes, Start]:
         """Return where a base is. Raises BlockError, or RequestError where a number was not given."""
-        if (known := self._starts.get(name)) is not None:
+        if (known := self._starts.get(name) or self._behind.get(name)) is not None:
             return known
         base = self._bases[name]
         if base.block is not None:
@@ -138,7 +145,15 @@ class Bases:
             if base.block not in blocks:
                 has = ", ".join(map(str, blocks)) or "none"
                 raise BlockError("no_block", f"the device has no block {base.block}, only {has}")
-            return blocks[base.block]
+            start, words = blocks[base.block], base.offset
+            if not words and not base.counts:
+                return start
+            for address, factor in base.counts.items():
+                words += factor * (yield from read(start.address + address, 1))[0]
+            if words > start.last:
+                raise BlockError("behind_end", f"{name} lies behind the end of the block {base.block}")
+            self._behind[name] = Start(start.address + words, start.last - words)
+            return self._behind[name]
         missing = [each for each in base.factors if each not in self._numbers]
         if missing:
             raise RequestError("bad_base", f"where this is depends on {missing[0]}: open the device with {missing[0]}=")

@@ -90,25 +90,44 @@ def _repeats(group: Group) -> bool:
     return group.count != 1 or any(map(_repeats, group.groups))
 
 
+class _Words(NamedTuple):
+    """A number of words: a fixed one, and multiples of what points of the model count."""
+
+    fixed: int
+    counted: Mapping[str, int] = {}
+
+    def plus(self, other: _Words, times: int = 1) -> _Words:
+        """Return the sum with so many times the other."""
+        counted = Counter(self.counted)
+        counted.update({name: factor * times for name, factor in other.counted.items()})
+        return _Words(self.fixed + other.fixed * times, {name: factor for name, factor in counted.items() if factor})
+
+
 @dataclass(frozen=True, slots=True)
 class _Place:
     """Where a group begins, counted from the start of the model; None if that is known only at the device.
 
     `path` has the groups around it, `scope` all points that it sees. `repeats` are the facts that repeat its points,
-    `shared` what all points of the group have; `text` is said of a group around it that has no points of its own.
+    `shared` what all points of the group have, `suffix` ends their names; `text` is said of a group around it that has
+    no points of its own.
     """
 
     model: Model
-    start: int | None
+    start: _Words | None
     path: tuple[str, ...] = ()
     scope: Mapping[str, DraftPoint] = field(default_factory=dict)
     repeats: Mapping[str, str] = field(default_factory=dict)
     shared: Mapping[str, str] = field(default_factory=dict)
+    suffix: str = ""
     text: str = ""
 
-    def behind(self, words: int | None) -> int | None:
-        """Return where the words behind these begin."""
-        return None if self.start is None or words is None else self.start + words
+    def behind(self, words: _Words | None, times: int = 1) -> _Words | None:
+        """Return where the words behind so many times these begin."""
+        return None if self.start is None or words is None else self.start.plus(words, times)
+
+    def only_while(self, condition: str) -> Mapping[str, str]:
+        """Return what all points have, which exist only while this is true."""
+        return {**self.shared, "when": " and ".join(filter(None, (self.shared.get("when"), condition)))}
 
 
 class _Drafter:
@@ -120,14 +139,15 @@ class _Drafter:
         self._doubles = {name for name, times in names.items() if times > 1}
         self._group_names, self._names = Names(), Names()
         self._most, self._counts = most, counts
-        self._counted: Mapping[str, int] = {}
+        self._counting: set[str] = set()
+        self._held: Mapping[str, int] = {}
 
     def add_model(self, model: Model) -> None:
         """Draft a model; what repeats in it exists only while the counting points hold what the user says."""
         counting = {inner.count for inner in _within(model.group)}
-        own = [point.name for point in model.group.points if point.name in counting]
-        self._counted = {name: number for name, number in self._counts.items() if name in own}
-        self._add(model.group, _Place(model, model.header))
+        self._counting = {point.name for point in model.group.points if point.name in counting and point.size == 1}
+        self._held = {name: number for name, number in self._counts.items() if name in self._counting}
+        self._add(model.group, _Place(model, _Words(model.header)))
 
     def _add(self, group: Group, place: _Place) -> None:
         """Draft a group and those within."""
@@ -138,31 +158,48 @@ class _Drafter:
         place = self._repeated(group, place, draft)
         text = " ".join(filter(None, (place.text, group.text)))
         draft.facts |= {"block": number, **({"note": note_of(text)} if text else {}), **place.shared}
+        if place.start is not None and place.start.counted:
+            counted = [f"{place.scope[name].name} * {factor}" for name, factor in place.start.counted.items()]
+            draft.facts["base"] = " + ".join(counted)
         words, scope = 0, dict(place.scope)
+        ending = _snake(re.sub(r"\.\d+", "", "_".join(path[1:])), "group") if place.path else ""
         for point in group.points:
             drafted = DraftPoint(0, "holding", (point.label or point.name)[:_LONGEST_TITLE], point.name)
-            if point.name in self._doubles:
+            if point.name in self._doubles or place.suffix:
                 code = ".".join((number, *path[1:], point.name))
                 drafted.code = code if len(code) <= _LONGEST_CODE else f"{number}.{point.name}"
-            of_group = _snake(group.name, "group") if place.path else ""
-            drafted.name = self._names.give(_snake(drafted.title, "point"), of_group, number)
+            name = _snake(drafted.title, "point") + place.suffix
+            drafted.name = self._names.give(name, ending, number)
             if place.start is None:
                 drafted.questions.append("place: it lies behind elements whose number a point holds; `--count` says it")
             else:
-                drafted.facts |= {"at": str(place.start + words), **place.repeats}
+                drafted.facts |= {"at": str(place.start.fixed + words), **place.repeats}
             words += point.size
             scope[point.name] = drafted
             draft.points.append(drafted)
         for point, drafted in zip(group.points, draft.points, strict=True):
             self.facts.state(point, drafted, scope)
         self.groups += [draft] if group.points else []
-        within = replace(place, path=path, scope=scope, start=place.behind(words), text="" if group.points else text)
-        if not place.path and self._counted:
-            holds = [f"{scope[name].name} == {number}" for name, number in self._counted.items()]
+        start = place.behind(_Words(words))
+        within = replace(place, path=path, scope=scope, start=start, text="" if group.points else text)
+        if not place.path and self._held:
+            holds = [f"{scope[name].name} == {number}" for name, number in self._held.items()]
             within = replace(within, shared={"when": " and ".join(holds)})
         for inner in group.groups:
-            self._add(inner, within)
+            for element, at in self._elements(inner, within):
+                self._add(element, at)
             within = replace(within, start=within.behind(self._all_words(inner)))
+
+    def _elements(self, group: Group, place: _Place) -> Iterator[tuple[Group, _Place]]:
+        """Yield a group and its place; each of its elements where these have as many words as a point counts."""
+        words, counter = self._words(group), place.scope.get(str(group.count))
+        if words is None or not words.counted or counter is None or place.suffix or place.repeats:
+            yield group, place
+            return
+        for number in range(1, (self._number(group) or self._most) + 1):
+            shared, start = place.only_while(f"{counter.name} >= {number}"), place.behind(words, number - 1)
+            named = replace(group, count=1, name=f"{group.name}.{number}")
+            yield named, replace(place, shared=shared, start=start, suffix=f"_set_{number}")
 
     def _repeated(self, group: Group, place: _Place, draft: DraftGroup) -> _Place:
         """Return the place of a group with what repeats it; where that cannot be said, the draft has a comment."""
@@ -172,16 +209,12 @@ class _Drafter:
         times = "to the end of the model" if count == 0 else f"{count} times"
         plural, singular = ("sets", "set") if any(map(_repeats, group.groups)) else ("indices", "index")
         counter = place.scope.get(str(count))
-        if (
-            place.start is None
-            or words is None
-            or plural in place.repeats
-            or (counter is None and count not in range(1 << 16))
-        ):
+        known = words is not None and not words.counted and (counter is not None or not isinstance(count, str))
+        if place.start is None or words is None or not known or plural in place.repeats:
             draft.comments.append(f"repeats: {times}; here is the first")
             return place
         shared = dict(place.shared)
-        shared["addressing"] = f"{shared.get('addressing', 'number')} + ({singular} - 1) * {words}"
+        shared["addressing"] = f"{shared.get('addressing', 'number')} + ({singular} - 1) * {words.fixed}"
         number = self._number(group)
         if number is None:
             repeats = {plural: "to end" if counter is None else f"1..{counter.name}", "most": str(self._most)}
@@ -191,15 +224,22 @@ class _Drafter:
 
     def _number(self, group: Group) -> int | None:
         """Return how many elements a group has; None if the device says it."""
-        return self._counted.get(group.count) if isinstance(group.count, str) else group.count or None
+        return self._held.get(group.count) if isinstance(group.count, str) else group.count or None
 
-    def _words(self, group: Group) -> int | None:
-        """Return how many words an element of a group has; None if the device says it."""
-        words = [self._all_words(inner) for inner in group.groups]
-        known = [each for each in words if each is not None]
-        return sum(point.size for point in group.points) + sum(known) if len(known) == len(words) else None
+    def _words(self, group: Group) -> _Words | None:
+        """Return how many words an element of a group has; None if nothing counts them."""
+        words = _Words(sum(point.size for point in group.points))
+        for inner in group.groups:
+            inside = self._all_words(inner)
+            if inside is None:
+                return None
+            words = words.plus(inside)
+        return words
 
-    def _all_words(self, group: Group) -> int | None:
-        """Return how many words all elements of a group have; None if the device says it."""
+    def _all_words(self, group: Group) -> _Words | None:
+        """Return how many words all elements of a group have; None if nothing counts them."""
         number, words = self._number(group), self._words(group)
-        return None if number is None or words is None else number * words
+        if words is None or number is not None:
+            return None if words is None or number is None else _Words(0).plus(words, number)
+        is_counted = not words.counted and group.count in self._counting
+        return _Words(0, {str(group.count): words.fixed}) if is_counted else None

@@ -139,7 +139,8 @@ HEADS = (
     Key(
         "base",
         GROUP,
-        "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it.",
+        "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it. "
+        "With a `block`: how many words behind its start, by the points of the block that count.",
         ["slot * 1000"],
         Whole(),
         Text(200),

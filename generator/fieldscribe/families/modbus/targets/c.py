@@ -100,9 +100,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     stepped = stepped_views(device.stepped_commands, scope)
     bases = [_base(base, device, scope) for base in device.bases if base.block is None]
     found = device.found and f"{scope.prefix}_{device.found.name}"
-    ids = [
-        (f"{scope.upper}_{upper(base.name)}", unsigned(base.block)) for base in device.bases if base.block is not None
-    ]
+    ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block)) for base in device.bases if base.starts_block]
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
@@ -117,7 +115,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
-        for base in device.bases:
+        for base in (base for base in device.bases if base.block is None or base.starts_block):
             of_block = f"{scope.upper}_{upper(base.name)}", f"{scope.prefix}_{base.name}_base"
             yield Owner("base", base.name), (of_block[base.block is None],)
         if found:

@@ -54,7 +54,9 @@ def _bases(device: Device, scope: PackageScope) -> tuple[Node, ...]:
     bases, maker = [], scope.runtime("Base")
     for base in device.bases:
         factors = Group("{", tuple([f"{python_string(name)}: {factor}" for name, factor in base.terms]), "}")
-        facts = (str(base.offset), factors) if base.block is None else (f"block={base.block}",)
+        counts = Group("counts={", tuple([f"{at}: {factor}" for _, at, factor in base.counts]), "}")
+        facts: tuple[Node, ...] = (str(base.offset), factors) if base.block is None else (f"block={base.block}",)
+        facts += () if base.block is None or base.starts_block else (f"offset={base.offset}", counts)
         bases.append(call(f"{python_string(base.name)}: {maker}", facts))
     given = [f"{python_string(each.name)}: ({each.low}, {each.high})" for each in device.given]
     nodes = [assigned("BASES: ClassVar", Group("{", tuple(bases), "}"))]

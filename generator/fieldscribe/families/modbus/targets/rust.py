@@ -74,6 +74,8 @@ def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
         yield f"The blocks behind {rust_code(found.marker)}.", binding(4, Item(f"pub const {name}", "Chain"), chain)
     for base in device.bases:
         name, text = base.name.upper(), rust_string(base.name)
+        if base.block is not None and not base.starts_block:
+            continue  # whoever reads the counting points makes it
         if found is not None and base.block is not None:
             made = f"FoundBlock::new({text}, &{found.name.upper()}, {base.block})"
             yield f"Block {base.block}.", binding(4, Item(f"pub const {name}", "FoundBlock"), made)
