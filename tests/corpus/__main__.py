@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
-from types import MappingProxyType
 from typing import NamedTuple
 
 from fieldscribe.importing import compilable
@@ -26,10 +25,10 @@ class Measured(NamedTuple):
     """What became of one file: an error, or how many points it has, how many are whole, and what is not carried."""
 
     error: str
-    points: int = 0
-    whole: int = 0
-    lost: Mapping[str, int] = MappingProxyType({})
-    seconds: float = 0.0
+    points: int
+    whole: int
+    lost: Mapping[str, int]
+    seconds: float
 
 
 def main(folder: Path) -> int:
@@ -55,9 +54,9 @@ def _measured(number: int, file: Path) -> Measured | None:
             return None
         compilable(drafted.groups, drafted.head, with_head=True)
     except UnreadableError as error:
-        return Measured(error.message)
+        return Measured(error.message, 0, 0, {}, 0.0)
     except Exception as error:  # an importer must not fail, so this is a finding
-        return Measured(repr(error))
+        return Measured(repr(error), 0, 0, {}, 0.0)
     points = [point for group in drafted.groups for point in group.points]
     texts = [text for group in drafted.groups for text in group.comments]
     texts += [text for point in points for text in point.questions]

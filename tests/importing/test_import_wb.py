@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+import corpus.__main__ as corpus
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.importing.wb import rendering
@@ -27,6 +29,19 @@ def test_a_template_becomes_a_device(template: str, capsys: pytest.CaptureFixtur
     if os.environ.get("FIELDSCRIBE_ACCEPT"):
         path.write_text(f"{draft}# {report}", "utf-8")
     assert f"{draft}# {report}" == path.read_text("utf-8")
+
+
+def test_a_collection_has_a_line_of_marks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, path in (("config-a.json", "heater.json"), ("config-b.json.jinja", "relays.json.jinja")):
+        (tmp_path / name).write_bytes((FOLDER / path).read_bytes())
+    (tmp_path / "config-c.json").write_text('{"device": {"protocol": "milur"}}', "utf-8")
+    (tmp_path / "config-d.json").write_text("[]", "utf-8")
+    assert corpus.main(tmp_path) == 0
+    printed = capsys.readouterr().out
+    assert re.search(r"^\| wb \| 3 \| 1 \| 0 \| 21 \| 85.71% \| \d+ \|$", printed, re.MULTILINE)
+    assert "  config-b.json.jinja: the template does not render: relays_inputs.json.jinja\n" in printed
+    assert "  config-d.json: this is no template: there is no `device`\n" in printed
+    assert "  not carried: condition: 2 in 1 files, alone in 0\n" in printed
 
 
 def rows(**facts: Any) -> dict[str, Any]:

@@ -16,6 +16,8 @@ from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
 
 FAMILY = next(family for family in families() if "holding" in family.spaces)
+SLOTS = range(1, 5)
+"""The slots of modules; the gateway counts them again from 1 behind the last."""
 _SIGNATURE = (200, 20)
 """Where devices of Wiren Board hold their model: the first register, and how many, with a character in each."""
 _TIMES = {
@@ -101,7 +103,7 @@ def blocks_of(template: Mapping[str, Any], parameters: Parameters) -> list[Draft
             block.questions += [f"not carried: fw: {text} of {name}" for name, text in signatures.items() if text]
         blocks.append(block)
     if in_slots(body):
-        blocks.append(DraftBlock(["given: {slot: {range: 1..4}}"]))
+        blocks.append(DraftBlock([f"given: {{slot: {{range: {SLOTS[0]}..{SLOTS[-1]}}}}}"]))
     blocks.append(_set_up(body, parameters))
     if parameters.units:
         listed = [
@@ -125,22 +127,27 @@ def _space(item: Mapping[str, Any]) -> str:
 
 
 def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
-    """Return the commands of these writes; a step has no base, so those of a module in a slot are not carried."""
-    block, steps = DraftBlock([]), list[str]()
+    """Return the commands of these writes: for each slot, as a step has no base, or such that run first."""
+    block, steps = DraftBlock([]), list[tuple[str, Fraction, str]]()
     for item in _writes(body):
         address, value, form = number_of(item.get("address")), number_of(item.get("value")), item.get("format", "u16")
         when = parameters.condition(str(item["condition"]), block.questions) if item.get("condition") else True
-        is_word = _space(item) in ("holding", "coil") and form in ("u16", "s16") and None not in (address, value)
-        if not is_word or in_slots(body):
-            block.questions.append(
-                f"not carried: setup: {item.get('title')}: {item.get('address')} = {item.get('value')}"
-            )
+        if address is None or value is None or _space(item) not in ("holding", "coil") or form not in ("u16", "s16"):
+            stated = f"{item.get('address')} = {item.get('value')}"
+            block.questions.append(f"not carried: setup: {item.get('title')}: {stated}")
         elif when is not False:
             condition = "" if when is True else f", when: {scalar(str(when))}"
-            facts = f"{{space: {_space(item)}, at: {address}, words: [{value}]{condition}}}"
-            steps.append(f"  - {facts}  # {line(str(item.get('title', '')))}")
-    for number, first in enumerate(range(0, len(steps), _MOST_STEPS), 1):
-        name = "set_up" if number == 1 else f"set_up_{number}"
-        head = [] if block.lines else ["commands:"]
-        block.lines += [*head, f"- name: {name}", "  run: first", "  steps:", *steps[first : first + _MOST_STEPS]]
+            words = f"words: [{value}]{condition}}}  # {line(str(item.get('title', '')))}"
+            steps.append((f"  - {{space: {_space(item)}, at: ", address, f", {words}"))
+    stride, shift = number_of(body.get("stride")) or 0, number_of(body.get("shift")) or 0
+    for slot in SLOTS if in_slots(body) else (0,):
+        run, suffix = ("by caller", f"_in_slot_{slot}") if slot else ("first", "")
+        for number, first in enumerate(range(0, len(steps), _MOST_STEPS), 1):
+            head = ["commands:"] if not block.lines else []
+            name = f"set_up{suffix}{f'_{number}' if number > 1 else ''}"
+            part = [
+                f"{start}{at + slot * stride + shift * (slot > 0)}{end}"
+                for start, at, end in steps[first:][:_MOST_STEPS]
+            ]
+            block.lines += [*head, f"- name: {name}", f"  run: {run}", "  steps:", *part]
     return block
