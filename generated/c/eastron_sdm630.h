@@ -47,6 +47,7 @@ typedef fieldscribe_real eastron_sdm630_real;
 #define EASTRON_SDM630_NO_CASE FIELDSCRIBE_NO_CASE
 #define EASTRON_SDM630_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define EASTRON_SDM630_SPECIAL FIELDSCRIBE_SPECIAL
+#define EASTRON_SDM630_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

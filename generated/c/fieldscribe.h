@@ -64,7 +64,8 @@ typedef enum fieldscribe_status {
     FIELDSCRIBE_ZERO_FACTOR,   /* a point that the scale needs is zero, or holds a special code */
     FIELDSCRIBE_NO_CASE,       /* the scale has no case for the number in the other point */
     FIELDSCRIBE_OVERFLOW,      /* the result does not fit */
-    FIELDSCRIBE_SPECIAL        /* the raw number is a special code: ..._special_name gives its name */
+    FIELDSCRIBE_SPECIAL,       /* the raw number is a special code: ..._special_name gives its name */
+    FIELDSCRIBE_MALFORMED      /* the words do not hold what they should: a text that is no UTF-8 or UTF-16 */
 } fieldscribe_status;
 
 /* Start of a function whose result callers must use, and of one that returns a status. */
@@ -1206,8 +1207,8 @@ static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t cou
 }
 
 /*
- * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one has
- * the low byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; the first 0 ends it.
+ * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one the
+ * low byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; the first 0 ends it.
  */
 static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool low_first)
 {
@@ -1215,12 +1216,27 @@ static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool 
     return (is_low == low_first) ? 8U : 0U;
 }
 
-/* Store a text, fill up, and put a 0 beside a single character. Blanks at the end are not part of the text. */
+/* Store characters, fill up, and put a 0 beside a single one. Blanks at the end are not part of the text. */
+static inline void fieldscribe_pack(const unsigned char *codes, size_t length, uint16_t *words, size_t most,
+    size_t in_word, bool low_first, unsigned char fill)
+{
+    size_t end = length;
+    size_t at;
+    while ((end > 0U) && (codes[end - 1U] == 0x20U)) {
+        --end;
+    }
+    for (at = 0U; at < (most + (most % in_word)); ++at) {
+        const uint32_t code = (at < end) ? codes[at] : fill;
+        const uint32_t other = ((at % in_word) == 0U) ? 0U : words[at / in_word];
+        words[at / in_word] = (uint16_t)(other | (code << fieldscribe_packed_shift(at, in_word, low_first)));
+    }
+}
+
+/* Store a text so; OUT_OF_RANGE if it does not fit, or has a character that is not printable. */
 FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t length, bool latin, uint16_t *words,
     size_t most, size_t in_word, bool low_first, unsigned char fill)
 {
     const unsigned char *const codes = (const unsigned char *)text;
-    size_t end = length;
     size_t at;
     if (length > most) {
         return FIELDSCRIBE_OUT_OF_RANGE;
@@ -1230,15 +1246,7 @@ FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t len
             return FIELDSCRIBE_OUT_OF_RANGE;
         }
     }
-    while ((end > 0U) && (codes[end - 1U] == 0x20U)) {
-        --end;
-    }
-    for (at = 0U; at < (most + (most % in_word)); ++at) {
-        const uint32_t shift = fieldscribe_packed_shift(at, in_word, low_first);
-        const uint32_t code = (uint32_t)((at < end) ? codes[at] : fill) << shift;
-        const uint32_t other = ((at % in_word) == 0U) ? 0U : words[at / in_word];
-        words[at / in_word] = (uint16_t)(other | code);
-    }
+    fieldscribe_pack(codes, length, words, most, in_word, low_first, fill);
     return FIELDSCRIBE_OK;
 }
 
@@ -1261,6 +1269,189 @@ static inline size_t fieldscribe_packed_text_of_words(
     }
     text[length] = '\0';
     return length;
+}
+
+/* ---- UTF-8 and UTF-16 ---- */
+
+/* How many bytes a character has. */
+static inline size_t fieldscribe_utf8_size(uint32_t number)
+{
+    size_t size = 1U;
+    if (number >= 0x80U) {
+        ++size;
+    }
+    if (number >= 0x800U) {
+        ++size;
+    }
+    if (number >= 0x10000U) {
+        ++size;
+    }
+    return size;
+}
+
+/* The bytes of the character that these begin with, and its number; 0 bytes if they begin with no UTF-8. */
+static inline size_t fieldscribe_utf8_first(const unsigned char *codes, size_t length, uint32_t *character)
+{
+    const uint32_t lead = codes[0];
+    uint32_t number = lead;
+    size_t size = 1U;
+    size_t at;
+    if (lead >= 0x80U) {
+        size = 2U;
+        if (lead >= 0xE0U) {
+            ++size;
+        }
+        if (lead >= 0xF0U) {
+            ++size;
+        }
+        number &= 0xFFU >> size;
+    }
+    if (size > length) {
+        return 0U;
+    }
+    for (at = 1U; at < size; ++at) {
+        if ((codes[at] & 0xC0U) != 0x80U) {
+            return 0U;
+        }
+        number = (number << 6) | (codes[at] & 0x3FU);
+    }
+    *character = number;
+    if ((number > 0x10FFFFU) || ((number >= 0xD800U) && (number <= 0xDFFFU)) || ((lead & 0xC0U) == 0x80U)) {
+        return 0U;
+    }
+    return (fieldscribe_utf8_size(number) == size) ? size : 0U;
+}
+
+/* Whether a text is UTF-8 without control characters; counts its 16-bit units. */
+static inline bool fieldscribe_utf8_is_printable(const char *text, size_t length, size_t *units)
+{
+    const unsigned char *const codes = (const unsigned char *)text;
+    bool fine = true;
+    size_t at = 0U;
+    *units = 0U;
+    while (fine && (at < length)) {
+        uint32_t number = 0U;
+        const size_t size = fieldscribe_utf8_first(&codes[at], length - at, &number);
+        fine = (size > 0U) && (number >= 0x20U) && ((number < 0x7FU) || (number > 0x9FU));
+        *units += (size > 3U) ? 2U : 1U;
+        at += size;
+    }
+    return fine;
+}
+
+/* Store a text of UTF-8 as the packed ones; OUT_OF_RANGE if it does not fit or is none. */
+FIELDSCRIBE_STATUS fieldscribe_words_of_utf8(const char *text, size_t length, uint16_t *words, size_t most,
+    size_t in_word, bool low_first, unsigned char fill)
+{
+    size_t units;
+    if ((length > most) || !fieldscribe_utf8_is_printable(text, length, &units)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    fieldscribe_pack((const unsigned char *)text, length, words, most, in_word, low_first, fill);
+    return FIELDSCRIBE_OK;
+}
+
+/* The text as the packed ones; MALFORMED if it is no UTF-8. */
+FIELDSCRIBE_STATUS fieldscribe_utf8_of_words(const uint16_t *words, size_t most, size_t in_word, bool low_first,
+    unsigned char fill, char *text, size_t *length)
+{
+    const unsigned char *const codes = (const unsigned char *)text;
+    bool fine = true;
+    size_t at = 0U;
+    *length = fieldscribe_packed_text_of_words(words, most, in_word, low_first, fill, text);
+    while (fine && (at < *length)) {
+        uint32_t number = 0U;
+        const size_t size = fieldscribe_utf8_first(&codes[at], *length - at, &number);
+        fine = size > 0U;
+        at += size;
+    }
+    return fine ? FIELDSCRIBE_OK : FIELDSCRIBE_MALFORMED;
+}
+
+static inline uint16_t fieldscribe_in_order(uint32_t word, bool low_first)
+{
+    return (uint16_t)(low_first ? (((word & 0xFFU) << 8) | (word >> 8)) : word);
+}
+
+/* Store a text of UTF-8 as UTF-16, a unit a word, filled up; OUT_OF_RANGE if it does not fit or is none. */
+FIELDSCRIBE_STATUS fieldscribe_words_of_utf16(
+    const char *text, size_t length, uint16_t *words, size_t most, bool low_first, unsigned char fill)
+{
+    const unsigned char *const codes = (const unsigned char *)text;
+    size_t units;
+    size_t end = length;
+    size_t from = 0U;
+    size_t at = 0U;
+    if (!fieldscribe_utf8_is_printable(text, length, &units) || (units > most)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    while ((end > 0U) && (codes[end - 1U] == 0x20U)) {
+        --end;
+    }
+    while (at < most) {
+        uint32_t number = fill;
+        if (from < end) {
+            from += fieldscribe_utf8_first(&codes[from], end - from, &number);
+        }
+        if ((number > 0xFFFFU) && ((at + 1U) < most)) {
+            words[at] = fieldscribe_in_order(0xD7C0U + (number >> 10), low_first);
+            number = 0xDC00U | (number & 0x3FFU);
+            ++at;
+        }
+        words[at] = fieldscribe_in_order(number & 0xFFFFU, low_first);
+        ++at;
+    }
+    return FIELDSCRIBE_OK;
+}
+
+/* Append a character as UTF-8; returns the new length. */
+static inline size_t fieldscribe_append_utf8(unsigned char *codes, size_t length, uint32_t number)
+{
+    const size_t size = fieldscribe_utf8_size(number);
+    uint32_t rest = number;
+    size_t at;
+    for (at = size - 1U; at > 0U; --at) {
+        codes[length + at] = (unsigned char)(0x80U | (rest & 0x3FU));
+        rest >>= 6;
+    }
+    if (size > 1U) {
+        rest |= 0xF00U >> size;
+    }
+    codes[length] = (unsigned char)(rest & 0xFFU);
+    return length + size;
+}
+
+/*
+ * The text of UTF-16 words as UTF-8, which has up to three bytes for each of `most`, up to the fill and without blanks
+ * at the end; MALFORMED if it is no UTF-16.
+ */
+FIELDSCRIBE_STATUS fieldscribe_utf16_of_words(
+    const uint16_t *words, size_t most, bool low_first, unsigned char fill, char *text, size_t *length)
+{
+    unsigned char *const codes = (unsigned char *)text;
+    fieldscribe_status status = FIELDSCRIBE_OK;
+    size_t end = 0U;
+    size_t at = 0U;
+    while ((at < most) && ((fill != 0U) || (words[at] != 0U))) {
+        uint32_t number = fieldscribe_in_order(words[at], low_first);
+        ++at;
+        if ((number >= 0xD800U) && (number <= 0xDFFFU)) {
+            const uint32_t next = (at < most) ? fieldscribe_in_order(words[at], low_first) : 0U;
+            if ((number > 0xDBFFU) || (next < 0xDC00U) || (next > 0xDFFFU)) {
+                status = FIELDSCRIBE_MALFORMED;
+                break;
+            }
+            number = 0x10000U + ((number & 0x3FFU) << 10) + (next & 0x3FFU);
+            ++at;
+        }
+        end = fieldscribe_append_utf8(codes, end, number);
+    }
+    while ((end > 0U) && (text[end - 1U] == ' ')) {
+        --end;
+    }
+    text[end] = '\0';
+    *length = end;
+    return status;
 }
 
 /* ---- Floating-point patterns ---- */

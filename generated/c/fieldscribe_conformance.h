@@ -669,8 +669,8 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_bytes(v, "text", text, length);                                           \
     }
 
-#define FIELDSCRIBE_TEXT_ENCODE(function, macro)                                                 \
-    if (fieldscribe_asks(v, "text_encode")) {                                                    \
+#define FIELDSCRIBE_ENCODE_OF(kind, function, macro)                                             \
+    if (fieldscribe_asks(v, kind)) {                                                             \
         uint8_t text[FIELDSCRIBE_BYTES_MOST] = {0U};                                             \
         uint16_t words[macro##_WORDS + 1U];                                                      \
         const size_t length = fieldscribe_bytes(v, "text", text, sizeof text);                   \
@@ -681,6 +681,24 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_untouched(v, words + (status == 0 ? macro##_WORDS : 0U),                     \
             status == 0 ? sizeof words[0] : sizeof words);                                       \
         fieldscribe_is_words(v, "words", words, status == 0 ? macro##_WORDS : 0U);               \
+    }
+
+#define FIELDSCRIBE_TEXT_ENCODE(function, macro) FIELDSCRIBE_ENCODE_OF("text_encode", function, macro)
+#define FIELDSCRIBE_UNICODE_ENCODE(function, macro) FIELDSCRIBE_ENCODE_OF("unicode_encode", function, macro)
+
+#define FIELDSCRIBE_UNICODE_DECODE(function, macro, bytes)                                       \
+    if (fieldscribe_asks(v, "unicode_decode")) {                                                 \
+        uint16_t words[macro##_WORDS];                                                           \
+        char text[(bytes) + 2U];                                                                 \
+        const size_t count = fieldscribe_numbers(v, "words", words, macro##_WORDS);              \
+        size_t length = 0U;                                                                      \
+        int status;                                                                              \
+        fieldscribe_fill(text, sizeof text);                                                     \
+        status = (int)function##_decode(words, text, &length);                                   \
+        fieldscribe_is_status(v, status);                                                        \
+        fieldscribe_agree(v, count == macro##_WORDS && length <= (bytes) && text[length] == '\0'); \
+        fieldscribe_untouched(v, text + (bytes) + 1U, 1U);                                       \
+        fieldscribe_is_bytes(v, "text", text, status == 0 ? length : 0U);                        \
     }
 
 #define FIELDSCRIBE_DIGITS(function, digit_type, macro)                                          \

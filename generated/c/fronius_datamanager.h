@@ -42,6 +42,7 @@ typedef fieldscribe_real fronius_datamanager_real;
 #define FRONIUS_DATAMANAGER_NO_CASE FIELDSCRIBE_NO_CASE
 #define FRONIUS_DATAMANAGER_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define FRONIUS_DATAMANAGER_SPECIAL FIELDSCRIBE_SPECIAL
+#define FRONIUS_DATAMANAGER_MALFORMED FIELDSCRIBE_MALFORMED
 
 /* What tells the device, and each of its variants, from others: what these points hold, in the order of reading. */
 #define FRONIUS_DATAMANAGER_IDENTIFY_MANUFACTURER "Fronius"

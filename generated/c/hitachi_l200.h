@@ -53,6 +53,7 @@ typedef fieldscribe_real hitachi_l200_real;
 #define HITACHI_L200_NO_CASE FIELDSCRIBE_NO_CASE
 #define HITACHI_L200_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define HITACHI_L200_SPECIAL FIELDSCRIBE_SPECIAL
+#define HITACHI_L200_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

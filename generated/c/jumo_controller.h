@@ -48,6 +48,7 @@ typedef fieldscribe_real jumo_controller_real;
 #define JUMO_CONTROLLER_NO_CASE FIELDSCRIBE_NO_CASE
 #define JUMO_CONTROLLER_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define JUMO_CONTROLLER_SPECIAL FIELDSCRIBE_SPECIAL
+#define JUMO_CONTROLLER_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

@@ -49,6 +49,7 @@ typedef fieldscribe_real nord_sk5xxe_real;
 #define NORD_SK5XXE_NO_CASE FIELDSCRIBE_NO_CASE
 #define NORD_SK5XXE_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define NORD_SK5XXE_SPECIAL FIELDSCRIBE_SPECIAL
+#define NORD_SK5XXE_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

@@ -59,6 +59,7 @@ typedef fieldscribe_real siemens_mm4_real;
 #define SIEMENS_MM4_NO_CASE FIELDSCRIBE_NO_CASE
 #define SIEMENS_MM4_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define SIEMENS_MM4_SPECIAL FIELDSCRIBE_SPECIAL
+#define SIEMENS_MM4_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

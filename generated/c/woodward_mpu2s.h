@@ -57,6 +57,7 @@ typedef fieldscribe_real woodward_mpu2s_real;
 #define WOODWARD_MPU2S_NO_CASE FIELDSCRIBE_NO_CASE
 #define WOODWARD_MPU2S_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define WOODWARD_MPU2S_SPECIAL FIELDSCRIBE_SPECIAL
+#define WOODWARD_MPU2S_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, as the manual gives them. TIMING_..._MS are milliseconds, MIN and MAX their limits;

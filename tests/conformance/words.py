@@ -43,6 +43,20 @@ def text_encode(package: Package, vector: Vector) -> bool:
     return bool(status == vector["status"] and words == vector["words"])
 
 
+def unicode_decode(package: Package, vector: Vector) -> bool:
+    """Words to a text of Unicode."""
+    point = package.point(vector)
+    status, text = package.outcome(point.decode, point.from_words(list(vector["words"])))
+    return bool(status == vector["status"] and (status != "ok" or text.encode() == vector["text"]))
+
+
+def unicode_encode(package: Package, vector: Vector) -> bool:
+    """A text of Unicode to words."""
+    point = package.point(vector)
+    status, raw = package.outcome(point.encode, vector["text"].decode())
+    return bool(status == vector["status"] and (status != "ok" or point.to_words(raw) == tuple(vector["words"])))
+
+
 def digits(package: Package, vector: Vector) -> bool:
     """A word to its digits."""
     status, found = package.outcome(package.point(vector).decode, vector["raw"])
@@ -62,6 +76,8 @@ CHECKS: Mapping[str, Check] = {
     "words": words,
     "text_decode": text_decode,
     "text_encode": text_encode,
+    "unicode_decode": unicode_decode,
+    "unicode_encode": unicode_encode,
     "digits": digits,
     "digits_encode": digits_encode,
 }

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.conversation.explanation import read_text
 from fieldscribe.families.frame_results import FrameResult, refused
-from fieldscribe.families.modbus.frame_builder import words_of, write_request
+from fieldscribe.families.modbus.frame_builder import words_of, write_requests
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Code, Place
@@ -116,7 +116,7 @@ def test_nothing_is_sent_where_no_function_writes(space: str) -> None:
     reads = tuple(Code(number, f"read_{number}", titles("Read"), None) for number in (2, 4))
     device = replace(DEVICE, bus=replace(DEVICE.bus, functions=(*DEVICE.bus.functions, *reads)))
     with pytest.raises(RefusedError) as refusal:
-        write_request(device, changed(named(DEVICE, "third"), space=space), 1, None, None)
+        write_requests(device, changed(named(DEVICE, "third"), space=space), 1, None, None)
     assert refusal.value.status == "bad_function"
 
 
@@ -231,22 +231,22 @@ def test_words() -> None:
 
 
 def test_requests_to_write() -> None:
-    request, data = write_request(DEVICE, named(DEVICE, "base_frequency"), 500, 5, None)
+    [(request, data)] = write_requests(DEVICE, named(DEVICE, "base_frequency"), 500, 5, None)
     assert data == bytes.fromhex("0506102801F40C91")
     assert (request.unit, request.function) == (5, 6)
-    assert write_request(DEVICE, named(DEVICE, "acceleration_time"), 300000, None, None)[1][1] == 0x10
-    assert write_request(DEVICE, named(DEVICE, "run_command"), 1, None, "tcp")[1][6:9] == b"\x01\x05\x00"
+    assert write_requests(DEVICE, named(DEVICE, "acceleration_time"), 300000, None, None)[0][1][1] == 0x10
+    assert write_requests(DEVICE, named(DEVICE, "run_command"), 1, None, "tcp")[0][1][6:9] == b"\x01\x05\x00"
     with pytest.raises(RefusedError, match="shares its word") as caught:
-        write_request(DEVICE, named(DEVICE, "signed_byte"), -1, None, None)
+        write_requests(DEVICE, named(DEVICE, "signed_byte"), -1, None, None)
     assert "3FC0h by 3FC0h" in caught.value.hint
     with pytest.raises(RefusedError, match="unit number"):
-        write_request(DEVICE, named(DEVICE, "base_frequency"), 500, 99, None)
+        write_requests(DEVICE, named(DEVICE, "base_frequency"), 500, 99, None)
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
     with pytest.raises(RefusedError, match="does not speak this framing"):
-        write_request(rtu_only, named(DEVICE, "base_frequency"), 500, 1, "tcp")
+        write_requests(rtu_only, named(DEVICE, "base_frequency"), 500, 1, "tcp")
     slow = replace(DEVICE, bus=replace(DEVICE.bus, functions=()))
     with pytest.raises(RefusedError, match="no function"):
-        write_request(slow, named(DEVICE, "base_frequency"), 500, 1, None)
+        write_requests(slow, named(DEVICE, "base_frequency"), 500, 1, None)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@
 #include "fieldscribe_modbus.h"
 
 static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
-    "overflow", "special", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
+    "overflow", "special", "malformed", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
     "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
     "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
 

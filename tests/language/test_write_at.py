@@ -10,7 +10,7 @@ from fieldscribe.conversation.explanation import explain_point, write_text
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
 from fieldscribe.families.frame_results import Options
-from fieldscribe.families.modbus.frame_builder import write_request
+from fieldscribe.families.modbus.frame_builder import write_requests
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, rust
@@ -71,8 +71,16 @@ def test_it_is_explained() -> None:
 
 
 def test_requests_write_there() -> None:
-    assert write_request(DEVICE, named(DEVICE, "wanted_speed"), 2050, 1, "rtu")[1].hex(" ").startswith("01 10 61 00 00")
-    assert write_request(DEVICE, named(DEVICE, "wanted_light"), 1, 1, "rtu")[1].hex(" ").startswith("01 05 00 5a ff 00")
+    assert (
+        write_requests(DEVICE, named(DEVICE, "wanted_speed"), 2050, 1, "rtu")[0][1]
+        .hex(" ")
+        .startswith("01 10 61 00 00")
+    )
+    assert (
+        write_requests(DEVICE, named(DEVICE, "wanted_light"), 1, 1, "rtu")[0][1]
+        .hex(" ")
+        .startswith("01 05 00 5a ff 00")
+    )
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,8 @@ static uint16_t words[TEXT];
 static uint16_t digits[ROWS];
 static char text[2U * TEXT + 1U];
 static char given[2U * TEXT + 4U];
+static char wide_text[3U * TEXT + 1U];
+static size_t a_size;
 static bool a_bool;
 static uint8_t a_u8;
 static int8_t an_s8;
@@ -257,6 +259,26 @@ void prove_text(void)
     (void)fieldscribe_packed_shift(TEXT, 2U, coin != 0U);
     (void)fieldscribe_packed_text_of_words(words, TEXT, 1U, coin != 0U, a_u8, text);
     (void)fieldscribe_packed_text_of_words(words, 2U * TEXT - 1U, 2U, coin != 0U, a_u8, text);
+    (void)status;
+}
+
+void prove_unicode(void)
+{
+    fieldscribe_status status = FIELDSCRIBE_OK;
+    uint32_t number;
+    size_t length;
+    for (length = 0U; length <= 4U; ++length) {
+        fieldscribe_pack((const unsigned char *)given, length, words, 3U, 2U, coin != 0U, a_u8);
+        (void)fieldscribe_utf8_is_printable(given, length, &a_size);
+        status = fieldscribe_words_of_utf8(given, length, words, 3U, 2U, coin != 0U, a_u8);
+        status = fieldscribe_words_of_utf16(given, length, words, 2U, coin != 0U, a_u8);
+    }
+    (void)fieldscribe_utf8_first((const unsigned char *)given, 4U, &number);
+    (void)fieldscribe_utf8_size(pattern);
+    (void)fieldscribe_append_utf8((unsigned char *)wide_text, 0U, pattern);
+    (void)fieldscribe_in_order(a_u16, coin != 0U);
+    status = fieldscribe_utf8_of_words(words, 3U, 2U, coin != 0U, a_u8, text, &a_size);
+    status = fieldscribe_utf16_of_words(words, 2U, coin != 0U, a_u8, wide_text, &a_size);
     (void)status;
 }
 

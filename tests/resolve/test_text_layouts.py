@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fieldscribe.arithmetic.texts import pattern_of_text, text_of
+from fieldscribe.arithmetic.texts import fits, pattern_of_text, text_of
 from fieldscribe.model import Text
 from support.described import group, head, loaded_in, together
 
@@ -44,6 +44,10 @@ def test_the_nearest_place_decides(tmp_path: Path) -> None:
         (Text(3, "ascii", low_first=True), "ABC", 0x42412043),
         (Text(2, "ascii", per_word=1), "A", 0x00410020),
         (Text(2, "ascii", per_word=1, padding=0, low_first=True), "A", 0x41000000),
+        (Text(3, "utf-8"), "\u20ac", 0xE282AC20),
+        (Text(3, "utf-8", per_word=1, padding=0), "\u00e4", 0x00C300A40000),
+        (Text(3, "utf-16", per_word=1), "\u00e4", 0x00E400200020),
+        (Text(3, "utf-16", per_word=1, padding=0, low_first=True), "\U0001d11e", 0x34D81EDD0000),
     ],
 )
 def test_words(layout: Text, text: str, pattern: int) -> None:
@@ -58,7 +62,21 @@ def test_words(layout: Text, text: str, pattern: int) -> None:
         (Text(4, "ascii", padding=0), 0x41202000, "A"),
         (Text(3, "ascii"), 0x41424399, "ABC"),
         (Text(2, "ascii", per_word=1), 0x99419942, "AB"),
+        (Text(4, "utf-8", padding=0), 0x410080FF, "A"),
+        (Text(2, "utf-16", per_word=1), 0x00410000, "A\0"),
     ],
 )
 def test_what_is_read_and_never_written(layout: Text, pattern: int, text: str) -> None:
     assert text_of(layout, pattern) == text
+
+
+def test_room() -> None:
+    assert [fits(Text(4, "utf-8"), text) for text in ("abcd", "\u00e4\u00e4", "\u00e4\u00e4a", "\ud800")] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    assert [fits(Text(2, "utf-16", 1), text) for text in ("ab", "\U0001d11e", "a\U0001d11e")] == [True, True, False]
+    with pytest.raises(UnicodeDecodeError):
+        text_of(Text(2, "utf-8"), 0xE282)

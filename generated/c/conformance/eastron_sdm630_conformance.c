@@ -1205,6 +1205,7 @@ static const fieldscribe_status_name statuses[] = {
     {EASTRON_SDM630_NO_CASE, "no_case"},
     {EASTRON_SDM630_OVERFLOW, "overflow"},
     {EASTRON_SDM630_SPECIAL, "special"},
+    {EASTRON_SDM630_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -4482,6 +4482,7 @@ static const fieldscribe_status_name statuses[] = {
     {FRONIUS_DATAMANAGER_NO_CASE, "no_case"},
     {FRONIUS_DATAMANAGER_OVERFLOW, "overflow"},
     {FRONIUS_DATAMANAGER_SPECIAL, "special"},
+    {FRONIUS_DATAMANAGER_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

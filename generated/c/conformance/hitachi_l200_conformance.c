@@ -4280,6 +4280,7 @@ static const fieldscribe_status_name statuses[] = {
     {HITACHI_L200_NO_CASE, "no_case"},
     {HITACHI_L200_OVERFLOW, "overflow"},
     {HITACHI_L200_SPECIAL, "special"},
+    {HITACHI_L200_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

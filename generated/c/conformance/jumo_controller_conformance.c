@@ -489,6 +489,7 @@ static const fieldscribe_status_name statuses[] = {
     {JUMO_CONTROLLER_NO_CASE, "no_case"},
     {JUMO_CONTROLLER_OVERFLOW, "overflow"},
     {JUMO_CONTROLLER_SPECIAL, "special"},
+    {JUMO_CONTROLLER_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -276,6 +276,7 @@ static const fieldscribe_status_name statuses[] = {
     {NORD_SK5XXE_NO_CASE, "no_case"},
     {NORD_SK5XXE_OVERFLOW, "overflow"},
     {NORD_SK5XXE_SPECIAL, "special"},
+    {NORD_SK5XXE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -1119,6 +1119,7 @@ static const fieldscribe_status_name statuses[] = {
     {SIEMENS_MM4_NO_CASE, "no_case"},
     {SIEMENS_MM4_OVERFLOW, "overflow"},
     {SIEMENS_MM4_SPECIAL, "special"},
+    {SIEMENS_MM4_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -7292,6 +7292,7 @@ static const fieldscribe_status_name statuses[] = {
     {WOODWARD_MPU2S_NO_CASE, "no_case"},
     {WOODWARD_MPU2S_OVERFLOW, "overflow"},
     {WOODWARD_MPU2S_SPECIAL, "special"},
+    {WOODWARD_MPU2S_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

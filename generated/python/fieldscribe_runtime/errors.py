@@ -96,6 +96,12 @@ class SpecialCodeError(CodecError):
         self.special = special
 
 
+class MalformedError(CodecError):
+    """The words do not hold what they should: a text that is no UTF-8 or UTF-16."""
+
+    status = "malformed"
+
+
 class WrongLengthError(CodecError):
     """Too few or too many words for this point."""
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from .arguments import shown, whole
-from .errors import UnknownValueError, WrongLengthError, WrongTypeError
+from .errors import MalformedError, UnknownValueError, WrongLengthError, WrongTypeError
 from .forms import Form, Type
 
 if TYPE_CHECKING:
@@ -19,14 +19,16 @@ if TYPE_CHECKING:
 E = TypeVar("E", bound="NamedNumber")
 
 _ASCII = frozenset(range(0x20, 0x7F))
-_WRITABLE = {"ascii": _ASCII, "latin-1": _ASCII | frozenset(range(0xA0, 0x100))}
+_LATIN = _ASCII | frozenset(range(0xA0, 0x100))
+_CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-be"}
 
 
 class Text(Form[str, str]):
     """Characters in words; the raw number is all words, the first one highest.
 
     A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. Blanks fill the
-    text up, or zeros (`padding`), the first of which ends it.
+    text up, or zeros (`padding`), the first of which ends it. Of UTF-8 the bytes are counted as characters, of UTF-16
+    the words.
     """
 
     def __init__(
@@ -43,41 +45,54 @@ class Text(Form[str, str]):
         self.per_word = per_word
         self.padding = padding
         self.low_first = low_first
-        self.wire = Type(16 * -(-characters // per_word))
-        self._writable = _WRITABLE[encoding]
+        self.wire = Type(16 * -(-characters // (1 if encoding == "utf-16" else per_word)))
+        self._codec = _CODECS.get(encoding, "latin-1")
+        self._size = 2 if encoding == "utf-16" else 1
+        self._step = 2 if self._size == per_word == 1 else 1
 
     def decode(self, raw: int, raws: Raws) -> str:
-        """Return the characters without the spaces behind them; each byte is one, whatever it is."""
-        return self._codes(raw).rstrip(b" ").decode("latin-1")
+        """Return the characters without the spaces behind them; raises MalformedError for what is no Unicode."""
+        size, codes = self._size, self._in_order(raw.to_bytes(self.wire.bits // 8, "big"))
+        codes = codes[self._step - 1 :: self._step][: self.characters * size]
+        if not self.padding:
+            ends = (at for at in range(0, len(codes), size) if not any(codes[at : at + size]))
+            codes = codes[: next(ends, len(codes))]
+        try:
+            return codes.decode(self._codec).rstrip(" ")
+        except UnicodeDecodeError as error:
+            raise MalformedError(f"the words are no {self.encoding}: {error.reason}") from error
 
     def converted(self, value: str, raws: Raws) -> int | None:
         """Return the words of a text that fits and has only printable characters."""
-        if not isinstance(value, str) or len(value) > self.characters:
+        if not isinstance(value, str):
             return None
         try:
-            codes = value.rstrip(" ").encode("latin-1")
+            size = len(value.encode(self._codec)) // self._size
+            codes = value.rstrip(" ").encode(self._codec)
         except UnicodeEncodeError:
             return None
-        if not self._writable.issuperset(codes):
+        if size > self.characters or not self._is_printable(value):
             return None
-        size = self.wire.bits // 8
-        data = bytearray(size)
-        step = 3 - self.per_word
-        data[step - 1 :: step] = codes.ljust(size // step, bytes((self.padding,)))
+        data = bytearray(self.wire.bits // 8)
+        fill = self.padding.to_bytes(self._size, "big") * len(data)
+        data[self._step - 1 :: self._step] = (codes + fill)[: len(data) // self._step]
         return int.from_bytes(self._in_order(data), "big")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """Return the same words if they hold only printable characters."""
         if not 0 <= raw < 1 << self.wire.bits:
             return None
-        return raw if self._writable.issuperset(self._codes(raw)) else None
+        try:
+            return raw if self._is_printable(self.decode(raw, raws)) else None
+        except MalformedError:
+            return None
 
-    def _codes(self, raw: int) -> bytes:
-        """Return the characters up to the padding of zeros."""
-        data = self._in_order(raw.to_bytes(self.wire.bits // 8, "big"))
-        step = 3 - self.per_word
-        codes = data[step - 1 :: step][: self.characters]
-        return codes if self.padding else codes.partition(b"\0")[0]
+    def _is_printable(self, text: str) -> bool:
+        """Return True if every character is one of the encoding, and none a control character."""
+        codes = {ord(char) for char in text}
+        if self.encoding == "ascii":
+            return codes <= _ASCII
+        return codes <= _LATIN or (self._codec != "latin-1" and {code for code in codes if code < 0x100} <= _LATIN)
 
     def _in_order(self, data: bytes | bytearray) -> bytes:
         """Return the bytes, those of each word swapped where the low one comes first."""
@@ -96,7 +111,9 @@ class Text(Form[str, str]):
 
     def choices(self, unit: str) -> str | None:
         """Return what a text has to be."""
-        return f"no text of at most {self.characters} printable {self.encoding} characters"
+        what = {"utf-8": "bytes of utf-8", "utf-16": "words of utf-16"}.get(self.encoding, "")
+        held = f"{self.characters} {what}" if what else f"{self.characters} printable {self.encoding} characters"
+        return f"no text of at most {held}"
 
 
 class Digits(Form[tuple[E, ...], Sequence[E]]):

@@ -5,20 +5,45 @@ from __future__ import annotations
 from fieldscribe.model import Text
 
 _BLANK = " "
+_CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-be"}
 
 
 def text_of(layout: Text, pattern: int) -> str:
-    """Return the text that all words as one number hold, without what fills it up; each byte is one character."""
-    data = _swapped(layout, pattern.to_bytes(2 * layout.words, "big"))
-    codes = (data if layout.per_word > 1 else data[1::2])[: layout.characters]
-    return (codes if layout.padding else codes.partition(b"\0")[0]).decode("latin-1").rstrip(_BLANK)
+    """Return the text that all words as one number hold, without what fills it up. Raises UnicodeDecodeError."""
+    data, size = _swapped(layout, pattern.to_bytes(2 * layout.words, "big")), _size(layout)
+    codes = (data if layout.per_word * size > 1 else data[1::2])[: layout.characters * size]
+    ends = (at for at in range(0, len(codes), size) if not (layout.padding or any(codes[at : at + size])))
+    return codes[: next(ends, len(codes))].decode(_codec(layout)).rstrip(_BLANK)
+
+
+def length_of(layout: Text, text: str) -> int:
+    """Return how many of its characters a text takes: bytes, or words of UTF-16. Raises UnicodeEncodeError."""
+    return len(text.encode(_codec(layout))) // _size(layout)
+
+
+def fits(layout: Text, text: str) -> bool:
+    """Return True if the encoding has all characters of a text, and there is room for them."""
+    try:
+        return length_of(layout, text) <= layout.characters
+    except UnicodeEncodeError:
+        return False
 
 
 def pattern_of_text(layout: Text, text: str) -> int:
     """Return all words of a text that fits as one number, filled up."""
-    codes = text.rstrip(_BLANK).encode("latin-1").ljust(layout.per_word * layout.words, bytes([layout.padding]))
-    data = codes if layout.per_word > 1 else b"".join(bytes((0, code)) for code in codes)
+    size = _size(layout)
+    codes = text.rstrip(_BLANK).encode(_codec(layout))
+    codes += layout.padding.to_bytes(size, "big") * (layout.per_word * layout.words - len(codes) // size)
+    data = codes if layout.per_word * size > 1 else b"".join(bytes((0, code)) for code in codes)
     return int.from_bytes(_swapped(layout, data), "big")
+
+
+def _codec(layout: Text) -> str:
+    return _CODECS.get(layout.encoding, "latin-1")
+
+
+def _size(layout: Text) -> int:
+    return 2 if layout.encoding == "utf-16" else 1
 
 
 def _swapped(layout: Text, data: bytes) -> bytes:

@@ -15,7 +15,7 @@ from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure
 from fieldscribe.families.frame_results import Bits, bits_label
-from fieldscribe.model import Device, Entry, Flag, Point
+from fieldscribe.model import Device, Entry, Flag, Point, Text
 from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text, rounded
@@ -87,7 +87,7 @@ class Meanings:
 def _naming(point: Point) -> Callable[[int], Meaning] | None:
     """Return the function that names the raw numbers of a point; None if they are quantities."""
     if (layout := point.text) is not None:
-        return lambda raw: Meaning(quoted_text(text_of(layout, raw)), text_of(layout, raw))
+        return partial(_text_meaning, layout)
     if point.enum is not None:
         entries = {entry.raw: wording.entry_meaning(entry) for entry in reversed(point.enum.entries)}
         number = partial(_float_text, point) if point.shape.patterns else str
@@ -100,6 +100,14 @@ def _naming(point: Point) -> Callable[[int], Meaning] | None:
     if point.digits is not None:
         return lambda raw: Meaning(_digits_text(point, raw))
     return (lambda raw: Meaning("on" if raw else "off")) if point.type == "bit" else None
+
+
+def _text_meaning(layout: Text, raw: int) -> Meaning:
+    try:
+        text = text_of(layout, raw)
+    except UnicodeDecodeError:
+        return Meaning(f"not known: the words are no {layout.encoding}")
+    return Meaning(quoted_text(text), text)
 
 
 class FlagTexts:

@@ -11,7 +11,7 @@ from fractions import Fraction
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.texts import pattern_of_text
+from fieldscribe.arithmetic.texts import fits, length_of, pattern_of_text
 from fieldscribe.arithmetic.words import mask_of, with_fixed
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
@@ -27,7 +27,8 @@ _HEX_DIGITS = re.compile(r"[0-9A-Fa-f]+")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
 _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
 _MOST_NAMES = 30
-_CHARACTERS = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF))}
+_UNICODE = ((0x20, 0x7E), (0xA0, 0xD7FF), (0xE000, 0x10FFFF))
+_CHARACTERS = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF)), "utf-8": _UNICODE, "utf-16": _UNICODE}
 """The ranges of characters that may be written, by encoding."""
 
 
@@ -242,13 +243,14 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     """Return the words of a typed text as one number, the first characters in the highest bits. Raises RefusedError."""
     layout = point.text
     assert layout is not None
-    spans = _CHARACTERS.get(layout.encoding, _CHARACTERS["ascii"])
+    spans = _CHARACTERS[layout.encoding]
     strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
     if strange is not None:
         name = line(strange) or f"U+{ord(strange):04X}"
         message = f"{label(point)} cannot hold `{name}`: its characters are {layout.encoding}"
         raise RefusedError("out_of_range", message)
-    if len(typed) > layout.characters:
-        message = f"{label(point)} has {layout.characters} characters, here are {len(typed)}"
+    if not fits(layout, typed):
+        unit = {"utf-8": " bytes of utf-8", "utf-16": " words of utf-16"}.get(layout.encoding, " characters")
+        message = f"{label(point)} has {layout.characters}{unit}, here are {length_of(layout, typed)}"
         raise RefusedError("out_of_range", message)
     return pattern_of_text(layout, typed)

@@ -230,7 +230,8 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("active", "high|true|1", "{key}: 1"),
     ("open reserved no_value writable", "1", "{key}: yes"),
     ("open reserved no_value writable", "0", "{key}: no"),
-    ("encoding", "utf-?8", "write `encoding: ascii` or `encoding: latin-1`"),
+    ("encoding", "utf_?8", "{key}: utf-8"),
+    ("encoding", "utf_?16|ucs-?2", "{key}: utf-16"),
 )
 """Keys, a pattern of the whole value (upper and lower case are the same), and what to write instead.
 

@@ -109,9 +109,19 @@ class Text:
         return -(-self.characters // self.per_word)
 
     @property
+    def is_unicode(self) -> bool:
+        """Return True for UTF-8, whose bytes are counted as characters, and UTF-16, whose 16-bit units are."""
+        return self.encoding.startswith("utf")
+
+    @property
+    def most_bytes(self) -> int:
+        """Return how many bytes the text has at most, in code as UTF-8 if it is Unicode."""
+        return self.characters * (3 if self.encoding == "utf-16" else 1)
+
+    @property
     def is_plain(self) -> bool:
-        """Return True for whole words of two characters, the first in the high byte, filled with blanks."""
-        return self == Text(2 * self.words, self.encoding)
+        """Return True for whole words of two bytes that are characters, the first one high, filled with blanks."""
+        return self == Text(2 * self.words, self.encoding) and not self.is_unicode
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from fieldscribe.arithmetic.texts import fits
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Identification, Point, Variant
 from fieldscribe.resolve.scope import Scope
@@ -43,11 +44,10 @@ def _identifications(
             hint = "name a point that every variant has and that can be read: a whole number or a text"
             scope.report.error("identify", message, node.key_span(word), hint)
             continue
-        longest = 0 if point.text is None else point.text.characters
         items = list(enumerate(held)) if isinstance(held, Seq) else [(None, held)]
         if point.text is not None:
-            if any(len(str(item)) > longest for _, item in items):
-                hint = f"a text of it has at most {longest} characters"
+            if not all(fits(point.text, str(item)) for _, item in items):
+                hint = f"a text of it has at most {point.text.characters} characters"
                 scope.report.error("identify", f"`{point.name}` cannot hold this text", node.span(word), hint)
             yield Identification(variant, point.name, (), tuple(str(item) for _, item in items))
             continue

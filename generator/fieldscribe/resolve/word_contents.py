@@ -20,7 +20,7 @@ from fieldscribe.schema_types import TEXTS
 from fieldscribe.wording.exact import number_text
 
 WORD_BITS = 16
-_MOST_WORDS = 125
+_MOST_WORDS = 500
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
 _OF_TEXTS = facts_of(POINT, TEXTS)
@@ -147,10 +147,13 @@ def text_of(scope: Scope, facts: PointFacts) -> Text | None:
     if facts.get("characters") is None:
         message, hint = f"`{facts.name}` does not say how long the text is", "add `characters: …`"
         scope.report.error("missing-key", message, facts.span("type"), hint)
+    elif layout.encoding == "utf-16" and facts.get("per_word", 1) > 1:
+        message, hint = "a word holds one 16-bit unit of utf-16", "leave `per_word` out"
+        scope.report.error("text-length", message, facts.span("per_word"), hint)
     elif layout.words <= _MOST_WORDS:
         return layout
     else:
-        message = f"{layout.characters} characters are more than {_MOST_WORDS} words hold, the most that travel at once"
+        message = f"{layout.characters} characters are more than {_MOST_WORDS} words hold, the most of a text"
         hint = f"make it several texts of at most {_MOST_WORDS * layout.per_word} characters"
         scope.report.error("text-length", message, span, hint)
     facts.failed.add("characters")
@@ -158,15 +161,18 @@ def text_of(scope: Scope, facts: PointFacts) -> Text | None:
 
 
 def layout_of(scope: Scope, facts: PointFacts) -> Text:
-    """Return how the characters of a text stand in words: by its own facts, its group, or `types` of group or device.
+    """Return how the characters of a text stand in words: by its own facts, its group, `types` of these, or the bus.
 
     Without `characters` it has none.
     """
     holders = [holder.get("types", {}).get("text", {}) for holder in (facts.group, scope.header)]
     found = {key: value for holder in reversed(holders) for key, value in holder.items()}
     found |= {key: facts.get(key) for key in ("bytes", *_OF_TEXTS) if facts.get(key) is not None}
-    padding, low_first = int(found.get("padding", "20h")[:2], 16), found.get("bytes") == "low first"
-    encoding, per_word = str(found.get("encoding", _DEFAULT_ENCODING)), int(found.get("per_word", 2))
+    order = None if scope.bus is None else scope.bus.get("bytes")
+    swapped = found.get("bytes") or (order.get("text") if isinstance(order, Map) else order)
+    padding, low_first = int(found.get("padding", "20h")[:2], 16), swapped == "low first"
+    encoding = str(found.get("encoding", _DEFAULT_ENCODING))
+    per_word = 1 if encoding == "utf-16" else int(found.get("per_word", 2))
     return Text(found.get("characters", 0), encoding, per_word, padding, low_first)
 
 

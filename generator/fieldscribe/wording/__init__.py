@@ -106,10 +106,14 @@ def type_text(point: Point) -> str:
 
 def characters_text(layout: Text) -> str:
     """Return what a text holds: `16 characters, ascii`, and how they stand in words if that is not usual."""
-    usual, single = layout.per_word > 1, "one in the high byte" if layout.low_first else "one in the low byte"
+    what = {"utf-8": "byte", "utf-16": "word"}.get(layout.encoding, "character")
+    usual, single = (
+        layout.per_word > 1 or what == "word",
+        "one in the high byte" if layout.low_first else "one in the low byte",
+    )
     order = ("low byte first" if layout.low_first else "") if usual else f"{single} of each word"
     fill = "" if layout.padding else "filled with 00h"
-    return ", ".join(filter(None, (counted(layout.characters, "character"), layout.encoding, order, fill)))
+    return ", ".join(filter(None, (counted(layout.characters, what), layout.encoding, order, fill)))
 
 
 def _bits_text(high: int, low: int) -> str:

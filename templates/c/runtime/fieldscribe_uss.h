@@ -78,6 +78,7 @@ typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_NO_CASE,
     FIELDSCRIBE_USS_OVERFLOW,
     FIELDSCRIBE_USS_SPECIAL,
+    FIELDSCRIBE_USS_MALFORMED,
     /* building */
     FIELDSCRIBE_USS_BAD_LINK,         /* a parameter part or a number of process data words that the device has not */
     FIELDSCRIBE_USS_BAD_UNIT,         /* not a unit of this device */
@@ -472,8 +473,8 @@ FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t l
 const char *fieldscribe_uss_status_name(fieldscribe_uss_status status)
 {
     static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
-        "overflow", "special", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index", "bad_value",
-        "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter", "no_answer",
+        "overflow", "special", "malformed", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
+        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter", "no_answer",
         "refused", "no_rights", "wrong_response", "noise"};
     return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
 }

@@ -18,6 +18,7 @@ _STATUS = {
     "NoCaseError": "no_case",
     "ResultOverflowError": "overflow",
     "SpecialCodeError": "special",
+    "MalformedError": "malformed",
     "WrongLengthError": "wrong_length",
     "MissingRawError": "missing_raw",
     "AccessError": "no_access",
@@ -33,7 +34,7 @@ def check_status(package: Package) -> None:
     kinds |= {runtime.NoReplyError: TimeoutError, runtime.FrameError: runtime.FieldscribeError}
     assert all(issubclass(kind, base) for kind, base in kinds.items())
     codec = [name for name in _STATUS if issubclass(getattr(runtime, name), runtime.CodecError)]
-    assert codec == list(_STATUS)[1:12]
+    assert codec == list(_STATUS)[1:13]
 
 
 def check_contents(package: Package) -> None:

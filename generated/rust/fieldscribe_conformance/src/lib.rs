@@ -31,7 +31,7 @@ use std::task::{Context, Poll, Wake, Waker};
 use fieldscribe_runtime::{
     AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
     Encodable, Error, Flags, Held, Identification, Point, Points, Raw, Readable, Reading, Refused,
-    Space, Text, Whole, Writable,
+    Space, Text, Utf8, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -939,6 +939,35 @@ where
             same(Ok(raw), P::from_received(received))?;
             ("ok", raw.into_words().to_vec())
         }
+        Err(error) => (error.name(), Vec::new()),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.numbers("words"), words)
+}
+
+/// Words to a text of Unicode.
+pub fn unicode_decode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Readable<Raw = [u16; W], Value = Utf8<N>, Factors = ()>,
+{
+    let mut raw = [0; W];
+    raw.copy_from_slice(&vector.numbers::<u16>("words"));
+    let (status, text) = match P::decode(raw).into_result() {
+        Ok(text) => ("ok", text.as_str().as_bytes().to_vec()),
+        Err(error) => (error.name(), Vec::new()),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.bytes("text"), text)
+}
+
+/// A text of Unicode to words.
+pub fn unicode_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Encodable<Raw = [u16; W], Value = Utf8<N>, With = ()> + Whole,
+{
+    let text = String::from_utf8(vector.bytes("text")).map_err(|_| "no UTF-8")?;
+    let (status, words) = match Utf8::new(&text).and_then(P::encode) {
+        Ok(raw) => ("ok", raw.into_words().to_vec()),
         Err(error) => (error.name(), Vec::new()),
     };
     same(vector.text("status").as_str(), status)?;

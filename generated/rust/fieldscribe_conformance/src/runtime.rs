@@ -255,6 +255,7 @@ fn errors() {
         Error::ZeroFactor,
         Error::NoCase,
         Error::Overflow,
+        Error::Malformed,
         Error::WrongLength,
         Error::WrongSpace,
         Error::NotHeard,

@@ -68,6 +68,8 @@ pub enum Error {
         /// The name of the point that needs it.
         point: Option<&'static str>,
     },
+    /// The words do not hold what they should: a text that is no UTF-8 or UTF-16.
+    Malformed(Option<&'static str>),
     /// There are more or fewer words than the point has.
     WrongLength(Option<&'static str>),
     /// The reply does not bring the point, or not all of it.
@@ -147,6 +149,7 @@ impl Error {
             Self::NoCase(_) => "no_case",
             Self::Overflow(_) | Self::BrokenFactor { .. } => "overflow",
             Self::Special { .. } => "special",
+            Self::Malformed(_) => "malformed",
             Self::WrongLength(_)
             | Self::NotBrought(_)
             | Self::BeyondLink(_)
@@ -181,6 +184,7 @@ impl Error {
             | Self::NoCase(point)
             | Self::Overflow(point)
             | Self::BrokenFactor { point, .. }
+            | Self::Malformed(point)
             | Self::WrongLength(point)
             | Self::NotBrought(point)
             | Self::BeyondLink(point)
@@ -203,6 +207,7 @@ impl Error {
             | Self::NoCase(point)
             | Self::Overflow(point)
             | Self::BrokenFactor { point, .. }
+            | Self::Malformed(point)
             | Self::WrongLength(point)
             | Self::NotBrought(point)
             | Self::BeyondLink(point)
@@ -284,6 +289,7 @@ impl fmt::Display for Error {
             Self::ZeroFactor(_) => "a factor is zero or no quantity",
             Self::NoCase(_) => "no case of the scale holds",
             Self::Overflow(_) => "the result does not fit its type",
+            Self::Malformed(_) => "the words do not hold what they should",
             Self::WrongLength(_) => "the point has another number of words",
             Self::NotBrought(_) => "the reply does not bring the point",
             Self::BeyondLink(_) => "the link has not so many words of process data",

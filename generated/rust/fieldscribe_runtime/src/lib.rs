@@ -64,4 +64,4 @@ pub use scale::Scale;
 pub use special::{
     encoded, quantity, reading, try_reading, written, Code, Coded, Reading, Special,
 };
-pub use text::Text;
+pub use text::{Text, Utf8};

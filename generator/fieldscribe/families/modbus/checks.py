@@ -60,9 +60,12 @@ def points_fit_into_one_request(subject: Analysis) -> None:
         if not point.generated or "type" in resolved.facts.failed:
             continue
         functions, span = SPACES[point.space], max(point.addresses) - min(point.addresses) + 1
-        if point.readable and functions.read in most and span > most[functions.read]:
+        in_parts = point.text is not None  # clients read and write a long text by several requests
+        if point.readable and not in_parts and functions.read in most and span > most[functions.read]:
             too_long.setdefault(("read", functions.read), []).append(resolved)
         many = functions.write_many
+        if in_parts and many in most:
+            continue
         if point.writable and many is not None and point.words > 1 and point.words > most.get(many, 1):
             too_long.setdefault(("write", many), []).append(resolved)
     for (verb, function), points in too_long.items():

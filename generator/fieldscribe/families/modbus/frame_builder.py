@@ -19,9 +19,10 @@ from fieldscribe.wording.frames import spaced, units_text
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
-    """Return the request that writes a raw number. Raises RefusedError."""
+    """Return the request that writes a raw number, or several of a long text. Raises RefusedError."""
     del settings  # a request carries only the point
-    return BuiltFrames((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
+    requests = write_requests(device, point, raw, options.unit, options.framing)
+    return BuiltFrames(tuple(spaced(data) for _, data in requests))
 
 
 def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:
@@ -31,10 +32,10 @@ def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, .
     return tuple(word for _, word in sorted(zip(addresses, words.words_of(point, raw, len(addresses)), strict=True)))
 
 
-def write_request(
+def write_requests(
     device: Device, point: Point, raw: int, unit: int | None, framing: str | None
-) -> tuple[Request, bytes]:
-    """Return the request that writes a raw number, and its bytes. Raises RefusedError."""
+) -> list[tuple[Request, bytes]]:
+    """Return the request that writes a raw number, with its bytes; of a long text several. Raises RefusedError."""
     addresses, profile = point.written.addresses, profile_of(device.bus)
     if point.bits is not None:
         mask, bits = exchanged(point, group_mask(point), raw << point.bits[1] & group_mask(point))
@@ -50,11 +51,26 @@ def write_request(
         raise RefusedError("missing", message, f"give {names}")
     values = words_of(point, raw, addresses)
     function = profile.write_function(point.space, len(addresses)) or 0
-    request = Request(device.bus.usual_unit if unit is None else unit, function, min(addresses), len(values), values)
-    status, data = build(profile, framing or profile.framings[0], request)
-    if status != "ok":
-        raise refused(device.bus, point, status, _hint(device, status))
-    return request, data
+    most, unit = _most(device, point, function, len(values)), device.bus.usual_unit if unit is None else unit
+    requests = []
+    for at in range(0, len(values), most):
+        part = values[at : at + most]
+        request = Request(unit, function, min(addresses) + at, len(part), part)
+        status, data = build(profile, framing or profile.framings[0], request)
+        if status != "ok":
+            raise refused(device.bus, point, status, _hint(device, status))
+        requests.append((request, data))
+    return requests
+
+
+def _most(device: Device, point: Point, function: int, count: int) -> int:
+    """Return how many items of a point go at once: all of them, or of a long text what the function allows."""
+    return count if point.text is None else min(count, profile_of(device.bus).most.get(function, count))
+
+
+def _in_parts(device: Device, point: Point, function: int, count: int) -> str:
+    most = _most(device, point, function, count)
+    return "" if count <= most else f" in {-(-count // most)} requests"
 
 
 def _hint(device: Device, status: str) -> str:
@@ -71,6 +87,8 @@ def read_text(device: Device, point: Point) -> str:
         return ""
     function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, FAMILY.spaces[point.space])}"
+    if parts := _in_parts(device, point, function, count):
+        return how + parts
     return how if point.base else how + _example(device, function, min(point.addresses), count, ())
 
 
@@ -90,7 +108,7 @@ def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     function = profile_of(device.bus).write_function(point.space, len(addresses)) if known else None
     if function is None:
         return None
-    how = f"function {hex_text(function, 2)}"
+    how = f"function {hex_text(function, 2)}{_in_parts(device, point, function, len(addresses))}"
     if point.bits is not None:
         steps = "read the word first, replace the bits and write it back, for other points share the word"
         return WriteMethod(f"{how}; {steps}")

@@ -137,13 +137,13 @@ KEYS = (
         by(forms.BITS, places.FLAG.shape, least=1),
         of=WHOLE_NUMBERS,
     ),
-    Key("characters", FACTS, "The number of characters of a text, at most 250.", [16], Whole(1), of=TEXTS),
+    Key("characters", FACTS, "The number of characters of a text; it has at most 500 words.", [16], Whole(1), of=TEXTS),
     Key(
         "encoding",
         _OF_TEXTS,
-        "The encoding of a text; ascii by default.",
-        ["ascii"],
-        one_of("ascii", "latin-1"),
+        "The encoding of a text; ascii by default. With utf-8 `characters` counts bytes, with utf-16 words.",
+        ["latin-1"],
+        one_of("ascii", "latin-1", "utf-8", "utf-16"),
         of=TEXTS,
     ),
     Key(

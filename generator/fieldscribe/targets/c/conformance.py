@@ -143,6 +143,11 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
 
 
 def _text_cases(view: PointView) -> Iterator[str]:
+    if view.point.text is not None and view.point.text.is_unicode:
+        size = f"{view.point.text.most_bytes}U"
+        yield from [f"UNICODE_DECODE({view.function}, {view.macro}, {size})"] * view.point.readable
+        yield from [f"UNICODE_ENCODE({view.function}, {view.macro})"] * view.point.writable
+        return
     if view.point.readable:
         yield f"TEXT_DECODE({view.function}, {view.macro})"
     if view.point.writable:

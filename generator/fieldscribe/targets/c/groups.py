@@ -84,7 +84,9 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
     The name says whether it is a count or raw: a count where decoding cannot fail and needs no other point.
     """
     name, ending = view.function, ""
-    if point.text is not None and list(point.place.addresses) != sorted(point.place.addresses):
+    if point.text is not None and (
+        point.text.is_unicode or list(point.place.addresses) != sorted(point.place.addresses)
+    ):
         return
     for item in (view.fields.item, *point.old_items):
         if point.text is not None:

@@ -26,7 +26,10 @@ _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 _MOST_OLD_NAMES = 64
 """A struct has no more old names: those of its points multiply."""
 
-STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL")
+STATUSES = (
+    *("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL"),
+    "MALFORMED",
+)
 """What conversions answer."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
-from fieldscribe.model import Point
+from fieldscribe.model import Point, Text
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
@@ -17,6 +17,9 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
     """Yield the conversions of a text."""
     assert point.text is not None
     layout, words = point.text, f"uint16_t words[{point.words}]"
+    if layout.is_unicode:
+        yield from _unicode_functions(point, layout, name, words)
+        return
     latin = "true" if layout.encoding == "latin-1" else "false"
     start, count = "fieldscribe", f"{point.words}U"
     if not layout.is_plain:
@@ -29,6 +32,20 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
         body = f"return {start}_text_of_words(words, {count}, text);"
         parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
         yield function(f"{INLINE} size_t", f"{name}_decode", parameters, body)
+
+
+def _unicode_functions(point: Point, layout: Text, name: str, words: str) -> Iterator[Function]:
+    """Yield the conversions of a text of UTF-8 or UTF-16, which is UTF-8 in code."""
+    wide, low_first = layout.encoding == "utf-16", "true" if layout.low_first else "false"
+    form = f"{layout.characters}U, {'' if wide else f'{layout.per_word}U, '}{low_first}, {layout.padding}U"
+    core = layout.encoding.replace("-", "")
+    if point.writable:
+        body = f"return fieldscribe_words_of_{core}(text, length, words, {form});"
+        yield function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body)
+    if point.readable:
+        body = f"return fieldscribe_{core}_of_words(words, {form}, text, length);"
+        parameters = (f"const {words}", f"char text[{layout.most_bytes + 1}]", "size_t *length")
+        yield function(STATUS, f"{name}_decode", parameters, body)
 
 
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:

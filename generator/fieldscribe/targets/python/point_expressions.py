@@ -65,7 +65,10 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     if point.text is not None:
         layout = point.text
         encoding = [] if layout.encoding == "ascii" else [python_string(layout.encoding)]
-        others = [("per_word=1", layout.per_word == 1), ("padding=0", not layout.padding)]
+        others = [
+            ("per_word=1", layout.per_word == 1 and layout.encoding != "utf-16"),
+            ("padding=0", not layout.padding),
+        ]
         others.append(("low_first=True", layout.low_first))
         return call(kind, (str(layout.characters), *encoding, *(text for text, differs in others if differs)))
     arguments: list[Node] = [_wire(point, scope)]

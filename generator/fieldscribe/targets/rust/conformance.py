@@ -31,7 +31,17 @@ _ALWAYS = {
 """The tables that every program has, with the runner's function."""
 
 _SOMETIMES = (
-    *("place", "write_address", "fixed", "display", "told", "text_decode", "text_encode"),
+    *(
+        "place",
+        "write_address",
+        "fixed",
+        "display",
+        "told",
+        "text_decode",
+        "text_encode",
+        "unicode_decode",
+        "unicode_encode",
+    ),
     *("digits", "digits_coded", "digits_encode", "digits_encode_coded"),
 )
 """The tables that a program has if they have rows."""

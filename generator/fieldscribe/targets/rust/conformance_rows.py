@@ -75,7 +75,8 @@ def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list
     if point.form == "float":
         return [Spot("decode", 1)], [Spot("encode", 1)], [Spot("check", 4)]
     if point.form == "text":
-        return [Spot("text_decode")], [Spot("text_encode")], []
+        kind = "unicode" if point.text is not None and point.text.is_unicode else "text"
+        return [Spot(f"{kind}_decode")], [Spot(f"{kind}_encode")], []
     if point.form == "digits":
         coded = "_coded" if point.specials else ""
         return [Spot(f"digits{coded}")], [Spot(f"digits_encode{coded}")], [Spot("check", 5)]
@@ -88,7 +89,7 @@ def _layout(subject: CratePoint) -> Tokens:
     """Return the sizes of a text or of digits; empty for a number."""
     text, digits = subject.point.text, subject.point.digits
     if text is not None:
-        return bracketed(("sizes", str(text.characters), str(subject.point.words)))
+        return bracketed(("sizes", str(text.most_bytes), str(subject.point.words)))
     return () if digits is None else bracketed(("digits", str(digits.count), subject.carried))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import inf, isfinite, nan
 from operator import mul
 
@@ -29,6 +29,9 @@ def text(lines: Lines, shape: Shape) -> None:
     if shape.text is None:
         return
     layout, size = shape.text, shape.text.characters
+    if layout.encoding in _MALFORMED:
+        _unicode(lines, shape, layout)
+        return
     alphabet = bytes(0x41 + place % 26 for place in range(size))
     received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B"[:size], bytes(range(size))]
     received += [
@@ -50,10 +53,64 @@ def text(lines: Lines, shape: Shape) -> None:
         )
 
 
-def words_of_text(layout: Text, data: bytes, beside: int | None = None) -> list[int]:
+_MALFORMED = {
+    "utf-8": (
+        *((0x80,), (0xC3,), (0xC0, 0xAF), (0xC1, 0xBF), (0xE2, 0x82), (0xE2, 0x41, 0x42), (0xE0, 0x9F, 0xBF)),
+        *((0xED, 0xA0, 0x80), (0xED, 0xBF, 0xBF), (0xF0, 0x8F, 0xBF, 0xBF), (0xF4, 0x90, 0x80, 0x80)),
+        *((0xF5, 0x80, 0x80, 0x80), (0xF9, 0x90, 0x80, 0x80), (0xFF,), (0xF0, 0x9D, 0x84)),
+    ),
+    "utf-16": ((0xD800,), (0xDBFF, 0x0041), (0xDC00,), (0xDFFF, 0xD800), (0xD834, 0xD834, 0xDD1E)),
+}
+"""What is no text, by encoding."""
+_TEXTS = (
+    *("", "A", "AB", " B", "A ", "\u00a0", "\u00e4\u00df", "\u07ff", "\u0800", "\u20ac", "\ud7ff", "\ue000", "\uffff"),
+    *("\U00010000", "A\U0001d11e", "\U0010ffff", "\u2020", "\u0120", "\x7f", "\x80", "\x9f", "\x1f", "A\0"),
+)
+
+
+def _unicode(lines: Lines, shape: Shape, layout: Text) -> None:
+    """Add vectors of a text of UTF-8 or UTF-16: all lengths of a character, what is none, and what does not fit."""
+    wide, size = layout.encoding == "utf-16", layout.characters
+    last, texts = "\U0001d11e" if wide else "\u20ac", [*_TEXTS]
+    texts += [
+        "Z" * size,
+        "Z" * (size + 1),
+        "Z" * (size - 1) + last,
+        "Z" * (size - len([*_codes(last, wide=wide)])) + last,
+    ]
+    fitting = {text: codes for text in texts if len(codes := [*_codes(text, wide=wide)]) <= size}
+    for text, codes in fitting.items() if shape.readable else ():
+        seen = text if layout.padding else text.split("\0")[0]
+        lines.add(
+            "unicode_decode", words_of_text(layout, codes, 0x3F), "ok", bytes(_codes(seen.rstrip(" "), wide=False))
+        )
+    for wrong in _MALFORMED[layout.encoding] if shape.readable else ():
+        for before in ((), (0x41,)):
+            if len(before) + len(wrong) <= size:
+                lines.add("unicode_decode", words_of_text(layout, (*before, *wrong)), "malformed")
+    for text in texts if shape.writable else ():
+        good = text in fitting and not any(ord(char) < 0x20 or 0x7F <= ord(char) < 0xA0 for char in text)
+        words = words_of_text(layout, [*_codes(text.rstrip(" "), wide=wide)]) if good else None
+        lines.add("unicode_encode", bytes(_codes(text, wide=False)), "ok" if good else "out_of_range", words)
+
+
+def _codes(text: str, *, wide: bool) -> Iterator[int]:
+    """Yield the bytes of UTF-8, or the 16-bit units of UTF-16, by arithmetic."""
+    for number in map(ord, text):
+        if wide:
+            yield from (number,) if number < 0x10000 else (0xD7C0 + (number >> 10), 0xDC00 | number & 0x3FF)
+        else:
+            more = (number > 0x7F) + (number > 0x7FF) + (number > 0xFFFF)
+            yield number >> 6 * more | (0xFF00 >> more + 1 & 0xFF if more else 0)
+            yield from (0x80 | number >> 6 * place & 0x3F for place in reversed(range(more)))
+
+
+def words_of_text(layout: Text, data: Sequence[int], beside: int | None = None) -> list[int]:
     """Return the words of a text, filled up; `beside` is in bytes that are no characters of it, None as is written."""
     codes = [*data, *[layout.padding] * (layout.characters - len(data))]
-    if layout.per_word == 1:
+    if layout.encoding == "utf-16":
+        pairs = [divmod(code, 0x100) for code in codes]
+    elif layout.per_word == 1:
         pairs = [(beside or 0, code) for code in codes]
     else:
         codes += [layout.padding if beside is None else beside]

@@ -44,6 +44,8 @@ KINDS = {
     "words": "raw:int words:ints",
     "text_decode": "words:ints text:bytes?",
     "text_encode": "text:bytes? status:word words:ints?",
+    "unicode_decode": "words:ints status:word text:bytes?",
+    "unicode_encode": "text:bytes? status:word words:ints?",
     "digits": "raw:int status:word digits:ints? special:word?",
     "digits_encode": "digits:ints status:word raw:int?",
     # facts of a point apart from its conversions

@@ -191,8 +191,8 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     """
     read = SPACES[point.space].read if point.readable and point.space in SPACES else 0
     write = profile.write_function(point.space, point.words) if point.writable and point.space in SPACES else 0
-    read = read if read in profile.most else 0
-    if write not in profile.most or (point.bits is not None and not read):
+    read = read if profile.most.get(read, 0) >= point.words else 0
+    if profile.most.get(write or 0, 0) < point.words or (point.bits is not None and not read):
         write = 0
     if not read and not write:
         return None

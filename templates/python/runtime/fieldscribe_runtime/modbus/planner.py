@@ -54,8 +54,9 @@ def read_function(place: Place) -> int:
 def plan(places: Iterable[Place], profile: Profile, bridges: Collection[tuple[str, int]] = ()) -> tuple[Block, ...]:
     """The fewest reads, from the lowest address on, that bring all places.
 
-    A read never splits a place, never asks for more than the function allows, and touches no address that was not asked
-    for, except those in `bridges` (area and address of other points that are known to be readable).
+    A read never splits a place, has no more items than the function allows (unless a text alone has more), and touches
+    no address that was not asked for, except those in `bridges` (area and address of other points that are known to be
+    readable).
     """
     blocks: list[Block] = []
     for place in sorted(set(places), key=lambda one: (one.area, read_function(one), one.address, one.span)):

@@ -150,8 +150,18 @@ class ModbusSession(Session):
         start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
         if len(place.addresses) == 1:
             return (yield from self._ask(read_function(place), start + place.addresses[0], 1))
-        words = yield from self._ask(read_function(place), start + place.address, place.span)
+        words = yield from self._words_steps(read_function(place), start + place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
+
+    def _words_steps(self, function: int, address: int, count: int) -> Steps[Sequence[int]]:
+        """Read words or bits; a text that is longer than a request by several."""
+        most = self.PROFILE.functions.get(function, count)
+        if count <= most:
+            return (yield from self._ask(function, address, count))
+        words: list[int] = []
+        while len(words) < count:
+            words += yield from self._ask(function, address + len(words), min(most, count - len(words)))
+        return words
 
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
         """Read by address; raises RequestError for what is no place."""
@@ -166,18 +176,25 @@ class ModbusSession(Session):
         check_place(space, address, len(values))
         place = Place(space, tuple(range(address, address + len(values))))
         with about_place(self.traffic, place):
+            if len(values) > self.PROFILE.functions.get(function := self._write_function(place, len(values)), 0):
+                build(Request(self.unit, function, address, 0, values), self.PROFILE, self._framing)  # which is refused
             yield from self._put_steps(place, values)
 
-    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
-        """Write words or bits at a place."""
+    def _write_function(self, place: Place, count: int) -> int:
         if place.space not in _WRITES:
             raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only coil and holding")
         single, block = _WRITES[place.space]
-        function = single if len(values) == 1 and single in self.PROFILE.functions else block
         if place.function in WRITES:
-            function = place.function
+            return place.function
+        return single if count == 1 and single in self.PROFILE.functions else block
+
+    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+        """Write words or bits at a place; a text that is longer than a request by several, its first words first."""
+        function = self._write_function(place, len(values))
+        most = self.PROFILE.functions.get(function, len(values))
         start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
-        yield from self._ask(function, start + place.address, values=values)
+        for at in range(0, len(values), most):
+            yield from self._ask(function, start + place.address + at, values=values[at : at + most])
 
     def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
@@ -195,10 +212,10 @@ class ModbusSession(Session):
         return raws
 
     def _block_steps(self, block: Block, points: Sequence[Point]) -> Steps[dict[str, int]]:
-        """Read points by one request."""
+        """Read points by one request; a long text by several."""
         last = block.address + block.count - 1
         start = 0 if block.base is None else (yield from self._start_steps(block.base, last))
-        words = yield from self._ask(block.function, start + block.address, block.count)
+        words = yield from self._words_steps(block.function, start + block.address, block.count)
         raws: dict[str, int] = {}
         for point in points:
             own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]

@@ -130,6 +130,7 @@ macro_rules! point {
     (@data floating $value:ty) => { $crate::data::Form::Floating };
     (@data text $value:ty) => { $crate::data::Form::Text };
     (@data packed $value:ty) => { $crate::data::Form::Text };
+    (@data unicode $value:ty) => { $crate::data::Form::Text };
     (@data $form:ident $value:ty) => { $crate::data::Form::Plain };
 
     (@coded $codes:tt) => { &<Self as $crate::Coded>::CODES };
@@ -267,6 +268,13 @@ macro_rules! point {
     (@form packed $name:ident $kind:ident $reach:tt ($($layout:literal),+)) => {
         impl $crate::form::packed::Packed for $name {
             const LAYOUT: $crate::text::Layout = $crate::text::Layout::new($($layout),+);
+        }
+    };
+    (@form unicode $name:ident $kind:ident $reach:tt ($bits:literal, $($layout:literal),+)) => {
+        $crate::point!(@form packed $name $kind $reach ($($layout),+));
+
+        impl $crate::form::unicode::Unicode for $name {
+            const BITS: u32 = $bits;
         }
     };
     (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};

@@ -159,6 +159,78 @@ impl<const N: usize> fmt::Debug for Text<N> {
     }
 }
 
+/// A text of at most `N` bytes of UTF-8, without the blanks at its end.
+///
+/// ```
+/// use fieldscribe_runtime::{Error, Utf8};
+///
+/// let text: Utf8<16> = "Kühlung 1".try_into()?;
+/// assert_eq!(text.as_str(), "Kühlung 1");
+/// assert_eq!(Utf8::<4>::new("Maße"), Err(Error::BadText(None)));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Utf8<const N: usize>(Text<N>);
+
+impl<const N: usize> Utf8<N> {
+    /// No character.
+    pub const EMPTY: Self = Self(Text::EMPTY);
+
+    /// The text of that string.
+    ///
+    /// # Errors
+    /// [`Error::BadText`] if it has more than `N` bytes.
+    pub fn new(text: &str) -> Result<Self, Error> {
+        Text::from_bytes(text.as_bytes()).map(Self)
+    }
+
+    /// The text of that UTF-8, which is cut to `N` bytes; none for what is no UTF-8.
+    pub(crate) fn collected(codes: impl Iterator<Item = u8>) -> Option<Self> {
+        let text = Text::collected(codes);
+        core::str::from_utf8(text.as_bytes())
+            .is_ok()
+            .then_some(Self(text))
+    }
+
+    /// The text as a string.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        core::str::from_utf8(self.0.as_bytes()).unwrap_or_default()
+    }
+}
+
+impl<const N: usize> Default for Utf8<N> {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl<const N: usize> TryFrom<&str> for Utf8<N> {
+    type Error = Error;
+
+    fn try_from(text: &str) -> Result<Self, Error> {
+        Self::new(text)
+    }
+}
+
+impl<const N: usize> AsRef<str> for Utf8<N> {
+    fn as_ref(&self) -> &str {
+        self.as_str()
+    }
+}
+
+impl<const N: usize> fmt::Display for Utf8<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+impl<const N: usize> fmt::Debug for Utf8<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self.as_str(), formatter)
+    }
+}
+
 /// How the characters of a text stand in words, where that is not two a word, the first in the high byte.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
@@ -193,6 +265,35 @@ impl Layout {
         codes
             .take(self.characters)
             .take_while(move |code| self.padding != 0 || *code != 0)
+    }
+
+    /// The 16-bit units in words.
+    pub(crate) fn units(self, words: &[u16]) -> impl Iterator<Item = u16> + '_ {
+        let units = words.iter().take(self.characters);
+        units
+            .map(move |word| self.in_order(*word))
+            .take_while(move |unit| self.padding != 0 || *unit != 0)
+    }
+
+    /// The words of 16-bit units, filled up.
+    pub(crate) fn words_of_units<const W: usize>(
+        self,
+        mut units: impl Iterator<Item = u16>,
+    ) -> [u16; W] {
+        [0; W].map(|_: u16| self.in_order(units.next().unwrap_or(self.padding.into())))
+    }
+
+    const fn in_order(self, word: u16) -> u16 {
+        if self.is_low_first {
+            word.swap_bytes()
+        } else {
+            word
+        }
+    }
+
+    /// How many characters there are.
+    pub(crate) const fn characters(self) -> usize {
+        self.characters
     }
 
     /// The words of characters, filled up.

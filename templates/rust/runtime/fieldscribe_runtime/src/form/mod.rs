@@ -10,6 +10,7 @@ pub mod plain;
 pub mod ruled;
 pub mod scaled;
 pub mod text;
+pub mod unicode;
 pub mod wide;
 
 use crate::check::{beyond, with_fixed_bits};
