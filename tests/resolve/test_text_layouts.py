@@ -36,6 +36,13 @@ def test_the_nearest_place_decides(tmp_path: Path) -> None:
     assert [point.words for point in device.points] == [2, 2, 2, 2, 4, 2, 2, 2]
 
 
+@pytest.mark.parametrize("order", ["low first", "{text: low first}"])
+def test_the_bus_may_have_an_order(tmp_path: Path, order: str) -> None:
+    bus = f"{{framings: [rtu], units: 1..247, bytes: {order}, functions: {{03h: read, 06h: write, 10h: write_many}}}}"
+    whole = head(bus=bus, formats="{code: {type: text, characters: 2}}")
+    assert loaded_in(tmp_path, together(whole, group(POINTS))).points[0].text == Text(4, "ascii", low_first=True)
+
+
 @pytest.mark.parametrize(
     ("layout", "text", "pattern"),
     [

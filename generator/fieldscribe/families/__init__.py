@@ -41,7 +41,8 @@ FAMILIES: dict[str, str] = {
 """The package of each family, by the name of the family."""
 
 _OF_ALL = frozenset(
-    {"units", "exceptions", "timing", "serial", "note", "source", "line", "lines", "words", "gaps", "broadcast"}
+    {"units", "exceptions", "timing", "serial", "note", "source", "line", "lines", "words", "bytes", "gaps"}
+    | {"broadcast"}
 )
 
 
