@@ -16,9 +16,10 @@ from fieldscribe.importing import compilable
 from fieldscribe.importing.tables import UnreadableError
 
 from corpus.collection import Collection
+from corpus.sunspec import SUNSPEC
 from corpus.wb import WB
 
-COLLECTIONS: tuple[Collection, ...] = (WB,)
+COLLECTIONS: tuple[Collection, ...] = (WB, SUNSPEC)
 
 
 class Measured(NamedTuple):
@@ -92,5 +93,5 @@ def _print(name: str, files: list[Path], measured: list[Measured | None]) -> Non
 
 if __name__ == "__main__":
     if len(sys.argv) != 2 or not Path(sys.argv[1]).is_dir():
-        sys.exit("make corpus FOLDER=...: the folder of a collection, such as the templates of wb-mqtt-serial")
+        sys.exit("make corpus FOLDER=...: the folder of a collection, templates of wb-mqtt-serial or models of SunSpec")
     sys.exit(main(Path(sys.argv[1])))
