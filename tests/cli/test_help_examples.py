@@ -157,6 +157,9 @@ CLAIMS = {
         "sunspec models --models 1,103,160 --device inverter --out inverter/device.yaml": Claim(
             0, "", "3 models, 67 points, 67 whole", made="inverter/device.yaml"
         ),
+        "wb config-heater.json --device heater --out heater/device.yaml": Claim(
+            0, "", r"17 rows, 14 whole; not carried: condition \(2\)", made="heater/device.yaml"
+        ),
     },
     "fmt": {
         "": Claim(0, "0 formatted, "),

@@ -69,6 +69,7 @@ def workplace(folder: Path) -> Path:
     descriptions = folder / "descriptions"
     shutil.copytree(ROOT / "descriptions", descriptions)
     shutil.copytree(TESTS / "importing/sunspec", folder / "models")
+    shutil.copy(TESTS / "importing/wb/heater.json", folder / "config-heater.json")
     source = descriptions / "hitachi_l200/standard_a.yaml"
     git = ("git", "-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "commit.gpgsign=false")
     now = source.read_text("utf-8")

@@ -57,7 +57,7 @@ COMMANDS = {
     "search": "find words in titles, codes, sections, names, flags, labels and numbers of all devices",
     "completion": "print the script with which a shell completes commands, options, devices and points",
     "init": "start a description that compiles at once, by a few questions or by options",
-    "import": "draft a description from a file of another kind: tables of a manual, models of SunSpec",
+    "import": "draft a description from a file of another kind: tables, models of SunSpec, a gateway's template",
     "fmt": "bring descriptions into their canonical form; facts and comments stay the same",
     "watch": "compile descriptions and print their findings each time one of their files is saved",
     "units": "list the units that descriptions can use without declaring them",

@@ -17,15 +17,16 @@ EXAMPLE = f"""examples:
   fieldscribe import table manual.txt --lines 650..1050 --space holding --address-part 2 > registers.yaml
   fieldscribe import table list.csv --column code=1 --column address=3 --column range=6
   fieldscribe import sunspec models --models 1,103,160 --device inverter --out inverter/device.yaml
+  fieldscribe import wb config-heater.json --device heater --out heater/device.yaml
 
 The usual headings are known in English and German; --column names other columns, as one of
 {", ".join(ROLES)}.
 In a text, tables are rows between bars (|) or lines with tabs. A cell that is not clear becomes no fact of the
 draft but a comment, `# ?`. A draft compiles. Without --device only groups are written, to be parts of a device.
 XLSX needs the extra `import`.
-Models of SunSpec make a whole device; the last line on standard error counts what is not carried.
+Models of SunSpec and a template make a whole device; the last line on standard error counts what is not carried.
 
-ends with 1 when the file holds no table of points (no model), has no such column, or cannot be read"""
+ends with 1 when the file holds no table of points (no model, no template), has no such column, or cannot be read"""
 
 KINDS: dict[str, tuple[ModuleType, str]] = {
     "table": (import_table, "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual"),
