@@ -230,6 +230,37 @@ typedef struct fieldscribe_can_receiver {
     uint8_t unit;
 } fieldscribe_can_receiver;
 
+/* A raw number of another signal, by its word; with `more` the next one will do, too. */
+typedef struct fieldscribe_can_choice {
+    uint16_t word;
+    uint16_t raw;
+    bool more;
+} fieldscribe_can_choice;
+
+/*
+ * Bits of a message that are one number. `start` is the first of them as CAN databases count: bit 7 of byte 1 is 15; it
+ * is the bit of the lowest value if the low byte comes first, else that of the highest one. It comes in a frame if the
+ * `choices` hold, one of those that `more` joins, and all that are not joined.
+ */
+typedef struct fieldscribe_can_signal {
+    uint16_t start;
+    uint8_t width;
+    bool low_first;
+    uint16_t choices;
+    const fieldscribe_can_choice *when; /* NULL: it always comes */
+} fieldscribe_can_signal;
+
+/* A message of signals; each takes a word for 16 bits, the high one first, in their order. */
+typedef struct fieldscribe_can_signals {
+    const fieldscribe_can_profile *profile;
+    uint32_t id;
+    bool adds_unit;
+    uint8_t length;
+    const fieldscribe_can_signal *signals;
+    uint16_t count;
+    uint16_t words;
+} fieldscribe_can_signals;
+
 /* The identifier of a message of that unit: what a filter has to let through. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit);
 
@@ -313,6 +344,27 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_age(
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_text_heard *what, uint16_t *words, size_t count);
+
+/* The identifier of a message of signals of that unit. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_signals_id(const fieldscribe_can_signals *message, uint8_t unit);
+
+/*
+ * Takes the words of all signals out of the `length` bytes of a frame, where `count` are room enough; nothing is stored
+ * unless the result is OK. Which of them come with this frame, fieldscribe_can_comes says.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_take_signals(const fieldscribe_can_signals *message,
+    uint8_t unit, uint32_t id, const uint8_t *data, size_t length, uint16_t *words, size_t count);
+
+/* Whether the signal whose first word that is comes in the frame of these words; MISSING if others select another. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_comes(
+    const fieldscribe_can_signals *message, uint16_t word, const uint16_t *words, size_t count);
+
+/*
+ * Puts the words of signals into the bytes of a frame, `length` of which are room enough; nothing is stored unless the
+ * result is OK. All other bits are 0, and those of signals that do not come.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_put_signals(const fieldscribe_can_signals *message,
+    const uint16_t *words, size_t count, uint8_t *data, size_t length);
 
 #ifdef __cplusplus
 }
@@ -798,6 +850,167 @@ fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_recei
         status = fieldscribe_can_word(receiver, what->positions[at], &words[at]);
     }
     return status;
+}
+
+/* ---- Signals ---- */
+
+/* How many words a signal takes; no number has more than 64 bits, whatever a table says. */
+static uint16_t fieldscribe_can_words_of(const fieldscribe_can_signal *signal)
+{
+    return (uint16_t)(((signal->width < 64U) ? (signal->width + 15U) : 64U) / 16U);
+}
+
+/* The next bits of a signal: the byte, the lowest of its bits, how many they are, and how far they lie above bit 0. */
+typedef struct fieldscribe_can_piece {
+    size_t byte;
+    unsigned low;
+    unsigned bits;
+    unsigned above;
+} fieldscribe_can_piece;
+
+/* The bits of a signal behind the first `done`, in the order in which bytes travel; none are 0 bits. */
+static fieldscribe_can_piece fieldscribe_can_piece_at(const fieldscribe_can_signal *signal, unsigned done)
+{
+    const unsigned width = (signal->width < 64U) ? signal->width : 64U;
+    const unsigned first = signal->low_first ? ((unsigned)signal->start % 8U) : (7U - ((unsigned)signal->start % 8U));
+    const unsigned left = (done < width) ? (width - done) : 0U;
+    const unsigned skipped = (first + done) % 8U;
+    fieldscribe_can_piece piece;
+    piece.byte = ((size_t)signal->start / 8U) + ((first + done) / 8U);
+    piece.bits = ((8U - skipped) < left) ? (8U - skipped) : left;
+    piece.low = (signal->low_first ? skipped : (8U - skipped - piece.bits)) & 7U;
+    piece.above = (signal->low_first ? done : (left - piece.bits)) & 63U;
+    return piece;
+}
+
+/* The raw number of a signal without its sign; bytes that are not there are 0. */
+static uint64_t fieldscribe_can_get(const fieldscribe_can_signal *signal, const uint8_t *data, size_t length)
+{
+    uint64_t raw = 0U;
+    unsigned done = 0U;
+    fieldscribe_can_piece piece = fieldscribe_can_piece_at(signal, done);
+    while (piece.bits > 0U) {
+        const uint32_t byte = (piece.byte < length) ? data[piece.byte] : 0U;
+        raw |= (uint64_t)((byte >> piece.low) & ((1UL << piece.bits) - 1UL)) << piece.above;
+        done += piece.bits;
+        piece = fieldscribe_can_piece_at(signal, done);
+    }
+    return raw;
+}
+
+/* Sets bits of a signal in bytes that are 0 there. */
+static void fieldscribe_can_set(const fieldscribe_can_signal *signal, uint64_t raw, uint8_t *data, size_t length)
+{
+    unsigned done = 0U;
+    fieldscribe_can_piece piece = fieldscribe_can_piece_at(signal, done);
+    while (piece.bits > 0U) {
+        const uint32_t bits = (uint32_t)((raw >> piece.above) & ((1UL << piece.bits) - 1UL));
+        if (piece.byte < length) {
+            data[piece.byte] = (uint8_t)((data[piece.byte] | (bits << piece.low)) & 0xFFU);
+        }
+        done += piece.bits;
+        piece = fieldscribe_can_piece_at(signal, done);
+    }
+}
+
+/* Whether a signal comes with these words. */
+static bool fieldscribe_can_selected(const fieldscribe_can_signal *signal, const uint16_t *words, size_t count)
+{
+    bool fits = false;
+    unsigned at;
+    if (signal->when == NULL) {
+        return true;
+    }
+    for (at = 0U; at < signal->choices; ++at) {
+        const fieldscribe_can_choice *const choice = &signal->when[at];
+        if ((choice->word < count) && (words[choice->word] == choice->raw)) {
+            fits = true;
+        }
+        if (!choice->more) {
+            if (!fits) {
+                return false;
+            }
+            fits = false;
+        }
+    }
+    return true;
+}
+
+uint32_t fieldscribe_can_signals_id(const fieldscribe_can_signals *message, uint8_t unit)
+{
+    return message->id + (message->adds_unit ? unit : 0U);
+}
+
+fieldscribe_can_status fieldscribe_can_take_signals(const fieldscribe_can_signals *message, uint8_t unit, uint32_t id,
+    const uint8_t *data, size_t length, uint16_t *words, size_t count)
+{
+    size_t word = 0U;
+    unsigned at;
+    if ((unit < message->profile->first_unit) || (unit > message->profile->last_unit)) {
+        return FIELDSCRIBE_CAN_BAD_UNIT;
+    }
+    if (id != fieldscribe_can_signals_id(message, unit)) {
+        return FIELDSCRIBE_CAN_WRONG_ID;
+    }
+    if (length != message->length) {
+        return FIELDSCRIBE_CAN_WRONG_LENGTH;
+    }
+    if (count < message->words) {
+        return FIELDSCRIBE_CAN_BUFFER_TOO_SMALL;
+    }
+    for (at = 0U; at < message->count; ++at) {
+        const uint64_t raw = fieldscribe_can_get(&message->signals[at], data, length);
+        unsigned left = fieldscribe_can_words_of(&message->signals[at]);
+        while ((left > 0U) && (word < count)) {
+            --left;
+            words[word] = (uint16_t)((raw >> (16U * (left % 4U))) & 0xFFFFU);
+            ++word;
+        }
+    }
+    return FIELDSCRIBE_CAN_OK;
+}
+
+fieldscribe_can_status fieldscribe_can_comes(
+    const fieldscribe_can_signals *message, uint16_t word, const uint16_t *words, size_t count)
+{
+    size_t first = 0U;
+    unsigned at = 0U;
+    while ((at < message->count) && (first < word)) {
+        first += fieldscribe_can_words_of(&message->signals[at]);
+        ++at;
+    }
+    if ((at >= message->count) || (first != word)) {
+        return FIELDSCRIBE_CAN_MISSING;
+    }
+    return fieldscribe_can_selected(&message->signals[at], words, count) ? FIELDSCRIBE_CAN_OK : FIELDSCRIBE_CAN_MISSING;
+}
+
+fieldscribe_can_status fieldscribe_can_put_signals(const fieldscribe_can_signals *message, const uint16_t *words,
+    size_t count, uint8_t *data, size_t length)
+{
+    size_t word = 0U;
+    size_t place;
+    unsigned at;
+    if ((count < message->words) || (length < message->length)) {
+        return FIELDSCRIBE_CAN_BUFFER_TOO_SMALL;
+    }
+    for (place = 0U; place < length; ++place) {
+        data[place] = 0U;
+    }
+    for (at = 0U; at < message->count; ++at) {
+        const fieldscribe_can_signal *const signal = &message->signals[at];
+        uint64_t raw = 0U;
+        unsigned left = fieldscribe_can_words_of(signal);
+        while ((left > 0U) && (word < count)) {
+            raw = (raw << 16) | words[word];
+            ++word;
+            --left;
+        }
+        if (fieldscribe_can_selected(signal, words, count)) {
+            fieldscribe_can_set(signal, raw, data, message->length);
+        }
+    }
+    return FIELDSCRIBE_CAN_OK;
 }
 
 #endif

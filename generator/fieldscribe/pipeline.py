@@ -159,7 +159,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
     from fieldscribe.resolve.identifications import identifications_of
-    from fieldscribe.resolve.points import resolve_points
+    from fieldscribe.resolve.points import ResolvedPoint, resolve_points
     from fieldscribe.resolve.scope import open_scope
     from fieldscribe.resolve.symbols import symbols_of
     from fieldscribe.resolve.telegrams import telegrams_of
@@ -172,6 +172,9 @@ def _checked(files: Files, report: Report) -> Analysis:
     messages = reader_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
     resolved, ranges, places = resolve_points(scope, expanded, symbols, telegrams)
+    messages, laid_out = reader_of(scope).lay_out(messages, [entry.point for entry in resolved])
+    places.carry(messages)
+    resolved = [ResolvedPoint(point, entry.facts) for point, entry in zip(laid_out, resolved, strict=True)]
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, symbols, points)
     (commands, stepped), errata = commands_of(scope, bus, symbols, points), errata_of(scope, symbols, bus)

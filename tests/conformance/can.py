@@ -45,9 +45,30 @@ def can_telegram(package: Package, vector: Vector) -> bool:
     return status != "ok" or point.from_words([by_address[one] for one in sorted(by_address)]) == vector["raw"]
 
 
+def can_signal(package: Package, vector: Vector) -> bool:
+    """A signal of a message, out of a frame and into one."""
+    profile, point = package.device.PROFILE, package.point(vector)
+    message, addresses = profile.message(vector["telegram"]), point.facts.at.addresses
+    frame = package.can.Frame(vector["id"], vector["bytes"] or b"")
+    status, _ = package.outcome(package.can.parse, message, vector["unit"], frame)
+    receiver = package.can.Receiver(profile, vector["telegram"], vector["unit"])
+    if receiver.take(frame) != (status == "ok"):
+        return False
+    if status == "ok":
+        status, words = package.outcome(receiver.words, addresses)
+    if status != vector["status"] or status != "ok":
+        return bool(status == vector["status"])
+    number = [sum(one.words for one in message.signals[:at]) for at in range(len(message.signals))].index(addresses[0])
+    raw = vector["raw"]
+    selecting = {place: raws[-1] for place, raws in message.signals[number].when}
+    packed = package.can.Packing(message.signals, message.length).data({**selecting, number: raw})
+    return bool(point.from_words(words) == raw and packed == vector["packed"])
+
+
 CHECKS: Mapping[str, Check] = {
     "can_build": can_build,
     "can_parse": can_parse,
+    "can_signal": can_signal,
     "can_taken": can_taken,
     "can_telegram": can_telegram,
 }

@@ -23,11 +23,11 @@ SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export
 EXPECTED: dict[str, Any] = json.loads(Path(__file__).with_name("sample_drive.json").read_text("utf-8"))
 """What is written by hand of the exported sample."""
 POINT_KEYS = """
-name code group space telegram direction address index addresses byte_order base to_end references places written type
-untyped words access bits variant when since until record set repeat format unit unit_name quantity display decimals
-default step special special_of fixed changes changes_with view_of certainty together scale raw enum enum_name
-enum_was open flags digits encoding layout persistence conditions takes_effect write_with title note source errata was
-reserved generated reason
+name code group space telegram direction address index addresses byte_order base to_end signal references places
+written type untyped words access bits variant when since until record set repeat format unit unit_name quantity
+display decimals default step special special_of fixed changes changes_with view_of certainty together scale raw enum
+enum_name enum_was open flags digits encoding layout persistence conditions takes_effect write_with title note source
+errata was reserved generated reason
 """
 """The keys of format 6: another key, or one less, is another format."""
 TOP_KEYS = (
@@ -240,7 +240,8 @@ def test_tasks_and_process_data_of_a_drive() -> None:
 def test_the_layout_of_a_message() -> None:
     exported: Any = export_model(made("kitchen_can"))
     read = next(one for one in exported["messages"] if one["name"] == "read_request")
-    assert list(read) == ["name", "title", "direction", "answers", "identifier", "adds_unit", "layout", "source"]
+    head = ["name", "title", "direction", "answers", "identifier", "adds_unit", "layout", "length", "bits", "every"]
+    assert list(read) == [*head, "source"]
     assert len(read["layout"]) == 8
     assert read["layout"][0] == {"holds": "constant", "number": 0xFF}
 

@@ -306,7 +306,7 @@ def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
         (["table", "a.docx"], "no reader takes such a file"),
         (["table", "missing.csv"], "missing.csv"),
         (["table", "a.csv", "--out", "there.yaml"], "is there already"),
-        (["dbc", "a.csv"], "invalid choice"),
+        (["dxf", "a.csv"], "invalid choice"),
     ],
 )
 def test_wrong_calls(

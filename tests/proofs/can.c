@@ -31,6 +31,11 @@ static uint16_t text[WORDS];
 static uint16_t positions[WORDS];
 static uint16_t pair[2];
 static uint32_t times[2];
+static fieldscribe_can_choice choices[3];
+static fieldscribe_can_signal signal;
+static fieldscribe_can_signal rows[2];
+static fieldscribe_can_signals signals;
+static uint8_t bytes[3];
 static volatile uint8_t number;
 static volatile uint32_t time;
 
@@ -348,4 +353,88 @@ void prove_received_text(uint16_t count)
 void prove_status_name(unsigned status)
 {
     (void)fieldscribe_can_status_name((fieldscribe_can_status)status);
+}
+
+/* A message of two signals, with any table; the choices of the second are exactly there. */
+static void carry(uint16_t several)
+{
+    choices[0].more = number % 2U != 0U;
+    choices[1].more = number % 2U != 0U;
+    choices[2].more = number % 2U != 0U;
+    rows[0].low_first = number % 2U != 0U;
+    rows[1].low_first = number % 2U != 0U;
+    signal.low_first = number % 2U != 0U;
+    rows[0].when = NULL;
+    rows[1].choices = several;
+    rows[1].when = EXACTLY(several, choices);
+    signals.profile = &profile;
+    signals.adds_unit = number % 2U != 0U;
+    signals.signals = rows;
+    signals.count = 2U;
+}
+
+void prove_words_of(void)
+{
+    carry(0U);
+    (void)fieldscribe_can_words_of(&signal);
+}
+
+void prove_piece_at(unsigned done)
+{
+    carry(0U);
+    (void)fieldscribe_can_piece_at(&signal, done);
+}
+
+void prove_get(void)
+{
+    carry(0U);
+    (void)fieldscribe_can_get(&signal, bytes, 3U);
+}
+
+void prove_set(uint64_t raw)
+{
+    carry(0U);
+    fieldscribe_can_set(&signal, raw, bytes, 3U);
+}
+
+void prove_selected(uint16_t several)
+{
+    if (several <= 3U) {
+        //@ split several;
+        carry(several);
+        (void)fieldscribe_can_selected(&rows[1], text, WORDS);
+    }
+}
+
+void prove_signals_id(uint8_t unit)
+{
+    carry(0U);
+    (void)fieldscribe_can_signals_id(&signals, unit);
+}
+
+void prove_take_signals(uint8_t unit, uint32_t id, uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        carry(3U);
+        (void)fieldscribe_can_take_signals(&signals, unit, id, bytes, 3U, EXACTLY(count, text), count);
+    }
+}
+
+void prove_comes(uint16_t at, uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        carry(3U);
+        (void)fieldscribe_can_comes(&signals, at, EXACTLY(count, text), count);
+    }
+}
+
+void prove_put_signals(uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        carry(3U);
+        (void)fieldscribe_can_put_signals(&signals, EXACTLY(count, text), count, bytes, 3U);
+    }
 }

@@ -7587,11 +7587,16 @@ static const fieldscribe_named_telegram cyclic[] = {
     {NULL, NULL}
 };
 
+static const fieldscribe_named_signals of_signals[] = {
+    {NULL, NULL}
+};
+
 static const fieldscribe_tables tables = {
     &woodward_mpu2s_can_profile,
     &woodward_mpu2s_can_dialogue,
     messages,
-    cyclic
+    cyclic,
+    of_signals
 };
 
 static void run_code(fieldscribe_vector *v)

@@ -13,7 +13,7 @@ from fieldscribe.resolve.points import ResolvedPoint
 
 _WHOLE = (15, 0)
 _MOST = 512
-_APART = (
+APART = (
     ", or say by `when`, `variants`, `since` or `until` that they are never there at once, or by `view_of` that both "
     "may be"
 )
@@ -116,10 +116,10 @@ def _report_overlap(report: Report, together: list[ResolvedPoint], address: int,
     what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
     if all(resolved.point.bits for resolved in together):
         bit = max(resolved.point.bits[1] for resolved in together[:2] if resolved.point.bits)
-        hint = f"points may share a word, but not its bits: correct one{_APART}"
+        hint = f"points may share a word, but not its bits: correct one{APART}"
         report.error("bits-overlap", f"{what} take bit {bit} of {place}", mine.facts.span("bits"), hint, related)
         return
-    hint = f"correct one `{key}`, give each `bits` of the word{_APART}"
+    hint = f"correct one `{key}`, give each `bits` of the word{APART}"
     if any(len(resolved.point.addresses) > 1 for resolved in together):
         hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
     elif key == "write_at" and any(mine.facts.layer(key) is other.facts.layer(key) for other in others):

@@ -1,4 +1,4 @@
-"""The `telegram`, the `block` and the `addressing` of a group apply to points of it."""
+"""The `telegram` or `message`, the `block` and the `addressing` of a group apply to points of it."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from fractions import Fraction
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.addresses import RULE_KNOWS
 from fieldscribe.resolve.analysis import Analysis
-from fieldscribe.resolve.telegrams import SPACE
+from fieldscribe.resolve.telegrams import KEY_OF
 from fieldscribe.resolve.values import FactError, formula_value
 
+_WORD = {"telegram": "word", "signal": "signal"}
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 
 
 def check(analysis: Analysis) -> None:
-    """Report a telegram without points, points outside of a block, and an address rule that cannot be read."""
+    """Report a telegram or message without points, points outside of a block, and a rule that cannot be read."""
     groups: dict[int, Map] = {}
-    with_words: set[int] = set()
+    used: set[tuple[int, str]] = set()
     for resolved in analysis.resolved:
         group = resolved.facts.group
         groups.setdefault(id(group), group)
@@ -32,13 +33,14 @@ def check(analysis: Analysis) -> None:
             )
             hint = "write it in another group, or leave `space` out"
             analysis.report.error("two-meanings", message, resolved.facts.span("space"), hint)
-        if resolved.point.space == SPACE or "space" in resolved.facts.failed:
-            with_words.add(id(group))
-    for key, group in groups.items():
-        if "telegram" in group and key not in with_words and SPACE in analysis.scope.family.spaces:
-            message = f"no point of the group is a word of the telegram `{group['telegram']}`"
-            hint = "write `space: telegram`, or leave `telegram` out"
-            analysis.report.error("two-meanings", message, group.key_span("telegram"), hint)
+        spaces = KEY_OF if "space" in resolved.facts.failed else (resolved.point.space,)
+        used.update((id(group), space) for space in spaces)
+    for number, group in groups.items():
+        for space, key in KEY_OF.items():
+            if key in group and (number, space) not in used and space in analysis.scope.family.spaces:
+                message = f"no point of the group is a {_WORD[space]} of the {key} `{group[key]}`"
+                hint = f"write `space: {space}`, or leave `{key}` out"
+                analysis.report.error("two-meanings", message, group.key_span(key), hint)
         if "addressing" in group:
             _check_rule(analysis, group)
 

@@ -147,7 +147,7 @@ class IdentifierPlaces:
         if owner.of is not None:
             return self._place_of_part(owner, owner.of)
         if owner.kind in _LISTED:
-            listed = scope.listed(_LISTED[owner.kind])
+            listed = (*scope.listed(_LISTED[owner.kind]), *scope.listed("messages"))  # signals have a telegram, too
             return next(node.span("name") for node in listed if node["name"] == owner.name)
         if owner.kind == "group":
             return next(node.span("group") for node in scope.groups if node["group"] == owner.name)

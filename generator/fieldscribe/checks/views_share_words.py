@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.checks.coexistence import WordKey, word_key
-from fieldscribe.model import Point
+from fieldscribe.model import Point, bits_of
 from fieldscribe.resolve.analysis import Analysis
 
 
@@ -19,9 +19,12 @@ def check(analysis: Analysis) -> None:
             continue
         others = {word for other in viewed.get(point.view_of, ()) for word in _words(analysis, other)}
         if others.isdisjoint(_words(analysis, point)):
-            message = f"`{point.name}` has no word of `{point.view_of}`"
+            what = "word" if point.place.bit is None else "bit"
+            message = f"`{point.name}` has no {what} of `{point.view_of}`"
             analysis.report.error("view", message, facts.span("view_of"), "correct `at`, or leave `view_of` out")
 
 
 def _words(analysis: Analysis, point: Point) -> set[WordKey]:
+    if point.place.bit is not None:
+        return {word_key(analysis, point, bit) for bit in bits_of(point)}
     return {word_key(analysis, point, address) for address in point.addresses}

@@ -7,7 +7,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from types import ModuleType
 
-from fieldscribe.cli import import_sunspec, import_table, import_wb
+from fieldscribe.cli import import_dbc, import_sunspec, import_table, import_wb
 from fieldscribe.cli.common import StopError, some_path
 from fieldscribe.importing.headings import ROLES
 
@@ -29,6 +29,7 @@ Models of SunSpec and a template make a whole device; the last line on standard 
 ends with 1 when the file holds no table of points (no model, no template), has no such column, or cannot be read"""
 
 KINDS: dict[str, tuple[ModuleType, str]] = {
+    "dbc": (import_dbc, "CAN databases"),
     "table": (import_table, "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual"),
     "sunspec": (import_sunspec, "models of SunSpec: a file `model_103.json`, or a folder of them"),
     "wb": (import_wb, "a device template of wb-mqtt-serial: `.json`, `.json.jinja`"),

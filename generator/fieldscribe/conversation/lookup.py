@@ -153,6 +153,8 @@ def _by_name(device: Device, name: str) -> Iterator[Match]:
 
 def _by_wire_address(device: Device, number: int) -> Iterator[Match]:
     for point in device.points:
+        if point.place.bit is not None:  # its words are in no frame
+            continue
         place = next((place for place in point.places if number in place.addresses), None)
         if place is None:
             continue

@@ -106,6 +106,8 @@ def _raw(point: Point, piece: Piece) -> int | None:
 
 def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> str:
     """Return where missing points come in the telegram; empty if they do not."""
+    if not piece.pieces.per_frame:
+        return ""
     firsts = [state.directory.first(piece.telegram.name, name) for name in missing]
     slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
     return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""

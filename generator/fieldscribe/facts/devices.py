@@ -195,10 +195,19 @@ MESSAGE: FactTable = (
     Fact(
         "layout",
         "What each byte holds.",
-        list_of(ref("role"), 8, 8),
+        list_of(ref("role"), 0, 8),
         WIRE,
         value=lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles],
     ),
+    Fact(
+        "length",
+        "With signals: the number of bytes; null for a layout of 8.",
+        INTEGER_OR_NULL,
+        WIRE,
+        value=lambda message, _: None if message.roles else message.length,
+    ),
+    Fact("bits", "The bits of its identifier, if they are not those of the bus.", INTEGER_OR_NULL, WIRE),
+    Fact("every", "How often it is sent, in milliseconds.", INTEGER_OR_NULL, BEHAVIOUR),
     SOURCE,
 )
 TELEGRAM: FactTable = (
@@ -422,7 +431,9 @@ def device_table(own_family: str) -> FactTable:
             views=(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE),),
         ),
         _list("bases", "What addresses count from, if not from 0.", _parts("base", BASE, "formula")),
-        _list("messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "direction", "layout")),
+        _list(
+            "messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "bits", "direction", "layout")
+        ),
         _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),
         _list("frames", "The worked frames of the manual.", _parts("frame", frame, "bytes", change=DOCS)),
         Fact(

@@ -77,6 +77,12 @@ def places(point: Point, context: Context) -> list[dict[str, object]]:
     ]
 
 
+def signal(point: Point, _: Context) -> dict[str, object] | None:
+    """Return where a signal lies in its message; None for other points."""
+    place = point.place
+    return None if place.bit is None else {"bit": place.bit, "low_first": place.low_first}
+
+
 def place(place: Place) -> dict[str, object]:
     """Return the addresses of a place and what the manual prints for it."""
     return {"addresses": list(place.addresses), "references": dict(place.references)}
@@ -184,6 +190,8 @@ def class_in_code(old: Exported, new: Exported, label: str, weight: str) -> str:
 
 def address_view(point: Exported) -> object:
     """Return the lowest address; all of them where they are not neighbours."""
+    if point["signal"] is not None:
+        return point["signal"]["bit"]
     addresses = sorted(point["addresses"])
     if addresses and addresses[-1] - addresses[0] < len(addresses):
         return addresses[0]
@@ -196,6 +204,11 @@ def word_order_view(point: Exported) -> object:
     if addresses == sorted(addresses):
         return None
     return "low first" if addresses[::-1] == sorted(addresses) else [word - min(addresses) for word in addresses]
+
+
+def byte_order_view(point: Exported) -> object:
+    """Return the order of the bytes of a signal; None where it is the usual one."""
+    return "low first" if point["signal"] is not None and point["signal"]["low_first"] else None
 
 
 def base_view(place: Exported) -> object:

@@ -229,7 +229,7 @@ POINT: FactTable = (
             View("order of words", WIRE, values.word_order_view, yaml=("words",)),
         ),
         label="Addresses",
-        text=lambda point, _: wording.words_text(point) if len(point.addresses) > 1 else "",
+        text=texts.words_text,
     ),
     Fact(
         "byte_order",
@@ -261,6 +261,17 @@ POINT: FactTable = (
         label="Exists when",
         text=lambda point, _: "the block is long enough" if point.to_end else "",
         remark="exists when {}",
+    ),
+    Fact(
+        "signal",
+        "Of a signal of a message: its first bit, as CAN databases count them, and whether the low byte comes first; "
+        "its addresses are words of the telegram of the message.",
+        null_or(record(("bit", "The bit.", ADDRESS), ("low_first", "Whether the low byte comes first.", BOOLEAN))),
+        value=values.signal,
+        views=(View("order of bytes", WIRE, values.byte_order_view, yaml=("bytes",)),),
+        label="Bits",
+        text=texts.signal_text,
+        column="the bits of a signal in its message",
     ),
     Fact(
         "references",

@@ -11,6 +11,7 @@ from fieldscribe import wording
 from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point, Source
+from fieldscribe.text import counted
 from fieldscribe.wording.exact import hex_text
 
 _KINDS = {"u": "unsigned", "s": "signed, two's complement", "f": "IEEE 754 floating point"}
@@ -26,6 +27,8 @@ def address_text(point: Point, context: Context) -> str:
     """Return the address with what it needs beside it: index and space, or the telegram."""
     if point.address is None:
         return f"not printed in the manual, space {point.space}" if point.telegram is None else ""
+    if point.place.bit is not None:
+        return ""
     if point.telegram is not None:
         return f"word {point.address} of the telegram {point.telegram}, counted from 0"
     first = point.addresses[0] if point.text is not None else point.address
@@ -37,6 +40,16 @@ def base_text(point: Point, context: Context) -> str:
     """Return what the addresses count from."""
     base = context.device.base_of(point)
     return "" if base is None else wording.base_text(base)
+
+
+def words_text(point: Point, _: Context) -> str:
+    """Return the words of a point that has several."""
+    return wording.words_text(point) if len(point.addresses) > 1 and point.place.bit is None else ""
+
+
+def signal_text(point: Point, _: Context) -> str:
+    """Return the bits of a signal in its message; empty for other points."""
+    return "" if point.place.bit is None else f"{wording.bits_in_message(point)} of the message {point.telegram}"
 
 
 def index_text(point: Point, context: Context) -> str:
@@ -59,8 +72,10 @@ def type_text(point: Point, _: Context) -> str:
     """Return the type with what kind of number it is."""
     if point.untyped is not None or point.type == "bit" or point.text is not None:
         return wording.type_text(point)
-    kind = f"{_KINDS[point.shape.wire_type[0]]}, {point.width} bits"
+    kind = f"{_KINDS[point.shape.wire_type[0]]}, {counted(point.width, 'bit')}"
     if point.digits is not None:
+        return f"{wording.type_text(point)} ({kind})"
+    if point.place.bit is not None:
         return f"{wording.type_text(point)} ({kind})"
     if point.bits is None:
         return f"{point.shape.wire_type} ({kind})"

@@ -103,7 +103,7 @@ class Family:
     folder: str
     """The name of the package."""
     spaces: Mapping[str, str]
-    """What one address of a space holds: `bit` or `word`."""
+    """What one address of a space holds: `bit` or `word`; `signal` if points are bits of a message."""
     last_address: int
     bus: BusKeys
     framings: tuple[str, ...]

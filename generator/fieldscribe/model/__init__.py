@@ -11,6 +11,7 @@ from fieldscribe.model.device import (
     Document,
     Erratum,
     FamilyFacts,
+    Field,
     Found,
     Frame,
     Given,
@@ -37,7 +38,7 @@ from fieldscribe.model.numbers import (
     carrier_of,
     type_info,
 )
-from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
+from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, bits_of, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Interner, Shape
 from fieldscribe.model.steps import Step, SteppedCommand, Word

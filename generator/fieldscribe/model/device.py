@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, Self
 
 from fieldscribe.model.numbers import Enum, Titles
-from fieldscribe.model.point import Point, Source, Variant
+from fieldscribe.model.point import Point, Source, Variant, message_bits
 from fieldscribe.model.steps import SteppedCommand
 
 
@@ -98,8 +98,39 @@ class Role:
 
 
 @dataclass(frozen=True, slots=True)
+class Field:
+    """Where a signal lies in the bits of a message, and in the words of its telegram.
+
+    `start` is its first bit as CAN databases count them: bit 0 of byte 0 is 0, bit 7 of byte 1 is 15. It is the least
+    significant bit if the low byte comes first, else the most significant one. `word` is its first word in the
+    telegram. `when` has fields of the message with the raw numbers that select the signal: all must fit.
+    """
+
+    start: int
+    width: int
+    low_first: bool
+    word: int
+    when: tuple[tuple[int, tuple[int, ...]], ...] = ()
+
+    @property
+    def words(self) -> int:
+        """Return how many words it takes, the high one first; above the number they are 0."""
+        return -(-self.width // 16)
+
+    @property
+    def bits(self) -> tuple[int, ...]:
+        """Return its bits in the message, the least significant one first."""
+        return message_bits(self.start, self.width, low_first=self.low_first)
+
+
+@dataclass(frozen=True, slots=True)
 class Message:
-    """A layout of bytes with an identifier, to which the unit number is added if `adds_unit`."""
+    """A layout of bytes with an identifier, to which the unit number is added if `adds_unit`.
+
+    A message has `roles` for its bytes, or `length` bytes of signals, whose bits the `fields` give; the words of these
+    are a telegram of the same name. `bits` is the length of its identifier if it is not that of the bus; `every` is how
+    often it is sent, in milliseconds.
+    """
 
     name: str
     title: Titles
@@ -109,6 +140,10 @@ class Message:
     adds_unit: bool
     roles: tuple[Role, ...]
     source: Source
+    length: int = 8
+    bits: int | None = None
+    every: int | None = None
+    fields: tuple[Field, ...] = ()
 
     @property
     def words(self) -> int:

@@ -51,10 +51,38 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is read or written: its addresses, high part first, and the numbers that the manual prints."""
+    """Where a point is read or written: its addresses, high part first, and the numbers that the manual prints.
+
+    `signal` has the first bit of a signal in its message, and whether its low byte comes first; its addresses are words
+    of the telegram of the message.
+    """
 
     addresses: tuple[int, ...]
     references: Mapping[str, int | str]
+    signal: tuple[int, bool] | None = None
+
+    @property
+    def bit(self) -> int | None:
+        """Return the first bit of a signal in its message; None for other points."""
+        return None if self.signal is None else self.signal[0]
+
+    @property
+    def low_first(self) -> bool:
+        """Return True for a signal whose low byte comes first."""
+        return self.signal is not None and self.signal[1]
+
+
+def message_bits(start: int, width: int, *, low_first: bool) -> tuple[int, ...]:
+    """Return the bits of a signal in its message, the least significant one first."""
+    if low_first:
+        return tuple(range(start, start + width))
+    first = start ^ 7  # counted in the order in which the bits travel
+    return tuple([place ^ 7 for place in reversed(range(first, first + width))])
+
+
+def bits_of(point: Point) -> tuple[int, ...]:
+    """Return the bits in its message of a point that is a signal."""
+    return message_bits(point.place.bit or 0, point.width, low_first=point.place.low_first)
 
 
 NOWHERE = Place((), {})

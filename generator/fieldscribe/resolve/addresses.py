@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -13,12 +14,12 @@ from fieldscribe.language.formula.syntax import FormulaError, names
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
-from fieldscribe.model import NOWHERE, Place
+from fieldscribe.model import NOWHERE, Message, Place
 from fieldscribe.resolve.bases import last_address
 from fieldscribe.resolve.encodings import Encoding, low_first
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
-from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
+from fieldscribe.resolve.telegrams import KEY_OF, SIGNAL, SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.resolve.word_contents import layout_of
 from fieldscribe.wording.exact import number_text
@@ -86,13 +87,20 @@ class Places:
         write_place = self._place(facts, encoding, "write_at")
         return place, write_place if write_place.addresses else None
 
+    def carry(self, messages: Iterable[Message]) -> None:
+        """Give the telegrams of signals their lengths."""
+        words = {each.name: sum(field.words for field in each.fields) for each in messages if not each.roles}
+        known = {name: (replace(self.telegrams[name][0], words=count), 0) for name, count in words.items()}
+        self.telegrams = {**self.telegrams, **known}
+
     def access(self, facts: PointFacts, space: str) -> str:
         """Return what a master may do: `access`, else all that the direction of the telegram allows."""
-        telegram_entry = self.telegrams.get(facts.group.get("telegram", "")) if space == SPACE else None
+        telegram_entry = self.telegrams.get(facts.group.get(KEY_OF.get(space, ""), ""))
         usual = "rw" if telegram_entry is None else _ACCESS[telegram_entry[0].direction]
         access = str(facts.get("access", usual))
         if telegram_entry is not None and not set(access) <= set(usual) and access != "none":
-            message = f"a word of the telegram `{telegram_entry[0].name}` is {_VERBS[usual]} only"
+            what = "signal of the message" if space == SIGNAL else "word of the telegram"
+            message = f"a {what} `{telegram_entry[0].name}` is {_VERBS[usual]} only"
             hint = f"write `access: {usual}`, or leave it out"
             self.report.error("wrong-choice", message, facts.span("access"), hint)
             return usual
@@ -108,7 +116,7 @@ class Places:
 
     def _layout(self, facts: PointFacts, encoding: Encoding) -> _Layout:
         group = facts.group
-        if encoding.type == "text" or encoding.space == SPACE or "addressing" in group or group.broken or facts.failed:
+        if encoding.type == "text" or encoding.space in KEY_OF or "addressing" in group or group.broken or facts.failed:
             return _FROM_ROW
         words = self._count(facts, encoding)
         last = self._last_address(facts)
@@ -116,6 +124,8 @@ class Places:
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
+        if encoding.space == SIGNAL:
+            return self._signal(facts, encoding, key)
         last, raw = self._last(facts, encoding.space), self._written_address(facts, key)
         if last is None or raw is None:
             return NOWHERE
@@ -134,6 +144,21 @@ class Places:
         downwards = not text and low_first(facts, "words", self._order, encoding.type)
         return Place(words[::-1] if downwards else words, self.references(facts, printed))
 
+    def _signal(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
+        """Return the place of a signal; its words are numbered when all signals of the message are known."""
+        telegram = telegram_of(self.scope, self.telegrams, facts, SIGNAL)
+        raw = self._written_address(facts, key)
+        if telegram is None or raw is None:
+            return NOWHERE
+        try:
+            bit = self._address(facts, raw, key)
+        except FactError as error:
+            error.report(self.report)
+            return NOWHERE
+        words = tuple(range(-(-encoding.width // 16)))
+        order = None if self.scope.bus is None else self.scope.bus.get("bytes")
+        return Place(words, self._numbers(facts, bit), (bit, low_first(facts, "bytes", order, encoding.type)))
+
     def _words_per_frame(self, facts: PointFacts) -> int:
         """Return how many words of the point's telegram one frame carries; 0 if the telegram is not multiplexed."""
         if facts.get("space") != SPACE:
@@ -145,8 +170,8 @@ class Places:
         """Return the last address of the space, or the last word of the telegram; None after a finding."""
         if space != SPACE:
             return self._last_address(facts)
-        telegram = telegram_of(self.scope, self.telegrams, facts)
-        return None if telegram is None else telegram[0].words - 1
+        telegram = telegram_of(self.scope, self.telegrams, facts, space)
+        return None if telegram is None else telegram.words - 1
 
     def _last_address(self, facts: PointFacts) -> int:
         """Return the last address of a point, counted from the base of its group."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from fieldscribe.families import BusKeys, Family, families
@@ -15,6 +15,7 @@ from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 from fieldscribe.resolve.word_contents import Taken, entry_titles, name_of
 
+Messages = tuple[Message, ...]
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
 _LAST_UNIT = 255
 
@@ -41,6 +42,10 @@ class FamilyReader:
             hint = f"leave it out: the frames of {scope.family.name} are known"
             scope.report.error("family-key", f"messages are for the family {laid_out}", node.span("name"), hint)
         return ()
+
+    def lay_out(self, messages: Messages, points: Iterable[Point]) -> tuple[Messages, list[Point]]:
+        """Return the messages with their signals, and the points with their places in the words of these."""
+        return messages, list(points)
 
     def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
         """Report a telegram that the family's own frames cannot carry."""

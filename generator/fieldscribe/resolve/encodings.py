@@ -53,6 +53,8 @@ class Encodings:
         name = _type_of(self._scope, facts, space, bits)
         info = type_info(name)
         width = info.bits if bits is None else bits[0] - bits[1] + 1
+        if self._scope.family.spaces[space] == "signal" and width < 16:
+            bits = (width - 1, 0)  # of a word of its own
         holds = ends_of(width, signed=info.signed)
         carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
         order = None if self._scope.bus is None else self._scope.bus.get("bytes")
@@ -85,8 +87,9 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
     if text is None:
         return None
     span = facts.span("bits")
-    if scope.family.spaces[space] == "bit":
-        message = f"the space `{space}` holds single bits, not words"
+    holds = scope.family.spaces[space]
+    if holds != "word":
+        message = f"the space `{space}` holds {'single bits' if holds == 'bit' else 'signals'}, not words"
         scope.report.error("bit-outside-word", message, span, "leave `bits` out")
         return None
     return _parse_bits(scope, str(text), span)
@@ -111,6 +114,8 @@ def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
 def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] | None) -> str:
     """Return the point's wire type: as stated, else by its space and bits; report a type that does not fit them."""
     single = scope.family.spaces[space] == "bit"
+    if scope.family.spaces[space] == "signal":
+        return _type_of_signal(scope, facts)
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
     type_name = str(facts.get("type") or default) if facts.untyped is None else default
@@ -122,6 +127,20 @@ def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] 
     span = facts.span("type" if facts.layer("type") is not None else "space")
     scope.report.error(fault[0], fault[1], span, fault[2])
     return default
+
+
+def _type_of_signal(scope: Scope, facts: PointFacts) -> str:
+    """Return the wire type of a signal; report a missing one, and one that has no bits of its own."""
+    stated = facts.get("type")
+    if stated is not None and stated not in ("bit", "text"):
+        return str(stated)
+    if facts.untyped is None and not facts.failed & {"type", "space"}:
+        facts.failed.add("type")
+        message = f"`{facts.name}` says no type" if stated is None else f"`{stated}` is no type of a signal"
+        span = facts.span() if stated is None else facts.span("type")
+        hint = "a signal has a sign and a width, as in `type: u12`, `s7` or `u1`; or it is f32 or f64"
+        scope.report.error("missing-key" if stated is None else "type-outside-space", message, span, hint)
+    return "u1" if facts.untyped is None else "u16"
 
 
 def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:

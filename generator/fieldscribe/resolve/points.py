@@ -25,7 +25,7 @@ from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.symbols import SymbolTable
-from fieldscribe.resolve.telegrams import SPACE, Telegrams
+from fieldscribe.resolve.telegrams import KEY_OF, Telegrams
 from fieldscribe.resolve.values import integer, number, pattern
 
 _MOST_NAMES = 12
@@ -133,7 +133,7 @@ class _Points:
             reserved=bool(get("reserved", False)),
             generated=reason is None,
             reason=reason,
-            telegram=facts.group.get("telegram") if encoding.space == SPACE else None,
+            telegram=facts.group.get(KEY_OF.get(encoding.space, "")),
             changes_with=_other_points(facts, "changes_with", self._scales.symbols),
             untyped=_untyped(scope, facts),
             view_of=_view_of(facts, self._scales.symbols),

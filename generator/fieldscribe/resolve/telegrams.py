@@ -15,6 +15,10 @@ Telegrams = Mapping[str, tuple[Telegram, int]]
 
 SPACE = "telegram"
 """The space whose points are words of a telegram."""
+SIGNAL = "signal"
+"""The space whose points are bits of a message; the words of these are a telegram of the same name."""
+KEY_OF = {SPACE: "telegram", SIGNAL: "message"}
+"""What a group of such a space names."""
 
 _MULTIPLEXED = 256
 """How many different frames a multiplexer can number."""
@@ -42,22 +46,33 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
             source=source_of(scope, node),
         )
         result[name] = (telegram, carried)
+    for carrier in (message for message in messages if not message.roles):
+        name = carrier.name
+        if name in result:
+            node = next(node for node in scope.listed("telegrams") if node["name"] == name)
+            text, hint = f"the signals of the message `{name}` are a telegram of that name", "rename one of them"
+            scope.report.error("duplicate-name", text, node.span("name"), hint)
+        result[name] = Telegram(name, carrier.title, carrier.direction, 0, name, carrier.source), 0
     return result
 
 
-def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts) -> tuple[Telegram, int] | None:
+def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts, space: str) -> Telegram | None:
     """Return the telegram that the point's group belongs to; None after a finding."""
-    name = facts.group.get("telegram")
+    key, group = KEY_OF[space], facts.group
+    name = group.get(key)
     if name is None:
-        if "telegram" not in facts.group.broken:
-            hint = "add `telegram: …` to the group"
-            span = facts.group.span("space") if "space" in facts.group else facts.span()
-            scope.report.error("missing-key", "the words of the space `telegram` belong to a telegram", span, hint)
+        if key not in group.broken:
+            hint = f"add `{key}: …` to the group"
+            span = group.span("space") if "space" in group else facts.span()
+            what = "words" if space == SPACE else "signals"
+            text = f"the {what} of the space `{space}` belong to a {key}"
+            scope.report.error("missing-key", text, span, hint)
         return None
-    entry = telegrams.get(name)
-    if entry is None:
-        scope.unknown("telegram", name, facts.group.span("telegram"), telegrams)
-    return entry
+    of_signals = space == SIGNAL  # their words are not counted yet
+    known = {each: telegram for each, (telegram, _) in telegrams.items() if (telegram.words == 0) is of_signals}
+    if name not in known:
+        scope.unknown(key, name, group.span(key), list(known))
+    return known.get(name)
 
 
 def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:

@@ -46,6 +46,13 @@ def words_text(point: Point) -> str:
     return _words_of(point, point.addresses)
 
 
+def bits_in_message(point: Point) -> str:
+    """Return where a signal lies, as CAN databases count: `12 bits from bit 3 on, low byte first`."""
+    several = "" if point.width == 1 else f", {'low' if point.place.low_first else 'high'} byte first"
+    what = "bit" if point.width == 1 else f"{point.width} bits from bit"
+    return f"{what} {point.place.bit}{' on' if several else ''}{several}"
+
+
 def write_place_text(point: Point) -> str:
     """Return where else the point is written, with the manual's numbers: `2028h (8232), modicon 8233`."""
     if point.write_place is None:
@@ -99,6 +106,8 @@ def type_text(point: Point) -> str:
         return point.untyped or "not settled by the manual"
     if point.text is not None:
         return f"text, {characters_text(point.text)}"
+    if point.place.bit is not None:
+        return f"{point.shape.wire_type[0]}{point.width}"
     if point.digits is not None:
         return f"{point.type}, {point.digits.count} decimal digits"
     return point.shape.wire_type if point.bits is None else f"{point.type}, {_bits_text(*point.bits)}"

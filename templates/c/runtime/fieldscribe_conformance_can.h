@@ -14,6 +14,11 @@ typedef struct fieldscribe_named_message {
     const fieldscribe_can_message *message;
 } fieldscribe_named_message;
 
+typedef struct fieldscribe_named_signals {
+    const char *name;
+    const fieldscribe_can_signals *message;
+} fieldscribe_named_signals;
+
 typedef struct fieldscribe_named_telegram {
     const char *name;
     const fieldscribe_can_telegram *telegram;
@@ -25,6 +30,7 @@ typedef struct fieldscribe_tables {
     const fieldscribe_can_dialogue *dialogue; /* NULL when no message asks for parameters */
     const fieldscribe_named_message *messages;
     const fieldscribe_named_telegram *cyclic;
+    const fieldscribe_named_signals *of_signals;
 } fieldscribe_tables;
 
 static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_vector *v)
@@ -207,6 +213,93 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
             fieldscribe_ages(v, &(frame).heard);                                                 \
         } else {                                                                                 \
             fieldscribe_untouched(v, words, sizeof words);                                       \
+            fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
+        }                                                                                        \
+    }
+
+/* A message of signals, by the name of its telegram; NULL when there is none. */
+static inline const fieldscribe_can_signals *fieldscribe_find_signals(fieldscribe_vector *v)
+{
+    const fieldscribe_named_signals *one = fieldscribe_tables_of(v)->of_signals;
+    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
+        ++one;
+    }
+    return one->message;
+}
+
+/* Room for all words of a message of signals, and one more. */
+#define FIELDSCRIBE_SIGNAL_WORDS 513U
+
+/* Takes the words of the frame of a line; the status is that of the signal of that word. */
+FIELDSCRIBE_ONCE fieldscribe_can_status fieldscribe_takes_signals(
+    fieldscribe_vector *v, uint16_t word, uint16_t words[FIELDSCRIBE_SIGNAL_WORDS])
+{
+    const fieldscribe_can_signals *const message = fieldscribe_find_signals(v);
+    const uint8_t unit = (uint8_t)fieldscribe_at_most(v, "unit", 255U);
+    const uint32_t id = (uint32_t)fieldscribe_bits(v, "id");
+    uint8_t data[FIELDSCRIBE_BYTES_MOST] = {0U};
+    const size_t length = fieldscribe_hex(fieldscribe_field(v, "bytes"), data, FIELDSCRIBE_BYTES_MOST);
+    const size_t count = message->words;
+    fieldscribe_can_status status;
+    fieldscribe_fill(words, FIELDSCRIBE_SIGNAL_WORDS * sizeof words[0]);
+    status = fieldscribe_can_take_signals(message, unit, id, data, length, words, count);
+    if (status != FIELDSCRIBE_CAN_OK) {
+        fieldscribe_untouched(v, words, FIELDSCRIBE_SIGNAL_WORDS * sizeof words[0]);
+        return status;
+    }
+    fieldscribe_untouched(v, words + count, (FIELDSCRIBE_SIGNAL_WORDS - count) * sizeof words[0]);
+    fieldscribe_agree(v, fieldscribe_can_take_signals(message, unit, id, data, length, words, count - 1U) ==
+        FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);
+    if (message->profile->last_unit < 255U) {
+        const uint8_t other = (uint8_t)(message->profile->last_unit + 1U);
+        fieldscribe_agree(v, fieldscribe_can_take_signals(message, other, id, data, length, words, count) ==
+            FIELDSCRIBE_CAN_BAD_UNIT);
+    }
+    fieldscribe_agree(v, fieldscribe_can_comes(message, message->words, words, count) == FIELDSCRIBE_CAN_MISSING);
+    return fieldscribe_can_comes(message, word, words, count);
+}
+
+/* The words of one signal, and the numbers that select it, become the bytes of the line. */
+FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t word, uint16_t *words)
+{
+    const fieldscribe_can_signals *const message = fieldscribe_find_signals(v);
+    uint8_t data[FIELDSCRIBE_BYTES_MOST] = {0U};
+    uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
+    const size_t length = fieldscribe_hex(fieldscribe_field(v, "packed"), expected, FIELDSCRIBE_BYTES_MOST);
+    size_t first = 0U;
+    unsigned at = 0U;
+    while (at < message->count && first < word) {
+        first += fieldscribe_can_words_of(&message->signals[at]);
+        ++at;
+    }
+    if (at < message->count && message->signals[at].when != NULL) {
+        const fieldscribe_can_signal *const signal = &message->signals[at];
+        for (at = 0U; at < signal->choices; ++at) {
+            words[signal->when[at].word] = signal->when[at].raw;
+        }
+    }
+    fieldscribe_fill(data, sizeof data);
+    fieldscribe_agree(v, fieldscribe_can_put_signals(message, words, message->words, data, length) ==
+        FIELDSCRIBE_CAN_OK && length == message->length && memcmp(data, expected, length) == 0);
+    fieldscribe_untouched(v, data + length, sizeof data - length);
+    fieldscribe_agree(v, fieldscribe_can_put_signals(message, words, message->words, data, length - 1U) ==
+        FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);
+    fieldscribe_agree(v, fieldscribe_can_put_signals(message, words, message->words - 1U, data, length) ==
+        FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);
+}
+
+/* A signal of a message, out of a frame and into one. */
+#define FIELDSCRIBE_SIGNAL(frame, kind, raw_type)                                                \
+    if (fieldscribe_asks(v, "can_signal")) {                                                     \
+        uint16_t words[FIELDSCRIBE_SIGNAL_WORDS];                                                \
+        const fieldscribe_can_status status = fieldscribe_takes_signals(v, (frame).heard.high, words); \
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
+        if (status == FIELDSCRIBE_CAN_OK) {                                                      \
+            fieldscribe_taken_##kind(v, (frame).layout, words + (frame).heard.high);             \
+            memset(words, 0, sizeof words);                                                      \
+            fieldscribe_put_field_##kind(v, (frame).layout, "raw", words + (frame).heard.high);  \
+            fieldscribe_puts_signals(v, (frame).heard.high, words);                              \
+        } else {                                                                                 \
             fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
         }                                                                                        \
     }
@@ -469,6 +562,9 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
         fieldscribe_run_can_build(v);
     } else if (fieldscribe_asks(v, "can_parse")) {
         fieldscribe_run_can_parse(v);
+    } else if (fieldscribe_asks(v, "can_signal")) {
+        v->answered = false; /* until the point answers too */
+        fieldscribe_run_point(v);
     } else if (fieldscribe_asks(v, "can_telegram") || fieldscribe_asks(v, "can_text")) {
         fieldscribe_run_can_telegram(v);
     } else {

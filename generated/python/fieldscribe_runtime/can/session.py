@@ -120,7 +120,8 @@ class CanSession(Session):
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write parameters one by one."""
         if place.space != "parameter":
-            raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only parameter")
+            instead = "; `pack` makes the frame of a message" if place.space == "signal" else ""
+            raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only parameter{instead}")
         request = self.PROFILE.request(writes=True)
         answer = self.PROFILE.answer(request)
         for address, word in zip(sorted(place.addresses), values, strict=True):

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from fieldscribe.checks import frames_agree
+from fieldscribe.checks.addresses_do_not_overlap import APART
+from fieldscribe.checks.coexistence import Coexistence
 from fieldscribe.checks.frames_agree import Seen, Words
 from fieldscribe.checks.reachability import report_missing
-from fieldscribe.families.can import frames, identifier_of
+from fieldscribe.diagnostics import Span
+from fieldscribe.families.can import frames, identifier_bits, identifier_of, signals
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Frame, Message, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.resolve.points import ResolvedPoint
 
+_WIDEST_SELECTOR, _MOST_VIEWS = 16, 64
 _MOST_COMPARED = 64
 """With how many messages of its identifier each message is compared."""
 
@@ -20,27 +26,33 @@ _MOST_COMPARED = 64
 def messages_differ(subject: Analysis) -> None:
     """Report messages of the same identifier that differ in no constant byte."""
     nodes = {str(node["name"]): node for node in reversed(list(subject.scope.listed("messages")))}
-    by_identifier: dict[int, list[Message]] = {}
+    by_identifier: dict[tuple[int, int], list[Message]] = {}
     low, high = subject.bus.units
     for message in subject.messages:
         reported: set[str] = set()
         units = range(low, high + 1) if message.adds_unit else (0,)
+        bits = message.bits or identifier_bits(subject.bus)
         for identifier in (message.identifier + unit for unit in units):
-            earlier = by_identifier.setdefault(identifier, [])
+            earlier = by_identifier.setdefault((bits, identifier), [])
             for other in earlier:
                 if other.name in reported or subject.report.full or not _look_the_same(other, message):
                     continue
                 reported.add(other.name)
                 text = f"nobody can tell `{message.name}` from `{other.name}` under the identifier {identifier:X}h"
-                related = [(nodes[other.name].span("can_id"), f"`{other.name}` stands here")]
+                here, there = (_place(nodes[each.name]) for each in (message, other))
+                related = [(there, f"`{other.name}` stands here")]
                 hint = "a constant byte must differ, or the identifiers; which there are with + unit, `units` says"
-                subject.report.error("messages-alike", text, nodes[message.name].span("can_id"), hint, related)
+                subject.report.error("messages-alike", text, here, hint, related)
             if len(earlier) < _MOST_COMPARED:
                 earlier.append(message)
 
 
+def _place(node: Map) -> Span:
+    return node.span("can_id" if "can_id" in node else "pgn")
+
+
 def _look_the_same(message: Message, other: Message) -> bool:
-    pairs = zip(message.roles, other.roles, strict=True)
+    pairs = zip(message.roles, other.roles, strict=False)  # none of a message with signals
     return not any(mine.kind == theirs.kind == "constant" and mine.number != theirs.number for mine, theirs in pairs)
 
 
@@ -80,6 +92,11 @@ class _Reading:
 def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """Read a worked frame as a message of the device; `Seen.request` is a `_Reading`."""
     frame = open_frame.frame
+    known = identifier_of(frame)
+    can_frame = frames.CanFrame(-1 if known is None else known, frame.printed)
+    for carrier in subject.messages:
+        if carrier.fields and frames.is_of(carrier, subject.bus.units, can_frame):
+            return Seen(frame, None, _words_of_signals(carrier, frame.printed))
     if len(frame.printed) != frames.LENGTH:
         message = f"a frame has {frames.LENGTH} bytes, {len(frame.printed)} are printed"
         return frames_agree.report_no_frame(subject, open_frame, message)
@@ -106,7 +123,8 @@ def _readings(subject: Analysis, frame: Frame, number: int, request: _Reading | 
     """Yield the frame read as each message that it could be."""
     read_frame = frames.CanFrame(number, frame.printed)
     for message in subject.messages:
-        if message.direction == frame.direction and (request is None or message.answers == request.message.name):
+        fits = request is None or message.answers == request.message.name
+        if message.roles and message.direction == frame.direction and fits:
             unit = frames.unit_of(message, read_frame)
             unit = subject.bus.units[0] if unit is None else unit
             yield _Reading(message, unit, frames.parse(message, unit, read_frame))
@@ -140,6 +158,12 @@ def _fault(frame: Frame, readings: list[_Reading], reading: _Reading | None, req
     return None
 
 
+def _words_of_signals(message: Message, data: bytes) -> Words:
+    words = signals.words_of(message, data)
+    came = [part for part, when in signals.parts(message) if signals.comes(message, when, words)]
+    return {(message.name, at, 0): (words[at],) for part in came for at in part}
+
+
 def _words(subject: Analysis, reading: _Reading, frame: Frame) -> Words:
     """Return the word of a parameter, and the words of telegrams in a frame."""
     message, parsed = reading.message, reading.parsed
@@ -149,4 +173,66 @@ def _words(subject: Analysis, reading: _Reading, frame: Frame) -> Words:
     return carried | ({("parameter", parsed.address, 0): (parsed.raw,)} if frames.carries(message, "raw") else {})
 
 
-CHECKS = (messages_differ, parameters_are_reachable)
+def signals_fit(subject: Analysis) -> None:
+    """Report signals outside their message, signals that share bits, and conditions that no selector can be."""
+    coexistence = Coexistence(subject)
+    viewed = {each.point.name: each.point.view_of for each in subject.resolved}
+    for message in (message for message in subject.messages if not message.roles):
+        mine = [each for each in subject.resolved if each.point.telegram == message.name and each.point.addresses]
+        if not mine:
+            node = next(node for node in subject.scope.listed("messages") if node["name"] == message.name)
+            hint = f"add `layout: …`, or a group with `space: signal` and `message: {message.name}`"
+            text = f"the message `{message.name}` has neither a layout nor signals"
+            subject.report.error("missing-key", text, node.span("name"), hint)
+        points = [each.point for each in mine]
+        taken: dict[int, list[ResolvedPoint]] = {}
+        for resolved in mine:
+            if subject.report.full:
+                return
+            if not _signal_fits(subject, message, resolved, points):
+                continue
+            field = signals.field_of(message, resolved.point)[1]
+            others = {id(other): other for bit in field.bits for other in taken.setdefault(bit, [])}
+            fields = {key: signals.field_of(message, other.point)[1] for key, other in others.items()}
+            near = [other for key, other in others.items() if not signals.exclude(field, fields[key])]
+            rival = next((each for each in near if _meet(coexistence, viewed, resolved, each)), None)
+            if rival is not None:
+                text = f"`{rival.point.name}` and `{resolved.point.name}` share bits of `{message.name}`"
+                related = [(rival.facts.span("at"), f"`{rival.point.name}` stands here")]
+                hint = f"correct `at` or `type`{APART}"
+                subject.report.error("bits-overlap", text, resolved.facts.span("at"), hint, related)
+            for bit in field.bits:
+                taken[bit].append(resolved)
+
+
+def _signal_fits(subject: Analysis, message: Message, resolved: ResolvedPoint, points: Sequence[Point]) -> bool:
+    """Report a condition that selects nothing; return False, with a finding, for a signal outside its message."""
+    point, facts = resolved.point, resolved.facts
+    field = signals.field_of(message, point)[1]
+    wide = any(message.fields[place].width > _WIDEST_SELECTOR for place, _ in field.when)
+    if wide or (signals.selected(point, points) is None and "when" not in facts.failed):
+        text, hint = "a selector has at most 16 bits", "compare a narrower signal"
+        if not wide:
+            text = "a signal comes with numbers of other signals: `page == 3`, joined by `and`, or by `or` for one"
+            hint = "write it so"
+        subject.report.error("bad-formula", text, facts.span("when"), hint)
+    ends = (*field.bits[:1], *field.bits[-1:])
+    outside = next((bit for bit in ends if not 0 <= bit < 8 * message.length), None)
+    if outside is not None:
+        text = f"`{point.name}` lies outside the {message.length} bytes of `{message.name}`: bit {outside}"
+        hint = "`at` is the bit of the lowest value with `bytes: low first`, else that of the highest one"
+        subject.report.error("bit-outside-word", text, facts.span("at"), hint)
+    return outside is None
+
+
+def _meet(
+    coexistence: Coexistence, viewed: Mapping[str, str | None], resolved: ResolvedPoint, other: ResolvedPoint
+) -> bool:
+    """Return True if two signals with common bits can exist in the same frame, and are no views of each other."""
+    ends = [resolved.point.name, other.point.name]
+    for _ in range(_MOST_VIEWS):  # views of views
+        ends = [viewed.get(name) or name for name in ends]
+    return ends[0] != ends[1] and not coexistence.exclude(resolved, other)
+
+
+CHECKS = (messages_differ, signals_fit, parameters_are_reachable)

@@ -17,6 +17,8 @@ from fieldscribe.text import dbc_string
 
 _MASTER = "master"
 _SYMBOLS = ("NS_DESC_", "CM_", "BA_DEF_", "BA_", "VAL_", "BA_DEF_DEF_", "SG_MUL_VAL_")
+_TIMES = ('BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535 ;', 'BA_DEF_DEF_ "GenMsgCycleTime" 0 ;')
+"""The attribute of messages that are sent at equal times; left out where there are none."""
 _ATTRIBUTES = (
     'BA_DEF_ BO_ "SystemMessageLongSymbol" STRING ;',
     'BA_DEF_ SG_ "SystemSignalLongSymbol" STRING ;',
@@ -55,7 +57,14 @@ def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[st
     yield ""
     yield from _comments(device, messages)
     yield from _ATTRIBUTES
+    if any(message.every is not None for message in messages):
+        yield from _TIMES
     yield from _attributes(device, messages)
+    yield from _values(messages)
+
+
+def _values(messages: list[DbcMessage]) -> Iterator[str]:
+    """Yield names of numbers, what multiplexers select, and which signals are floating-point numbers."""
     for message in messages:
         for signal in message.signals:
             if signal.values:
@@ -66,7 +75,12 @@ def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[st
         for signal in message.signals:
             if signal.switch is not None:
                 name, value = signal.switch
-                yield f"SG_MUL_VAL_ {message.id} {signal.short} {shorts[name]} {value}-{value};"
+                values = ", ".join(f"{raw}-{raw}" for raw in (value, *signal.also))
+                yield f"SG_MUL_VAL_ {message.id} {signal.short} {shorts[name]} {values};"
+    for message in messages:
+        for signal in message.signals:
+            if signal.floating:
+                yield f"SIG_VALTYPE_ {message.id} {signal.short} : {1 if signal.size == 32 else 2};"
 
 
 def _message(message: DbcMessage, node: str) -> Iterator[str]:
@@ -97,6 +111,9 @@ def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
     bitrate = of_bus(device.bus).bitrate
     if bitrate is not None:
         yield f'BA_ "Baudrate" {bitrate};'
+    for message in messages:
+        if message.every is not None:
+            yield f'BA_ "GenMsgCycleTime" BO_ {message.id} {message.every};'
     for kind, place, thing in _things(messages):
         if thing.name != thing.short:
             yield f'BA_ "System{kind}LongSymbol" {place} {dbc_string(thing.name)};'

@@ -5,17 +5,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
+from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.export import ExportError
 from fieldscribe.families.can import USUAL_BITS, identifier_bits
-from fieldscribe.families.can.frames import LENGTH, carries, frame_count, places
-from fieldscribe.model import Device, Flag, Message, Point, Telegram
+from fieldscribe.families.can.frames import LENGTH, carries, frame_count, identifier, places
+from fieldscribe.families.can.signals import selectors
+from fieldscribe.model import Device, Field, Flag, Message, Point
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
 
@@ -49,7 +51,10 @@ class Signal:
     comment: str = ""
     values: tuple[tuple[int, str], ...] = ()
     switch: tuple[str, int] | None = None
+    also: tuple[int, ...] = ()
+    """Further numbers of the multiplexer that select the signal."""
     switches: bool = False
+    floating: bool = False
     short: str = ""
 
     @property
@@ -69,13 +74,15 @@ class DbcMessage:
     comment: str
     signals: list[Signal] = field(default_factory=list)
     short: str = ""
+    every: int | None = None
 
 
 def messages_of(device: Device, unit: int) -> list[DbcMessage]:
     """Return the messages of a database for one unit. Raises ExportError."""
-    by_identifier: dict[tuple[int, bool], list[Message]] = {}
+    by_identifier: dict[tuple[int, bool, int | None, bool], list[Message]] = {}
     for message in device.messages:
-        by_identifier.setdefault((message.identifier, message.adds_unit), []).append(message)
+        key = message.identifier, message.adds_unit, message.bits, bool(message.roles)
+        by_identifier.setdefault(key, []).append(message)
     shorts: set[str] = set()
     dbc_messages = [_message(device, unit, group) for group in by_identifier.values()]
     for dbc_message in dbc_messages:
@@ -86,11 +93,13 @@ def messages_of(device: Device, unit: int) -> list[DbcMessage]:
 def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
     """Return the message of one identifier; if several share it, a signal `message` selects which one it is."""
     first = group[0]
+    if first.fields:
+        return _of_fields(device, unit, first)
     number = first.identifier + unit if first.adds_unit else first.identifier
     masters = all(message.direction == "request" for message in group)
     kinds = "requests" if masters else f"unit_{unit}_messages" if first.adds_unit else f"messages_{number:X}"
     titles = "; ".join(f"{message.name}: {message.title['en']}" for message in group)
-    written = number | _EXTENDED if identifier_bits(device.bus) > USUAL_BITS else number
+    written = _written(device, first, unit)
     result = DbcMessage(first.name if len(group) == 1 else kinds, written, len(first.roles), masters, line(titles))
     selector = _selector(group) if len(group) > 1 else None
     signals: list[Signal] = []
@@ -111,6 +120,53 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
         for signal in signals
     ]
     return result
+
+
+def _written(device: Device, message: Message, unit: int) -> int:
+    """Return the identifier of a message as databases write it."""
+    bits = message.bits or identifier_bits(device.bus)
+    return identifier(message, unit) | (_EXTENDED if bits > USUAL_BITS else 0)
+
+
+def _of_fields(device: Device, unit: int, message: Message) -> DbcMessage:
+    """Return the message of signals."""
+    points = {point.addresses[0]: point for point in _points(device, message.name)}
+    selecting = set(selectors(message))
+    named = {place: points[each.word] for place, each in enumerate(message.fields) if each.word in points}
+    found = [
+        replace(
+            _scaled_signal(point, _comment(device, point)),
+            name=_name_of(point),
+            start=message.fields[place].start,
+            size=point.width,
+            big_endian=not message.fields[place].low_first,
+            floating=point.shape.wire_type[0] == "f",
+            switches=place in selecting,
+            **_switch(message, message.fields[place], named),
+        )
+        for place, point in named.items()
+    ]
+    from_master, names, shorts = message.direction == "request", set[str](), set[str]()
+    title = line(message.title["en"])
+    result = DbcMessage(message.name, _written(device, message, unit), message.length, from_master, title)
+    result.every = message.every
+    result.signals = [
+        replace(each, name=_unique(each.name, names), short=_unique(each.name, shorts, _MOST_NAME)) for each in found
+    ]
+    return result
+
+
+def _switch(message: Message, placed: Field, named: Mapping[int, Point]) -> dict[str, Any]:
+    """Return what selects a signal: of several selectors the one that the others select."""
+    if not placed.when:
+        return {}
+    place, raws = max(placed.when, key=lambda choice: len(message.fields[choice[0]].when))
+    return {"switch": (_name_of(named[place]), raws[0]), "also": raws[1:]}
+
+
+def _name_of(point: Point) -> str:
+    """Return the name of a signal: its code if that may stand in a database."""
+    return point.code if point.code and point.code.isascii() and point.code.isidentifier() else point.name
 
 
 def _selector(group: list[Message]) -> int:
@@ -190,7 +246,7 @@ def _telegram_signals(device: Device, message: Message) -> Iterator[Signal]:
     """Yield the signals of the points of a telegram, and of its words without a point."""
     for telegram in (telegram for telegram in device.telegrams if telegram.message == message.name):
         taken: dict[tuple[int, int], str] = {}
-        for point in _points(device, telegram):
+        for point in _points(device, telegram.name):
             for signal, address, words in point_signals(device, point, message):
                 slot, word = divmod(address, message.words)
                 high, low = point.bits or (16 * words - 1, 0)
@@ -208,11 +264,11 @@ def _telegram_signals(device: Device, message: Message) -> Iterator[Signal]:
                 yield _placed(message, signal, address, 1, None)
 
 
-def _points(device: Device, telegram: Telegram) -> Iterator[Point]:
+def _points(device: Device, telegram: str) -> Iterator[Point]:
     """Yield the points of a telegram, also reserved ones; of variants with the same facts only the first."""
     seen: dict[str, Point] = {}
     for point in device.points:
-        if point.telegram != telegram.name or not point.addresses:
+        if point.telegram != telegram or not point.addresses:
             continue
         facts = ("addresses", "type", "bits", "unit", "scale", "enum")
         if point.name in seen and all(getattr(point, fact) == getattr(seen[point.name], fact) for fact in facts):

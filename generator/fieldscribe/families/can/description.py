@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from fieldscribe.language.keys import forms
+from fieldscribe.families.can.frames import LONGEST
+from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
 from fieldscribe.language.keys.shapes import DIRECTION, NAMED
 from fieldscribe.schema_types import Key, Shape, Text, Whole, by
 
+_BITS = Whole(choices=(11, 29))
+
 KEYS = (
-    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),
+    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], _BITS),
     Key(
         "direction",
         MESSAGE,
@@ -27,22 +30,45 @@ KEYS = (
         ["33Fh", "320h + unit"],
         Whole(),
         Text(80),
-        required=True,
     ),
     Key(
         "layout",
         MESSAGE,
         "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `telegram`, or "
-        "`xor 0..5`, the high byte first.",
+        "`xor 0..5`, the high byte first. Without it the message holds signals.",
         [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
         by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
-        required=True,
     ),
+    Key(
+        "length", MESSAGE, "With signals: the number of bytes; 8 by default, more take CAN FD.", [8], Whole(0, LONGEST)
+    ),
+    Key("identifier_bits", MESSAGE, "The bits of the identifier if they are not those of the bus.", [29], _BITS),
+    Key("every", MESSAGE, "How often it is sent.", ["100 ms"], Text(40)),
+    Key("pgn", MESSAGE, "J1939: the parameter group, in place of `can_id`.", [61444, "0F004h"], Whole(), Text(40)),
+    Key("priority", MESSAGE, "J1939: the priority; 6 by default.", [3], Whole(0, 7), needs=("pgn",)),
+    Key(
+        "source_address",
+        MESSAGE,
+        "J1939: who sends it: a number, or `unit`; 0 by default.",
+        ["unit", 0],
+        Whole(0, 255),
+        Text(40),
+        needs=("pgn",),
+    ),
+    Key(
+        "destination",
+        MESSAGE,
+        "J1939: who receives it, for groups below 0F000h; all by default.",
+        [3],
+        Whole(0, 255),
+        needs=("pgn",),
+    ),
+    Key("message", places.GROUP, "In the space `signal`: the message whose signals are the points.", ["engine"], NAMED),
     Key("can_id", FRAME, "CAN: the identifier of the frame.", ["33Fh"], Whole(), Text(40)),
 )
 
 
-SERVES = "a maker's own messages on CAN, laid out byte by byte"
+SERVES = "messages on CAN: signals as CAN databases have them, J1939, or a maker's own layouts byte by byte"
 _BUS = """\
 bus: {bitrate: 125000, identifier_bits: 11, units: 0..30}
 messages:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from fieldscribe import wording
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
+from fieldscribe.families.can import signals
 from fieldscribe.families.can.frames import CanFrame, build, carriers, carries, identifier, request_and_answer
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
@@ -21,6 +23,9 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     A bit group is put into the word of `--with-word`.
     """
     del settings  # a message carries one parameter alone
+    if point.place.bit is not None and point.writable:
+        frame = signal_frame(device, point, raw, options.unit)
+        return BuiltFrames((frame,), ("all other bits of the message are 0: its other signals travel with it",))
     word_text: str | None = options.own.get("with_word")
     if point.bits is None:
         if word_text is not None:
@@ -49,6 +54,14 @@ def _word(text: str) -> int:
     if number is None or number > 0xFFFF:
         raise UnclearError(f"--with-word: `{shortened(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
     return number
+
+
+def signal_frame(device: Device, point: Point, raw: int, unit: int | None = None) -> str:
+    """Return a frame of the message of a signal with this raw number; all other bits are 0."""
+    message = next(message for message in device.messages if message.name == point.telegram)
+    number, _ = signals.field_of(message, point)
+    data = signals.data_of(message, {number: raw})
+    return frame_text(CanFrame(identifier(message, device.bus.usual_unit if unit is None else unit), data))
 
 
 def read_frame(device: Device, address: int, unit: int | None = None) -> str:
@@ -88,6 +101,9 @@ def read_text(device: Device, point: Point) -> str:
 def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     """Return how to write the point; None if it cannot be written."""
     message, _ = request_and_answer(device.messages, writes=True)
+    if point.place.bit is not None:
+        how = f"message {point.telegram}, together with its other signals"
+        return WriteMethod(how, lambda raw: f": {signal_frame(device, point, raw)}", ", ")
     if point.telegram is not None or message is None:
         return None
     head = _messages_text(point, message)
@@ -120,6 +136,10 @@ def _messages_text(point: Point, message: Message) -> str:
 def _telegram_text(device: Device, point: Point) -> str:
     """Return which frames and bytes of a telegram carry the point."""
     message = carriers(device).get(point.telegram or "")
+    if message is not None and message.fields:
+        every = "by itself" if message.every is None else f"every {message.every} ms"
+        frame = frame_text(CanFrame(identifier(message, device.bus.usual_unit), b""))
+        return f"sent {every}, message {message.name}; {wording.bits_in_message(point)} (from CAN {frame[:-1]})"
     if message is None or not message.words:
         return ""
     places = ", then ".join(_place_text(message, device.bus.usual_unit, address) for address in point.addresses)

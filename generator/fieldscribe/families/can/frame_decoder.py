@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from fieldscribe.families.can import frames, signals
 from fieldscribe.families.can.frames import (
     LENGTH,
     CanFrame,
@@ -43,6 +44,7 @@ class CanFrameDecoder:
         )
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
+        self._carrying = [message for message in device.messages if message.fields]
         asks = [message for message in device.messages if message.direction == "request" and carries(message, "raw")]
         writing = {message.name for message in asks}
         self._writing = writing | {message.name for message in device.messages if message.answers in writing}
@@ -55,6 +57,9 @@ class CanFrameDecoder:
     def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
         del expecting  # the messages themselves tell which frame answers which
+        for message in () if frame.remote else self._carrying:
+            if frames.is_of(message, self._device.bus.units, frame.frame):
+                return self._signals(message, frame)
         head = None if frame.remote else self.recognise(frame.frame)
         if head is None:
             return self._unknown(frame)
@@ -65,7 +70,8 @@ class CanFrameDecoder:
         """Return the frame as the message with the fewest flaws; None if no message fits."""
         if len(frame.data) != LENGTH:
             return None
-        heads = [self._head(message, frame) for message, _ in _senders(self._device, frame) if _fits(message, frame)]
+        senders = [sender for sender in _senders(self._device, frame) if sender[0].roles]
+        heads = [self._head(message, frame) for message, _ in senders if _fits(message, frame)]
         return min(heads, key=lambda head: head.flaws, default=None)
 
     def _head(self, message: Message, frame: CanFrame) -> Head:
@@ -106,6 +112,21 @@ class CanFrameDecoder:
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
         return DecodedFrame(result, (piece,), head.unit)
 
+    def _signals(self, message: Message, pasted: Pasted) -> DecodedFrame:
+        """Return what the signals of a message say."""
+        frame, telegram = pasted.frame, self._telegrams[message.name]
+        unit = frame.id - message.identifier if message.adds_unit else None
+        words = signals.words_of(message, frame.data)
+        name = f"CAN {hex_text(frame.id, 3)}{'' if unit is None else f', unit {unit}'}, {message.name}"
+        kind = _KINDS.get(message.direction, "cyclic")
+        details = {"can_id": frame.id, "message": message.name}
+        text = line(f"{name}: {message.title['en']}")
+        result = FrameResult(frame.data, "can", kind, unit, None, text, details=details, captured=pasted)
+        pieces = Gathered(words)
+        parts = [part for part, when in signals.parts(message) if signals.comes(message, when, words)]
+        contents = tuple(Piece(telegram, part, words[part.start : part.stop], pieces) for part in parts)
+        return DecodedFrame(result, contents, unit)
+
     def _parameter(self, head: Head, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
         result, frame = self._result(head, pasted), pasted.frame
         if head.address is None:
@@ -143,6 +164,18 @@ class CanFrameDecoder:
             notes = (_foreign_note(self._device),)
             result = replace(result, summary=f"{text}: not of this device", notes=notes)
         return DecodedFrame(result)
+
+
+@dataclass(frozen=True, slots=True)
+class Gathered:
+    """The words of all signals of a frame."""
+
+    carried: tuple[int, ...]
+    per_frame: int = 0
+
+    def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
+        """Return ("ok", the words at these positions)."""
+        return "ok", tuple(self.carried[position] for position in positions)
 
 
 def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
@@ -217,8 +250,9 @@ def _unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
     frame = pasted.frame
     if pasted.remote:
         return "a remote request carries no data, and the manual knows none"
-    if len(frame.data) != LENGTH:
-        return f"every message has {LENGTH} bytes, here are {len(frame.data)}"
+    due = dict.fromkeys(str(message.length) for message in messages)
+    if str(len(frame.data)) not in due:
+        return f"every message has {' or '.join(due)} bytes, here are {len(frame.data)}"
     known = [(at, message) for message in messages for at in places(message, "constant")[:1]]
     place = known[0][0] if known else 0
     names = ", ".join(f"{hex_text(message.roles[at].number, 2)} {message.name}" for at, message in known)

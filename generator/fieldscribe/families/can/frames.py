@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from fieldscribe.model import Device, Message, Role, Telegram
 
 LENGTH = 8
-"""The number of bytes of every message of this family."""
+"""The number of bytes of every message with a layout."""
+LONGEST = 64
+"""The most bytes of a message with signals; more than 8 take CAN FD."""
 _WORD = 0xFFFF
 _STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
 """The status of a frame whose bytes of this role differ."""
@@ -112,6 +114,12 @@ def carriers(device: Device) -> dict[str, Message]:
 def frame_count(telegram: Telegram, message: Message) -> int:
     """Return how many frames a telegram takes: the number of its multiplexer values."""
     return -(-telegram.words // message.words)
+
+
+def is_of(message: Message, units: tuple[int, int], frame: CanFrame) -> bool:
+    """Return True if a frame has the identifier and the length of a message."""
+    low, high = units if message.adds_unit else (0, 0)
+    return low <= frame.id - message.identifier <= high and len(frame.data) == message.length
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from dataclasses import replace
 from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.families.can import USUAL_BITS, CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
+from fieldscribe.families.can.signals import placed
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
-from fieldscribe.model import Bus, Code, Message, Role
-from fieldscribe.resolve.bus import FamilyReader
+from fieldscribe.model import Bus, Code, Message, Point, Role
+from fieldscribe.resolve.bus import FamilyReader, Messages
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
 from fieldscribe.text import shortened
@@ -25,6 +27,10 @@ _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENG
 """The most bytes that each word of a layout covers."""
 _UNITS = 256
 _MOST_BITS = 29
+_TO_ALL = 0xF0
+"""From this byte on a parameter group of J1939 has no destination."""
+_USUAL_PRIORITY, _EVERYONE = 6, 0xFF
+_TIME = re.compile(r"([0-9]{1,7}) ?(ms|s)")
 _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
 
@@ -64,13 +70,41 @@ class CanReading(FamilyReader):
         _check_answers(scope, result, seen)
         return tuple(result.values())
 
+    def lay_out(self, messages: Messages, points: Iterable[Point]) -> tuple[Messages, list[Point]]:
+        """Return the messages with their signals, and the points with their places in the words of these."""
+        result, carried = list(points), {message.name: message for message in messages}
+        for name, message in carried.items():
+            of_message = (
+                []
+                if message.roles
+                else [
+                    (number, point) for number, point in enumerate(result) if point.telegram == name and point.addresses
+                ]
+            )
+            if of_message:
+                carried[name], places = placed(message, [point for _, point in of_message])
+                for (number, point), place in zip(of_message, places, strict=True):
+                    result[number] = replace(point, place=place)
+        return tuple(carried.values()), result
+
 
 READING = CanReading()
 
 
 def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
-    identifier = _identifier(scope, bus, node)
-    roles = _roles(scope, node)
+    if "can_id" in node or "can_id" in node.broken:
+        identifier = _identifier(scope, bus, node)
+        if "pgn" in node:
+            message, hint = "`pgn` and `can_id` stand in place of each other", "leave one of them out"
+            scope.report.error("two-meanings", message, node.key_span("pgn"), hint)
+    else:
+        identifier = _group(scope, bus, node)
+    laid_out = "layout" in node or "layout" in node.broken
+    roles = _roles(scope, node) if laid_out else ()
+    if laid_out and "length" in node:
+        message = f"the {LENGTH} bytes of a `layout` are the length of the message"
+        scope.report.error("two-meanings", message, node.key_span("length"), "leave `length` out")
+    every = _milliseconds(scope, node)
     if identifier is None or roles is None:
         return None
     return Message(
@@ -82,7 +116,51 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
         adds_unit=identifier[1],
         roles=roles,
         source=source_of(scope, node),
+        length=LENGTH if laid_out else int(node.get("length", LENGTH)),
+        bits=_bits(bus, node) if _bits(bus, node) != identifier_bits(bus) else None,
+        every=every,
     )
+
+
+def _bits(bus: Bus, node: Map) -> int:
+    """Return the bits of the identifier of a message."""
+    return int(node.get("identifier_bits", _MOST_BITS if "pgn" in node else identifier_bits(bus)))
+
+
+def _milliseconds(scope: Scope, node: Map) -> int | None:
+    """Return how often a message is sent; report what is no time."""
+    text = node.get("every")
+    match = None if text is None else _TIME.fullmatch(str(text))
+    if text is not None and match is None:
+        message = f"`{shortened(str(text))}` is no time"
+        scope.report.error("bad-number", message, node.span("every"), "write it as `100 ms` or `1 s`")
+    return None if match is None else int(match[1]) * (1000 if match[2] == "s" else 1)
+
+
+def _group(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
+    """Return the identifier of a parameter group of J1939, and True if the unit is added to it."""
+    if "pgn" not in node:
+        if "pgn" not in node.broken:
+            message = f"the message `{node['name']}` says no identifier"
+            scope.report.error("missing-key", message, node.span("name"), "add `can_id: …`, or the `pgn` of J1939")
+        return None
+    pgn = integer(node["pgn"], node.span("pgn"), scope.report)
+    addressed = pgn is not None and pgn >> 8 & 0xFF < _TO_ALL
+    if pgn is None or not 0 <= pgn < 1 << 18 or (addressed and pgn & 0xFF):
+        if pgn is not None:
+            hint = "it has 18 bits; the low byte of one below 0F000h is 0, for the destination stands there"
+            scope.report.error("wrong-choice", f"{pgn:X}h is no parameter group", node.span("pgn"), hint)
+        return None
+    if "destination" in node and not addressed:
+        message = "this parameter group goes to all"
+        scope.report.error("two-meanings", message, node.key_span("destination"), "leave `destination` out")
+    destination = int(node.get("destination", _EVERYONE)) if addressed else 0
+    first = int(node.get("priority", _USUAL_PRIORITY)) << 26 | pgn << 8 | destination << 8
+    sender = node.get("source_address", 0)
+    if sender == "unit":
+        return first, True
+    number = integer(sender, node.span("source_address"), scope.report) if "source_address" in node else 0
+    return None if number is None else (first | number, False)
 
 
 def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
@@ -101,7 +179,7 @@ def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
         hint = "write it as `33Fh`, or `320h + unit`"
         scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
         return None
-    first, adds, bits = at[0].numerator, bool(slope), identifier_bits(bus)
+    first, adds, bits = at[0].numerator, bool(slope), _bits(bus, node)
     low, high = sorted(first + unit * adds for unit in bus.units)
     known = scope.bus is not None and not {"identifier_bits", "units"} & {*scope.bus.broken}
     if known and not 0 <= low <= high < 1 << bits:

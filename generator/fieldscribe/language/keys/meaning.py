@@ -55,7 +55,8 @@ KEYS = (
     Key(
         "bytes",
         _OF_TEXTS,
-        "The order of the two bytes in each word; of a text, low first if its first character stands in the low byte.",
+        "The order of the bytes in each word, or of a signal (CAN); of a text, low first if its first character stands "
+        "in the low byte.",
         ["low first"],
         WORD_ORDER,
     ),

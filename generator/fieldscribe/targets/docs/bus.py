@@ -94,13 +94,15 @@ def _numbers(numbers: tuple[int, ...]) -> str:
 
 def _messages(device: Device) -> str:
     """The table of messages, with a column for each byte."""
-    count = len(device.messages[0].roles) if device.messages else 0
+    count = max((len(message.roles) for message in device.messages), default=0)
     columns: Columns[Message] = {
         "Name": lambda message: target("message", message.name),
         "Title": lambda message: cell(title_text(message.title)),
         "Direction": lambda message: cell(message.direction),
         "Answers": lambda message: link("message", message.answers) if message.answers else "",
         f"{device.family.upper()} id": _identifier,
+        "Bytes": lambda message: "" if message.roles else str(message.length),
+        "Every": lambda message: "" if message.every is None else f"{message.every} ms",
         **{f"Byte {place}": partial(_role, place) for place in range(count)},
         "Source": lambda message: source_cell(message.source, len(device.documents) > 1),
     }
@@ -108,11 +110,14 @@ def _messages(device: Device) -> str:
 
 
 def _identifier(message: Message) -> str:
-    return hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else "")
+    bits = "" if message.bits is None else f", {message.bits} bits"
+    return hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else "") + bits
 
 
 def _role(place: int, message: Message) -> str:
-    """What a byte of a message holds."""
+    """What a byte of a message holds; nothing if it has signals."""
+    if not message.roles:
+        return ""
     role = message.roles[place]
     part = "high" if role.number == 8 else "low"
     if role.kind in ("address", "raw"):
@@ -134,7 +139,8 @@ def _telegrams(device: Device) -> str:
         "Message": lambda telegram: link("message", telegram.message) if telegram.message else "",
         "Source": lambda telegram: source_cell(telegram.source, len(device.documents) > 1),
     }
-    return table(device.telegrams, columns)
+    carried = {message.name for message in device.messages if not message.roles}
+    return table([telegram for telegram in device.telegrams if telegram.message not in carried], columns)
 
 
 def _functions(device: Device) -> str:

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.model import Base, Command, Device, Document, Erratum, Found, Frame, Identification, Named, Point
+from fieldscribe.model import (
+    Base,
+    Command,
+    Device,
+    Document,
+    Erratum,
+    Found,
+    Frame,
+    Identification,
+    Message,
+    Named,
+    Point,
+)
 from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import (
@@ -103,7 +115,7 @@ def page_of(scope: DocsScope) -> PageView:
             for key in numberings
         ),
         shares_words=any(wording.shares_word(point) for point in distinct),
-        has_telegrams=any(point.telegram is not None for point in device.points),
+        has_telegrams=any(point.telegram is not None and point.place.bit is None for point in device.points),
         has_broken_words=any(is_broken(point) for point in distinct),
         bus=bus_view(device),
         groups=tuple(group_views(scope)),
@@ -288,6 +300,7 @@ def map_views(device: Device) -> Iterator[MapView]:
     numbers_at = family(device.family).numbers
     spaces: dict[tuple[str, str, str], list[_Place]] = {}
     bases = {base.name: f", counted from {wording.base_text(base)}" for base in device.bases}
+    drawn = {message.name: message for message in device.messages if message.fields}
     for point in device.points:
         if point.addresses:
             numbers = {} if point.terms.base else numbers_at(point.space, min(point.addresses))
@@ -298,9 +311,27 @@ def map_views(device: Device) -> Iterator[MapView]:
             _of_command(command, numbers_at(command.space, command.address))
         )
     for (space, telegram, base), places in spaces.items():
+        if telegram in drawn:
+            yield MapView(anchor("map", telegram), cell(f"Message {telegram}"), _bits(drawn[telegram], device.points))
+            continue
         heading = cell(f"Telegram {telegram}" if telegram else space.capitalize() + bases.get(base, ""))
         where = f"{space}_{base}" if base else telegram or space
         yield MapView(anchor("map", where), heading, _table(sorted(places, key=lambda place: place.order)))
+
+
+def _bits(message: Message, points: Iterable[Point]) -> str:
+    """The bits of a message, a row for each byte, with their signals; `=` is the same as in the bit to the left."""
+    by_word = {point.addresses[0]: point for point in points if point.telegram == message.name and point.addresses}
+    names: dict[int, list[str]] = {}
+    for field in message.fields:
+        for bit in field.bits:
+            names.setdefault(bit, []).append(link("point", by_word[field.word].item))
+    rows = []
+    for byte in range(message.length):
+        held = [_lines(*names.get(8 * byte + bit, ["-"])) for bit in reversed(range(8))]
+        cells = ("=" if place and text == held[place - 1] else text for place, text in enumerate(held))
+        rows.append((str(byte), *cells))
+    return by_rows(("Byte", *(f"Bit {bit}" for bit in reversed(range(8)))), rows)
 
 
 def _of_point(point: Point, numbers: Mapping[str, int]) -> _Place:

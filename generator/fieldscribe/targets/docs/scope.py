@@ -46,6 +46,8 @@ def place_text(point: Point) -> str:
     """Return where a point starts and how many words it has: `3100h (12544)`, then `2 words, low word first`."""
     if not point.addresses:
         return ""
+    if point.place.bit is not None:
+        return wording.bits_in_message(point)
     start, count = wording.address_text(min(point.addresses)), len(point.addresses)
     if count == 1:
         return start

@@ -49,6 +49,8 @@ def address(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
     addresses, words = point.place.addresses, str(point.words)
     if not addresses:
         return "", "", words, ""
+    if point.place.bit is not None:
+        return "", "", words, ""
     lowest = min(addresses)
     order = sheet.encode(wording.order_text(point)) if len(addresses) > 1 else ""
     return str(lowest), hex_text(lowest), words, order

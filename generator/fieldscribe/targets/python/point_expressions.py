@@ -17,7 +17,7 @@ _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input"
 _FORMS = {"enum": "Named", "float": "Floating"}
 """The classes of the runtime for forms of points that are not named after the form."""
 
-NUMBERED = frozenset({"parameter", "telegram"})
+NUMBERED = frozenset({"parameter", "telegram", "signal"})
 """Spaces whose addresses are written in decimal."""
 
 
@@ -195,9 +195,12 @@ def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scop
     """Return a place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
     named = ("index", index), ("base", python_string(point.base) if point.base else "")
     beside = tuple(f"{key}={text}" for key, text in named if text)
+    telegram = () if point.telegram is None else (python_string(point.telegram),)
+    if point.place.bit is not None:
+        of_message = (*beside, *(f"telegram={name}" for name in telegram))
+        return _place(keyword, point.space, addresses, of_message, scope)
     if point.space not in NUMBERED:
         return _place(keyword, point.space, addresses, beside, scope)
-    telegram = () if point.telegram is None else (python_string(point.telegram),)
     return call(f"{keyword}={scope.runtime(point.space)}", (*telegram, *addresses, *beside))
 
 

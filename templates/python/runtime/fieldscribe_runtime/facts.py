@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 class Place(Record):
     """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one.
 
-    An element of an array has its `index`, words of a telegram the name of that `telegram`. With a `base`, by its name,
-    the addresses count from that.
+    An element of an array has its `index`, words of a telegram the name of that `telegram`; signals are words of the
+    telegram of their message. With a `base`, by its name, the addresses count from that.
     """
 
     space: str

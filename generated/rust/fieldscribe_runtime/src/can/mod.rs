@@ -17,12 +17,14 @@ mod client;
 mod error;
 mod message;
 mod receiver;
+mod signals;
 
 pub use client::{AsyncClient, AsyncTransport, Client, ClientError};
 pub use client::{Hears, Listener, LocalClient, LocalTransport, Transport};
 pub use error::{BuildError, ParseError, ReceiveError};
 pub use message::{Content, Dialogue, Message, Profile, Role};
 pub use receiver::{Received, Receiver, Slot, Telegram};
+pub use signals::{Carried, Numbers, Signal, Signals};
 
 use crate::Point;
 

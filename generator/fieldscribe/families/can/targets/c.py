@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from fieldscribe.families.can import identifier_bits, of_bus
+from fieldscribe.families.can import identifier_bits, of_bus, signals
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
@@ -48,6 +48,27 @@ class TelegramView:
 
 
 @dataclass(frozen=True, slots=True)
+class SignalsView:
+    """A message of signals: rows of its table, and the choices that select some of them, by the name of their array."""
+
+    name: str
+    comment: str
+    constant: str
+    array: str
+    words_name: str
+    every_name: str
+    every: int | None
+    words: int
+    id: str
+    adds_unit: str
+    length: int
+    rows: list[tuple[int, int, str, int, str]]
+    choices: list[tuple[str, list[tuple[int, int, str]]]]
+    reads: bool
+    values: StructView
+
+
+@dataclass(frozen=True, slots=True)
 class GroupView:
     """The addresses that reading a group takes, each word once."""
 
@@ -70,17 +91,19 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         for telegram in device.telegrams
         if telegram.name in carrying and carrying[telegram.name].words
     ]
+    of_signals = [_signals(message, placed, members) for message in device.messages if message.fields]
     groups = list(_groups(device, scope))
     layouts = frames.Layouts(scope)
     return frames.frames_header(
         device,
         layouts,
         _sections(device, placed, layouts, arrays),
-        _identifiers(device, telegrams, groups, scope),
+        (*_identifiers(device, telegrams, groups, scope), *_names_of(of_signals)),
         identifier_bits=identifier_bits(device.bus),
         bitrate=of_bus(device.bus).bitrate,
-        messages=[_message(message, scope) for message in device.messages],
+        messages=[_message(message, scope) for message in device.messages if message.roles],
         telegrams=telegrams,
+        signals=of_signals,
         exchanges=arrays,
         exceptions=frames.exceptions_of(device, scope),
         groups=groups,
@@ -94,7 +117,11 @@ def _sections(
     carried = carriers(device)
     reached = [each for each in placed if each.point.addresses]
     parameters = [each for each in reached if each.point.space == "parameter" and _fits(each.point, 1)]
-    cyclic = [each for each in reached if each.point.telegram in carried and _fits(each.point, 2)]
+    cyclic = [
+        each
+        for each in reached
+        if each.point.telegram in carried and (each.point.place.bit is not None or _fits(each.point, 2))
+    ]
     return {
         "parameters": frames.Frames(parameters, lambda point, view: _parameter(point, view, layouts, arrays)),
         "cyclic": frames.Frames(cyclic, lambda point, view: _cyclic(point, view, layouts)),
@@ -107,7 +134,7 @@ def _identifiers(
     """Yield the identifiers of the header that only this family has, with their owners."""
     fixed = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), fixed
-    for message in device.messages:
+    for message in (message for message in device.messages if message.roles):
         yield Owner("message", message.name), (_array(message, scope),)
     for telegram in telegrams:
         names = *telegram.values.names, f"{telegram.values.struct}_take"
@@ -150,6 +177,60 @@ def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPo
 
     values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
     return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values)
+
+
+def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Members) -> SignalsView:
+    """Return the view of a message of signals."""
+    scope = members.scope
+    name, macro = f"{scope.prefix}_signals_{message.name}", f"{scope.upper}_SIGNALS_{upper(message.name)}"
+    choices: dict[object, tuple[str, list[tuple[int, int, str]]]] = {}
+    for field in message.fields:
+        if field.when and field.when not in choices:
+            several = [(message.fields[at].word, raw, raw != raws[-1]) for at, raws in field.when for raw in raws]
+            rows = [(word, raw, "true" if more else "false") for word, raw, more in several]
+            choices[field.when] = f"{name}_{len(choices)}", rows
+    mine = [each for each in placed if each.point.telegram == message.name and each.point.readable]
+    by_word = {each.point.addresses[0]: each for each in mine}
+
+    def parts() -> Iterator[Part]:
+        for words, _ in signals.parts(message):
+            made = [members.of(by_word[word], word) for word in words if word in by_word]
+            yield Part(f"{words.start}U", {member: fill for member, fill in made if member})
+
+    return SignalsView(
+        message.name,
+        c_comment(message.title["en"]),
+        name,
+        f"{name}_rows",
+        f"{macro}_WORDS",
+        f"{macro}_EVERY",
+        message.every,
+        sum(field.words for field in message.fields),
+        hexadecimal(message.identifier, 3),
+        "true" if message.adds_unit else "false",
+        message.length,
+        [
+            (
+                field.start,
+                field.width,
+                "true" if field.low_first else "false",
+                len(choices[field.when][1]) if field.when else 0,
+                choices[field.when][0] if field.when else "NULL",
+            )
+            for field in message.fields
+        ],
+        list(choices.values()),
+        bool(mine),
+        StructView(f"{scope.prefix}_{message.name}_values", parts),
+    )
+
+
+def _names_of(views: Iterable[SignalsView]) -> Iterator[Named]:
+    for view in views:
+        names = [view.constant, view.array, view.words_name, *(name for name, _ in view.choices)]
+        names += [] if view.every is None else [view.every_name]
+        names += [*view.values.names, f"{view.values.struct}_take"] if view.reads else []
+        yield Owner("message", view.name), tuple(names)
 
 
 def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
@@ -198,7 +279,8 @@ def _cyclic(point: Point, view: PointView, layouts: frames.Layouts) -> frames.Fr
         parts, case = [f"{{{view.function}_addresses, {point.words}U}}"], f"RECEIVED_TEXT({name}, {view.macro})"
     else:
         parts = [layouts.of(point, range(point.words)), f"{{{view.fields.start}, {view.fields.end}}}"]
-        case = f"RECEIVED({name}, {wire_kind(point)}, {view.raw_type})"
+        what = "RECEIVED" if point.place.bit is None else "SIGNAL"
+        case = f"{what}({name}, {wire_kind(point)}, {view.raw_type})"
     return _frame(point, view, "h", parts, [case])
 
 

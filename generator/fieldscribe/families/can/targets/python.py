@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.families.can import identifier_bits
-from fieldscribe.model import Device, Message, Role
+from fieldscribe.model import Device, Field, Message, Role
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily, telegrams
 from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, call
@@ -25,17 +25,31 @@ def _profile(device: Device, scope: PackageScope) -> Node:
 
 def _message(message: Message, scope: PackageScope) -> Node:
     roles = [_role(role, scope) for role in message.roles]
+    signals = [_signal(field, scope) for field in message.fields]
     arguments: list[Node] = [
         python_string(message.name),
         python_string(message.direction),
         f"0x{message.identifier:X}",
         Group("roles=(", tuple(roles)),
     ]
+    if not message.roles:
+        arguments += [Group("signals=(", tuple(signals)), f"length={message.length}"]
+    arguments += [
+        f"{name}={number}" for name, number in (("bits", message.bits), ("every", message.every)) if number is not None
+    ]
     if message.adds_unit:
         arguments.append("adds_unit=True")
     if message.answers is not None:
         arguments.append(f"answers={python_string(message.answers)}")
     return call(scope.runtime("Message"), arguments)
+
+
+def _signal(field: Field, scope: PackageScope) -> Node:
+    when = [f"({number}, ({', '.join(map(str, raws))}{',' * (len(raws) == 1)}))" for number, raws in field.when]
+    arguments: list[Node] = [str(field.start), str(field.width)]
+    arguments += ["low_first=True"] if field.low_first else []
+    arguments += [Group("when=(", tuple(when))] if when else []
+    return call(scope.runtime("Signal"), arguments)
 
 
 def _role(role: Role, scope: PackageScope) -> Node:
@@ -54,7 +68,7 @@ def _line(_: Device) -> Line:
 
 IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.can",
-    exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
+    exports=frozenset({"Message", "Profile", "Role", "Signal", "Telegram"}),
     device="CanDevice",
     transport="CanTransport",
     profile=_profile,

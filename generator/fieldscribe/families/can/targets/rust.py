@@ -34,11 +34,12 @@ def context(device: Device) -> dict[str, object]:
             _dialogue(device.messages, "READ", writes=False),
             _dialogue(device.messages, "WRITE", writes=True),
         ),
-        "messages": tuple(map(_message, device.messages)),
+        "messages": tuple(_message(message) for message in device.messages if message.roles),
         "message_names": array(
             Item("pub const MESSAGES", "&[&Message]"),
-            [f"&messages::{message.name.upper()}" for message in device.messages],
+            [f"&messages::{message.name.upper()}" for message in device.messages if message.roles],
         ),
+        "signals": [_signals(message) for message in device.messages if message.fields],
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
         "telegrams": [_telegram(telegram, carrying[telegram.name]) for telegram in _in_frames(device)],
     }
@@ -54,6 +55,9 @@ def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """Yield the trait of a point: a parameter is read word by word, a point of a telegram is received in frames."""
     if subject.point.telegram is None:
         yield "impl runtime::can::Parameter {}"
+    if subject.point.place.bit is not None:
+        message = type_name(subject.point.telegram or "")
+        yield f"impl runtime::can::Carried {{ type Message = crate::signals::{message}; }}"
     telegram = _received(subject, scope)
     if telegram is not None:
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(telegram)}; }}"
@@ -95,6 +99,30 @@ def _message(message: Message) -> tuple[str, Lines]:
     return sentence(message.name), assignment(4, Item(f"pub const {message.name.upper()}", "Message"), literal)
 
 
+def _signals(message: Message) -> dict[str, object]:
+    """Return what the template writes of a message of signals."""
+    words = {place: field.word for place, field in enumerate(message.fields)}
+    return {
+        "doc": sentence(message.name),
+        "name": type_name(message.name),
+        "lines": binding(8, Item("const NAME", "&'static str"), rust_string(message.name)),
+        "id": mask(message.identifier, "u16" if message.identifier <= 0xFFFF else "u32"),
+        "adds_unit": "true" if message.adds_unit else "false",
+        "length": message.length,
+        "every": "None" if message.every is None else f"Some({integer(message.every)})",
+        "words": sum(field.words for field in message.fields),
+        "rows": [
+            (
+                field.start,
+                field.width,
+                "true" if field.low_first else "false",
+                ", ".join(f"({words[at]}, &[{', '.join(map(integer, raws))}])" for at, raws in field.when),
+            )
+            for field in message.fields
+        ],
+    }
+
+
 def _role(role: Role) -> str:
     if role.kind in _NUMBERED:
         return f"{role.kind.capitalize()}({role.number})"
@@ -122,6 +150,9 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
         yield Table(
             "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in received)
         )
+    signals = [each for each in scope.subjects if each.point.place.bit is not None]
+    if signals:
+        yield Table("can_signal", "can_signal", tuple(row_text(row_of(each, ("(frames)",))) for each in signals))
 
 
 def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:

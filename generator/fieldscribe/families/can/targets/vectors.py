@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
 
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import (
@@ -30,10 +31,13 @@ KINDS = {
     "can_bus": "only:rust identifier_bits:int bitrate:int?",
     "can_carrier": "only:rust carrier:word",
     "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+    "can_signal": "id:int bytes:bytes? status:word raw:int? packed:bytes?",
     "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
 }
 """The kinds of vectors for frames of a maker's own protocol."""
 
+_PATTERN = 0x9A6C_5D33_E18F_2B47
+"""Bits around the signal that is looked at."""
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
 
@@ -88,11 +92,13 @@ def wires(device: Device) -> list[CanWire]:
 def frames(lines: Lines, device: Device) -> None:
     """Add all vectors of the frames of a device with messages of its own."""
     for message in device.messages:
-        if not carries(message, "word"):
+        if message.roles and not carries(message, "word"):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
     lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
+    for message in (message for message in device.messages if message.fields):
+        _signals(lines, device, message)
     reads, _ = request_and_answer(device.messages, writes=False)
     for group in device.groups:
         members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
@@ -101,7 +107,7 @@ def frames(lines: Lines, device: Device) -> None:
             lines.add("group", group.name, list(dict.fromkeys(addresses)))
     carrying = carriers(device)
     for telegram in device.telegrams:
-        if telegram.name in carrying:
+        if telegram.name in carrying and carrying[telegram.name].roles:
             _telegram(lines, device, telegram, carrying[telegram.name])
 
 
@@ -232,6 +238,65 @@ class _Received:
         self.lines.set("telegram", self.telegram.name, self.unit)
         answer = None if status != "ok" else words if is_text else number
         self.lines.add("can_text" if is_text else "can_telegram", _pairs(frames), taken, status, answer)
+
+
+def _signals(lines: Lines, device: Device, message: Message) -> None:
+    """Add frames of a message: what each signal is in them, and the bytes of this signal and those that select it."""
+    low, high = device.bus.units
+    places = {field.word: place for place, field in enumerate(message.fields)}
+    for point in device.points:
+        if point.telegram != message.name or not point.generated:
+            continue
+        number = places[point.addresses[0]]
+        when = message.fields[number].when
+        known = {place: raws[-1] for place, raws in when}
+        ends = dict.fromkeys((0, 1, (1 << point.width) - 1, 1 << (point.width - 1), _PATTERN % (1 << point.width)))
+        tried = [(low, _filled(message, {**known, number: raw}, fill)) for raw in ends for fill in (0, _PATTERN)]
+        tried += [(low, _filled(message, {place: raws[-1] ^ 1}, _PATTERN)) for place, raws in when]
+        good = tried[0][1]
+        tried += [(high, good), (low, good[:-1]), (low, good + b"\0")]
+        lines.set("point", point.item)
+        for unit, data in tried:
+            lines.set("telegram", message.name, unit)
+            _signal(lines, message, (number, point), CanFrame(identifier(message, unit), data))
+        lines.add("can_signal", identifier(message, low) ^ 1, good, "wrong_id")
+
+
+def _signal(lines: Lines, message: Message, signal: tuple[int, Point], frame: CanFrame) -> None:
+    """Add what a signal is in a frame."""
+    number, point = signal
+    when = message.fields[number].when
+    if len(frame.data) != message.length:
+        lines.add("can_signal", frame.id, frame.data, "wrong_length")
+    elif not all(_taken(message, place, frame.data) in raws for place, raws in when):
+        lines.add("can_signal", frame.id, frame.data, "missing")
+    else:
+        raw = _taken(message, number, frame.data)
+        packed = _filled(message, {**{place: raws[-1] for place, raws in when}, number: raw}, 0)
+        lines.add("can_signal", frame.id, frame.data, "ok", as_raw(point.shape, raw), packed)
+
+
+def _taken(message: Message, number: int, data: bytes) -> int:
+    """Return the raw number of a field without its sign, by writing out the bits of a message."""
+    field, size = message.fields[number], 8 * message.length
+    if field.low_first:
+        written = f"{int.from_bytes(data, 'little'):0{size}b}"
+        return int(written[size - field.start - field.width : size - field.start], 2)
+    first = 8 * (field.start // 8) + 7 - field.start % 8
+    return int(f"{int.from_bytes(data, 'big'):0{size}b}"[first : first + field.width], 2)
+
+
+def _filled(message: Message, raws: Mapping[int, int], fill: int) -> bytes:
+    """Return the bytes of a message with these raw numbers, over the bits of `fill`."""
+    data = (fill & (1 << 8 * message.length) - 1).to_bytes(message.length, "big")
+    for number, raw in raws.items():
+        field, size = message.fields[number], 8 * message.length
+        order: Literal["little", "big"] = "little" if field.low_first else "big"
+        high = field.start + field.width if field.low_first else size - 8 * (field.start // 8) - 7 + field.start % 8
+        written = f"{int.from_bytes(data, order):0{size}b}"
+        written = written[: size - high] + f"{raw:0{field.width}b}" + written[size - high + field.width :]
+        data = int(written, 2).to_bytes(message.length, order)
+    return data
 
 
 def limits(lines: Lines, bus: Bus) -> None:

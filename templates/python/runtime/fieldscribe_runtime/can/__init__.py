@@ -12,8 +12,10 @@ from .device import (
     WaitingCanTransport,
 )
 from .frames import Frame, Message, Profile, Role, build, parse
+from .packing import pack
 from .receiver import Receiver
 from .session import CanSession
+from .signals import Packing, Signal
 
 __all__ = [
     "AsyncCanDevice",
@@ -25,11 +27,14 @@ __all__ = [
     "Decoder",
     "Frame",
     "Message",
+    "Packing",
     "Profile",
     "Receiver",
     "Role",
+    "Signal",
     "Telegram",
     "WaitingCanTransport",
     "build",
+    "pack",
     "parse",
 ]

@@ -13,7 +13,7 @@ from ..points import Decoding, Point
 from ..rules import NO_RAWS
 from ..table import check_variants, exists
 from .frames import LENGTH
-from .receiver import Receiver, pairs_of
+from .receiver import Receiver, pairs_of, parts_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,6 +32,8 @@ def layouts_of(profile: Profile, telegram: str, points: Sequence[Point], *, whol
     wanted = {name for point in own for name in point.scale_needs}
     words, before = len(pairs_of(message)), pairs_of(message)[0][0]
     around = (before, LENGTH - before - 2 * words) if whole else (0, 0)
+    if message.signals:
+        return tuple([Layout(own, part, wanted, (0, 0)) for part in parts_of(message, told.words)])
     return tuple([Layout(own, range(at, at + words), wanted, around) for at in range(0, told.words, words)])
 
 
@@ -76,11 +78,16 @@ class Decoder(Receiver):
         """
         if self.errors:
             self.errors = {}
-        number = self._taken(frame, moment)
-        if number is None:
-            return {}
+        taken = self._taken(frame, moment)
+        values: dict[str, Value] = {}
+        for number, data in taken.items():
+            values = {**values, **self._brought(number, data, raws)} if values else self._brought(number, data, raws)
+        return values
+
+    def _brought(self, number: int, data: bytes, raws: Raws) -> dict[str, Value]:
+        """The values that one part of the telegram brings."""
         known: Raws = self._known
-        layout, data = self._layouts[number], frame.data
+        layout = self._layouts[number]
         if not self._in_order:
             data = bytes([data[place] for place in self._places])
         if layout.gives:

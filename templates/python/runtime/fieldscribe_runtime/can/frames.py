@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..facts import Telegram
+    from .signals import Signal
 
 LENGTH = 8
 """How many bytes every message has."""
@@ -42,7 +43,11 @@ class Role(NamedTuple):
 
 
 class Message(Record):
-    """A layout of 8 bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
+    """A layout of bytes with an identifier: `can_id`, plus the unit number if `adds_unit`.
+
+    It has `roles` for its 8 bytes, or `length` bytes with signals, whose words are a telegram of the same name. `bits`
+    is the length of its identifier if it is not that of the device, `every` how often it comes, in milliseconds.
+    """
 
     name: str
     direction: str
@@ -50,6 +55,10 @@ class Message(Record):
     roles: tuple[Role, ...]
     adds_unit: bool = False
     answers: str | None = None
+    signals: tuple[Signal, ...] = ()
+    length: int = LENGTH
+    bits: int | None = None
+    every: int | None = None
 
     def identifier(self, unit: int) -> int:
         """The identifier that carries the message to or from a unit."""
@@ -132,9 +141,9 @@ def check(message: Message, unit: int, frame: Frame) -> None:
     """
     if frame.id != message.identifier(unit):
         raise FrameError("wrong_id", f"identifier {frame.id:X}h is not that of {message.name}")
-    if len(frame.data) != LENGTH:
-        raise FrameError("wrong_length", f"{message.name} has {LENGTH} bytes, not {len(frame.data)}")
-    found = list(zip(message.roles, frame.data, strict=True))
+    if len(frame.data) != message.length:
+        raise FrameError("wrong_length", f"{message.name} has {message.length} bytes, not {len(frame.data)}")
+    found = list(zip(message.roles, frame.data, strict=not message.signals))
     for kind, status, what in _FIXED:
         for role, byte in found:
             if role.kind == kind and byte != _expected(role, unit, frame.data):
@@ -143,14 +152,14 @@ def check(message: Message, unit: int, frame: Frame) -> None:
 
 def recognizer(message: Message, unit: int) -> Callable[[Frame], bool]:
     """Whether `check` has nothing against a frame, by bytes that are known beforehand."""
-    can_id = message.identifier(unit)
+    can_id, length = message.identifier(unit), message.length
     roles = list(enumerate(message.roles))
     known = tuple([(at, _expected(role, unit, b"")) for at, role in roles if role.kind in ("constant", "unit")])
     combined = tuple([(at, role.number) for at, role in roles if role.kind == "xor"])
 
     def is_it(frame: Frame) -> bool:
         data = frame.data
-        if frame.id != can_id or len(data) != LENGTH:
+        if frame.id != can_id or len(data) != length:
             return False
         for at, byte in known:
             if data[at] != byte:
@@ -178,7 +187,7 @@ def parse(message: Message, unit: int, frame: Frame) -> tuple[int, int]:
     """
     check(message, unit, frame)
     carried = {"address": 0, "raw": 0}
-    for (kind, number), byte in zip(message.roles, frame.data, strict=True):
+    for (kind, number), byte in zip(message.roles, frame.data, strict=not message.signals):
         if kind in carried:
             carried[kind] += byte << number
     return carried["address"], carried["raw"]

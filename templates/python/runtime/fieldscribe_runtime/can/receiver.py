@@ -9,15 +9,20 @@ from ..arguments import check_integer, check_name, shown
 from ..errors import RequestError, TelegramError
 from ..table import check_unit
 from .frames import recognizer
+from .signals import Packing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from .frames import Frame, Message, Profile
 
 
+_NONE: Mapping[int, bytes] = {}
+"""The parts in a frame of something else."""
+
+
 class _Slot:
-    """The last frame of one multiplexer number, and that before.
+    """The last frame of one multiplexer number, and that before; of signals, the words that come together.
 
     `number` counts the taken frames, 0 is never; `moment` is what the caller said of the last one.
     """
@@ -42,34 +47,41 @@ class Receiver:
         self.telegram = layout.name
         self.unit = unit
         self._message = profile.message(layout.message)
-        self._pairs = pairs_of(self._message)
         self._count = 0
-        self._slots = [_Slot() for _ in range(-(-layout.words // len(self._pairs)))]
-        self._words = layout.words
+        self._packing = Packing(self._message.signals, self._message.length) if self._message.signals else None
+        self._pairs, self._together = pairs_of(self._message), parts_of(self._message, layout.words)
+        self._slots = [_Slot() for _ in self._together]
+        self._part_of = [(part, at) for part, words in enumerate(self._together) for at in range(len(words))]
+        """In which part each word of the telegram comes, and at which place in it."""
         self._is_own = recognizer(self._message, unit)
         kinds = [role.kind for role in self._message.roles]
         self._multiplexer = kinds.index("multiplexer") if "multiplexer" in kinds else None
 
     def take(self, frame: Frame, moment: float = 0.0) -> bool:
         """Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came."""
-        return self._taken(frame, moment) is not None
+        return bool(self._taken(frame, moment))
 
-    def _taken(self, frame: Frame, moment: float) -> int | None:
-        """Which of the telegram's frames it is, from 0; None if it is another one."""
+    def _taken(self, frame: Frame, moment: float) -> Mapping[int, bytes]:
+        """The parts of the telegram that a frame brings, by number, with the bytes that hold their words."""
         try:
             if not self._is_own(frame):
-                return None
+                return _NONE
         except (AttributeError, TypeError):
             raise RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}") from None
         data = frame.data
-        place = 0 if self._multiplexer is None else data[self._multiplexer]
-        if place >= len(self._slots):
-            return None
+        if self._packing is not None:
+            parts: Mapping[int, bytes] = self._packing.coming(data)
+        else:
+            place = 0 if self._multiplexer is None else data[self._multiplexer]
+            if place >= len(self._slots):
+                return _NONE
+            parts = {place: data}
         self._count += 1
-        slot = self._slots[place]
-        slot.data_before, slot.number_before = slot.data, slot.number
-        slot.data, slot.number, slot.moment = data, self._count, moment
-        return place
+        for place, held in parts.items():
+            slot = self._slots[place]
+            slot.data_before, slot.number_before = slot.data, slot.number
+            slot.data, slot.number, slot.moment = held, self._count, moment
+        return parts
 
     def word(self, position: int) -> int:
         """One word of the telegram, counted from 0; raises TelegramError `missing`."""
@@ -92,7 +104,7 @@ class Receiver:
         """
         if not isinstance(positions, (tuple, list, range)) or not positions:
             raise RequestError("bad_address", f"takes positions of words, as in (0, 1), not {shown(positions)}")
-        found = [(self._slot(position), position % len(self._pairs)) for position in positions]
+        found = [(self._slot(position), self._part_of[position][1]) for position in positions]
         if any(slot.number == 0 for slot, _ in found):
             raise TelegramError("missing", f"not all frames of {self.telegram} with words {positions} came yet")
         (high, high_word), (low, low_word) = found[0], found[-1]
@@ -113,12 +125,23 @@ class Receiver:
     def _slot(self, position: int) -> _Slot:
         if type(position) is not int:
             check_integer("bad_address", "the position of a word", position)
-        if not 0 <= position < self._words:
-            raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {shown(position)}")
-        return self._slots[position // len(self._pairs)]
+        count = len(self._part_of)
+        if not 0 <= position < count:
+            raise RequestError("bad_address", f"{self.telegram} has {count} words, and none at {shown(position)}")
+        return self._slots[self._part_of[position][0]]
 
 
 def pairs_of(message: Message) -> list[tuple[int, int]]:
     """Where the high and the low byte of each word of a frame are."""
+    if message.signals:
+        return [(2 * word, 2 * word + 1) for word in range(sum(one.words for one in message.signals))]
     places = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
     return [(places[2 * word], places[2 * word + 1]) for word in range(len(places) // 2)]
+
+
+def parts_of(message: Message, words: int) -> list[range]:
+    """The words of a telegram that come together."""
+    if message.signals:
+        return Packing(message.signals, message.length).parts
+    carried = len(pairs_of(message))
+    return [range(at, min(at + carried, words)) for at in range(0, words, carried)]

@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use fieldscribe_runtime::can::{
-    self, AsyncClient, Client, ClientError, Frame, Message, Parameter, ParseError, Profile,
-    Received, Receiver, Telegram,
+    self, AsyncClient, Carried, Client, ClientError, Frame, Message, Numbers, Parameter,
+    ParseError, Profile, ReceiveError, Received, Receiver, Signals, Telegram,
 };
 use fieldscribe_runtime::{
     BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
@@ -274,6 +274,40 @@ where
         Err(error) => {
             same(vector.number("raw"), None)?;
             same(vector.text("status").as_str(), error.name())
+        }
+    }
+}
+
+/// A signal out of a frame, and into one.
+pub fn can_signal<P>(vector: &Vector) -> Outcome
+where
+    P: Carried<Raw: Number + PartialEq + std::fmt::Debug + Copy>,
+{
+    same(vector.text("telegram").as_str(), P::Message::NAME)?;
+    let data = vector.bytes("bytes");
+    let taken = Numbers::<P::Message>::take(unit(vector), vector.raw("id"), &data);
+    let status = vector.text("status");
+    let found = match taken {
+        Ok(numbers) => numbers.raw::<P>().map_err(ReceiveError::name),
+        Err(error) => Err(error.name()),
+    };
+    match found {
+        Ok(raw) => {
+            same(status.as_str(), "ok")?;
+            same(vector.raw("raw"), raw)?;
+            let mut numbers = Numbers::<P::Message>::default();
+            numbers.select::<P>();
+            numbers.put_raw::<P>(raw);
+            let (mut room, mut less) = (vec![0xA5; data.len() + 1], vec![0; data.len() - 1]);
+            same(
+                Some(vector.bytes("packed").as_slice()),
+                numbers.data(&mut room),
+            )?;
+            same(None, numbers.data(&mut less))
+        }
+        Err(error) => {
+            same(vector.number("raw"), None)?;
+            same(status.as_str(), error)
         }
     }
 }

@@ -1,0 +1,73 @@
+"""`fieldscribe import dbc`: draft a description from a CAN database."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from hashlib import sha256
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.cli.common import StopError, write_draft
+from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.importing import compilable
+from fieldscribe.importing.dbc import DbcDraft
+from fieldscribe.importing.draft_text import Document, Head
+from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
+from fieldscribe.report import visible
+from fieldscribe.safe_files import read_regular
+from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from fieldscribe.cli.common import Parser
+
+
+def add_arguments(parser: Parser) -> None:
+    """Add the options of this kind."""
+    parser.add_argument("--node", metavar="NAME", help="the device: it sends its messages, and receives all others")
+
+
+def run(arguments: Namespace) -> int:
+    """Import, and return the exit code."""
+    data = read_regular(arguments.file, MOST_BYTES).data
+    try:
+        text = _text(data)
+        drafted = DbcDraft(_database(text), text, arguments.node)
+    except UnreadableError as error:
+        raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
+    if not drafted.groups:
+        raise StopError(f"`{arguments.file}` holds no signals", "a CAN database has messages with signals", FINDINGS)
+    document = Document(arguments.file.name, sha256(data).hexdigest(), "database")
+    head = Head(
+        arguments.device or "draft",
+        [document],
+        "can",
+        facts=drafted.head(),
+        kind="a CAN database",
+        bus=drafted.bus(),
+    )
+    write_draft(compilable(drafted.groups, head, with_head=arguments.device is not None), arguments.out)
+    for text in drafted.report():
+        print(visible(text), file=sys.stderr)
+    return FINE
+
+
+def _text(data: bytes) -> str:
+    """Return the text of a database: UTF-8 if it is, else as Windows writes it."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
+def _database(text: str) -> Any:
+    """Return the database that cantools reads. Raises UnreadableError and StopError."""
+    try:
+        from cantools.database import load_string
+    except ModuleNotFoundError as error:
+        message = "CAN databases need the extra `dbc`, which is not installed"
+        raise StopError(message, 'pip install "fieldscribe[dbc]"') from error
+    try:
+        return load_string(text, "dbc", strict=False)
+    except Exception as error:  # cantools raises whatever its parsers do
+        reason = line(str(error))[:200] or type(error).__name__
+        raise UnreadableError(f"this is no CAN database: {reason}", hint="cantools must be able to read it") from error

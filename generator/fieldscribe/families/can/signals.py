@@ -1,0 +1,136 @@
+"""Signals of messages: where each lies in the words of its message's telegram, and how they leave and enter a frame.
+
+Signals under the same condition are neighbours in the telegram: those that always come, then those that each value of
+a selector brings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from fieldscribe.conditions import Clause
+from fieldscribe.model import Field, Message, Place, Point
+
+When = tuple[tuple[int, tuple[int, ...]], ...]
+"""Places among the fields of a message, with the raw numbers that select a signal."""
+Selection = Mapping[str, tuple[int, ...]]
+"""The raw numbers of other signals, by name, that select a signal."""
+_MOST_RAWS = 256
+
+
+def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Place]]:
+    """Return the message with its fields, and the place of each of its points in the words of its telegram."""
+    own = {point.name: dict(selected(point, points) or ()) for point in points}
+    whens = {name: _with_those_of_selectors(name, own) for name in own}
+    order = sorted(points, key=lambda point: _rank(whens[point.name], points))
+    numbers = {point.name: number for number, point in enumerate(order)}
+    fields: list[Field] = []
+    places: dict[int, Place] = {}
+    word = 0
+    for point in order:
+        bit, low_first = point.place.bit or 0, point.place.low_first
+        when = tuple((numbers[name], raws) for name, raws in whens[point.name].items())
+        fields.append(Field(bit, point.width, low_first, word, when))
+        places[id(point)] = replace(point.place, addresses=tuple(range(word, word + fields[-1].words)))
+        word += fields[-1].words
+    return replace(message, fields=tuple(fields)), [places[id(point)] for point in points]
+
+
+def _with_those_of_selectors(name: str, own: Mapping[str, Selection]) -> Selection:
+    """Return what selects a signal, and what selects the signals that do."""
+    result, open_names = dict[str, tuple[int, ...]](), [name]
+    while open_names and len(result) <= len(own):
+        for selector, raws in own.get(open_names.pop(), {}).items():
+            if selector not in result:
+                result[selector] = raws
+                open_names.append(selector)
+    return result
+
+
+def _rank(when: Selection, points: Sequence[Point]) -> list[tuple[int, tuple[int, ...]]]:
+    names = [point.name for point in points]
+    return [(names.index(name), raws) for name, raws in sorted(when.items(), key=lambda item: names.index(item[0]))]
+
+
+def selected(point: Point, points: Collection[Point]) -> tuple[tuple[str, tuple[int, ...]], ...] | None:
+    """Return which raw numbers of which other signals select this one; None if `when` is no such condition.
+
+    Comparisons of variants and of points elsewhere select nothing here.
+    """
+    names = {other.name for other in points if other is not point}
+    clauses = () if point.when is None else point.when.clauses
+    found = [_raws(clause, names) for clause in clauses]
+    if not found or not any(found):
+        return ()
+    first = found[0]
+    if first is None or any(each is None or [*each] != [*first] for each in found):
+        return None
+    if len(found) > 1 and len(first) > 1:
+        return None
+    return tuple((name, tuple(sorted({raw for each in found if each for raw in each[name]}))) for name in first)
+
+
+def _raws(clause: Clause, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
+    """Return the raw numbers that a clause asks of other signals of the message; None if it compares otherwise."""
+    raws: dict[str, tuple[int, ...]] = {}
+    for comparison in clause:
+        if comparison.of in names:
+            if comparison.test not in ("==", "in") or comparison.of in raws or len(comparison.than) > _MOST_RAWS:
+                return None
+            raws[comparison.of] = tuple(map(int, comparison.than))
+    return raws
+
+
+def parts(message: Message) -> list[tuple[range, When]]:
+    """Return the words that come together, with what selects them; in the order of the words."""
+    return [
+        (range(run[0].word, run[-1].word + run[-1].words), when)
+        for when, group in groupby(message.fields, lambda field: field.when)
+        if (run := list(group))
+    ]
+
+
+def comes(message: Message, when: When, words: Sequence[int]) -> bool:
+    """Return True if the words of a frame have what is selected by these numbers."""
+    return all(_raw(message.fields[place], words) in raws for place, raws in when)
+
+
+def _raw(field: Field, words: Sequence[int]) -> int:
+    return sum(words[field.word + place] << 16 * (field.words - 1 - place) for place in range(field.words))
+
+
+def exclude(field: Field, other: Field) -> bool:
+    """Return True if no frame has both fields: a selector would need different numbers."""
+    raws_of = dict(other.when)
+    return any(place in raws_of and not {*raws} & {*raws_of[place]} for place, raws in field.when)
+
+
+def words_of(message: Message, data: bytes) -> tuple[int, ...]:
+    """Return the words of all fields in the bytes of a message, also of those that do not come."""
+    words: list[int] = []
+    for field in message.fields:
+        raw = sum((data[bit >> 3] >> (bit & 7) & 1) << place for place, bit in enumerate(field.bits))
+        words += [raw >> 16 * place & 0xFFFF for place in reversed(range(field.words))]
+    return tuple(words)
+
+
+def data_of(message: Message, raws: Mapping[int, int]) -> bytes:
+    """Return the bytes of a message whose fields, by number, have these raw numbers; all other bits are 0."""
+    data = bytearray(message.length)
+    for number, raw in raws.items():
+        for place, bit in enumerate(message.fields[number].bits):
+            data[bit >> 3] |= (raw >> place & 1) << (bit & 7)
+    return bytes(data)
+
+
+def field_of(message: Message, point: Point) -> tuple[int, Field]:
+    """Return the number and the field of a point."""
+    first = point.addresses[0]
+    return next((number, field) for number, field in enumerate(message.fields) if field.word == first)
+
+
+def selectors(message: Message) -> Iterator[int]:
+    """Yield the numbers of the fields that select others."""
+    yield from dict.fromkeys(place for field in message.fields for place, _ in field.when)

@@ -1,0 +1,147 @@
+"""`import dbc`: a description from a CAN database says of every frame what the database says."""
+
+from __future__ import annotations
+
+import random
+import sys
+from pathlib import Path
+from typing import Any
+
+import cantools
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.families.can.dbc import export
+from fieldscribe.pipeline import load_device
+
+DBC = """VERSION ""
+NS_ :
+BS_:
+BU_: ENGINE DASH
+BO_ 2364540158 EEC1: 8 ENGINE
+ SG_ EngSpeed : 24|16@1+ (0.125,0) [0|8031.875] "rpm" DASH
+ SG_ EngTorque : 16|8@1+ (1,-125) [-125|125] "%" DASH
+ SG_ Mode : 0|4@1+ (1,0) [0|15] "" DASH
+ SG_ Counter : 60|4@1+ (1,0) [0|0] "" DASH
+BO_ 288 Sensors: 6 ENGINE
+ SG_ Page M : 7|4@0+ (1,0) [0|15] "" DASH
+ SG_ Pressure m3 : 3|12@0- (0.1,-1e-05) [-204|204] "bar" DASH
+ SG_ Sub m4M : 15|4@0+ (1,0) [0|15] "" DASH
+ SG_ Depth m2 : 11|20@0- (-0.25,3) [0|0] "furlong" DASH
+ SG_ Level m5 : 15|32@0- (1,0) [0|0] "" DASH
+ SG_ Counter : 47|4@0+ (1,0) [0|0] "" DASH
+BO_ 289 Limits: 3 DASH
+ SG_ Setpoint : 2|14@1+ (0.01,0) [0|100] "%" ENGINE
+ SG_ Whole : 0|8@1+ (1,0) [0|255] "" ENGINE
+BO_ 290 Empty: 0 DASH
+BO_ 291 Wide: 20 ENGINE
+ SG_ Far : 75|64@0- (1,0) [0|0] "" DASH
+CM_ SG_ 2364540158 EngSpeed "Actual engine speed";
+BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535;
+BA_DEF_DEF_ "GenMsgCycleTime" 0;
+BA_ "GenMsgCycleTime" BO_ 2364540158 20;
+VAL_ 2364540158 Mode 0 "Low idle" 1 "Accelerator" 99 "Nothing" ;
+VAL_ 2364540158 EngSpeed 65535 "Not available" 65279 "Error" ;
+SG_MUL_VAL_ 288 Pressure Page 3-3, 7-7;
+SG_MUL_VAL_ 288 Sub Page 4-4;
+SG_MUL_VAL_ 288 Depth Sub 2-2;
+SG_MUL_VAL_ 288 Level Page 5-5;
+SIG_VALTYPE_ 288 Level : 1;
+"""
+FRAMES = 200
+
+
+def written(tmp_path: Path, *options: str, text: str = DBC) -> str:
+    """The draft of a database."""
+    (tmp_path / "engine.dbc").write_text(text, "cp1252")
+    out = tmp_path / "engine" / "device.yaml"
+    assert main(["import", "dbc", str(tmp_path / "engine.dbc"), "--device", "engine", "--out", str(out), *options]) == 0
+    return out.read_text("utf-8")
+
+
+def database(text: str) -> Any:
+    """The database as cantools reads it."""
+    return cantools.database.load_string(text, "dbc", strict=False)
+
+
+def values_of(message: Any, data: bytes) -> list[str]:
+    """What cantools says of a frame, in the order of the numbers; of a frame that it refuses, that."""
+    try:
+        return sorted(map(repr, map(float, message.decode(data, decode_choices=False).values())))
+    except cantools.database.DecodeError:
+        return ["none"]
+
+
+def test_random_frames_mean_the_same_in_and_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    written(tmp_path)
+    said = capsys.readouterr().err
+    device = load_device(tmp_path / "engine" / "device.yaml", Report())
+    assert device is not None
+    first, again = database(DBC), database(export(device).decode("latin-1"))
+    chance = random.Random(25)
+    for message in (one for one in first.messages if one.signals):
+        other = next(one for one in again.messages if one.frame_id == message.frame_id)
+        assert (other.is_extended_frame, other.length, other.cycle_time) == (
+            message.is_extended_frame,
+            message.length,
+            message.cycle_time,
+        )
+        for _ in range(FRAMES):
+            data = chance.randbytes(message.length)
+            if message.name == "Sensors":
+                data = bytes([chance.choice((2, 3, 4, 5, 7)) << 4 | data[0] & 15, data[1] & 15 | 32, *data[2:]])
+            assert values_of(other, data) == values_of(message, data), message.name
+    assert "13 of 13 signals in 4 messages" in said
+    assert "names of numbers that the signal cannot hold (1)" in said
+    assert "messages without signals (1)" in said
+
+
+def test_what_the_draft_says(tmp_path: Path) -> None:
+    text = written(tmp_path)
+    for line in (
+        "certainty: imported",
+        "- {name: eec1, title: {en: EEC1}, direction: cyclic, can_id: 0CF004FEh, identifier_bits: 29, every: 20 ms}",
+        "  furlong: {name: furlong, quantity: unknown}",
+        "bytes: low first",
+        "- code: EngSpeed",
+        "  name: eng_speed",
+        "  scale: value = raw * 0.125",
+        "  note: {en: Actual engine speed}",
+        "- name: eec1_counter",
+        '  when: "page in (3, 7)"',
+        "  when: page == 4 and sub == 2",
+        "  view_of: whole",
+    ):
+        assert f"{line}\n" in text, line
+
+
+def test_a_node_receives_what_others_send(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = written(tmp_path, "--node", "ENGINE")
+    assert "{name: limits, title: {en: Limits}, direction: request" in text
+    assert "{name: sensors, title: {en: Sensors}, direction: cyclic" in text
+    path = str(tmp_path / "engine.dbc")
+    assert main(["import", "dbc", path, "--node", "Motor"]) == 1
+    assert "the database has no node `Motor`" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("data", "why"),
+    [
+        (b"BO_ 1 A: 8\n SG_", "this is no CAN database"),
+        (b"\xff\x00\x01", "this is no CAN database"),
+        (b'VERSION ""\nBO_ 1 A: 8 X\n', "holds no signals"),
+        (b"", "this is no CAN database"),
+    ],
+)
+def test_what_is_no_database(tmp_path: Path, capsys: pytest.CaptureFixture[str], data: bytes, why: str) -> None:
+    path = tmp_path / "x.dbc"
+    path.write_bytes(data)
+    assert main(["import", "dbc", str(path)]) == 1
+    assert why in capsys.readouterr().err
+
+
+def test_without_cantools(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "x.dbc").write_text(DBC, "utf-8")
+    monkeypatch.setitem(sys.modules, "cantools.database", None)
+    assert main(["import", "dbc", str(tmp_path / "x.dbc")]) != 0
+    assert "fieldscribe[dbc]" in capsys.readouterr().err
