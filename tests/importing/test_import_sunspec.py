@@ -12,6 +12,7 @@ import pytest
 from fieldscribe.cli import main
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from support.places import ROOT
 
 FOLDER = Path(__file__).parent / "sunspec"
 
@@ -96,6 +97,17 @@ def test_two_files_of_one_model(tmp_path: Path, capsys: pytest.CaptureFixture[st
         (tmp_path / name).write_text(json.dumps(model(point())), "utf-8")
     assert main(["import", "sunspec", str(tmp_path)]) == 1
     assert "model_07.json and model_7.json both are model 7" in capsys.readouterr().err
+
+
+def test_the_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the page prints is what the commands print."""
+    out = tmp_path / "inverter" / "device.yaml"
+    assert main(["import", "sunspec", str(FOLDER), *DRAFTS["inverter"], "--device", "inverter", "--out", str(out)]) == 0
+    assert main(["check", str(out)]) == 0
+    printed = capsys.readouterr()
+    page = (ROOT / "descriptions/language/importing.md").read_text("utf-8")
+    assert printed.err in page
+    assert printed.out in page
 
 
 NASTY = (
