@@ -197,9 +197,9 @@ USING = (
     Key(
         "takes_effect",
         _EVERYWHERE,
-        "When the device uses a written value: `at once` (the default), or only `after restart`.",
-        ["after restart"],
-        one_of("at once", "after restart"),
+        "When the device uses a written value: `at once` (the default), or only `after a restart`.",
+        ["after a restart"],
+        one_of("at once", "after a restart"),
     ),
     Key(
         "write_with",
