@@ -1105,6 +1105,49 @@ static inline void fieldscribe_split64(
     fieldscribe_split32((uint32_t)(bits & 0xFFFFFFFFU), third, last);
 }
 
+/*
+ * Decimal digits of four bits each. Bits that are no decimal number are a number with too many digits: the bits
+ * themselves, or the least such number if that is greater. A number with too many digits is its bits.
+ */
+static inline uint64_t fieldscribe_of_bcd(uint64_t bits, uint8_t digits)
+{
+    uint64_t number = 0U;
+    uint64_t above = 1U;
+    bool decimal = true;
+    uint8_t at;
+    for (at = 0U; (at < digits) && (at < 16U); ++at) {
+        const uint64_t digit = (bits >> (4U * at)) & 0xFU;
+        decimal = decimal && (digit < 10U);
+        number += digit * above;
+        above *= 10U;
+    }
+    return decimal ? number : ((bits < above) ? above : bits);
+}
+
+static inline uint64_t fieldscribe_bcd_of(uint64_t number, uint8_t digits)
+{
+    uint64_t left = number;
+    uint64_t bits = 0U;
+    uint8_t at;
+    for (at = 0U; (at < digits) && (at < 16U); ++at) {
+        bits |= (left % 10U) << (4U * at);
+        left /= 10U;
+    }
+    return (left == 0U) ? bits : number;
+}
+
+/* A sign, the highest bit, and the magnitude in the bits below it; minus zero is 0. */
+static inline int64_t fieldscribe_of_sign_and_magnitude(uint64_t bits, uint64_t sign)
+{
+    const int64_t magnitude = (int64_t)(bits & (sign - 1U) & (uint64_t)INT64_MAX);
+    return ((bits & sign) != 0U) ? -magnitude : magnitude;
+}
+
+static inline uint64_t fieldscribe_sign_and_magnitude(int64_t number, uint64_t sign)
+{
+    return (fieldscribe_magnitude(number) & (sign - 1U)) | ((number < 0) ? sign : 0U);
+}
+
 /* The decimal digits of a word, highest first; the highest takes the rest of the number. */
 static inline void fieldscribe_digits_of(uint16_t raw, uint16_t *digits, size_t count)
 {
@@ -1863,7 +1906,7 @@ typedef enum fieldscribe_type {
 typedef struct fieldscribe_layout {
     uint8_t type;        /* a fieldscribe_type */
     uint8_t words;       /* 1, 2 or 4 */
-    uint16_t order;      /* a hexadecimal digit a word, the high one first: its place, and 8 if its low byte is first */
+    uint16_t order;      /* a hexadecimal digit a word, high first: its place, 4: coded, 8: low byte first */
     bool shares;         /* other points have bits in its word: these are written as they were read */
     uint8_t shift;       /* the position of its lowest bit in the word */
     uint64_t mask;       /* its bits in the words */
@@ -2011,10 +2054,37 @@ static uint64_t fieldscribe_layout_joined_wide(const fieldscribe_layout *layout,
     return number;
 }
 
+/* Whether the bits have a coding of their own: decimal digits, of a signed number sign and magnitude. */
+static bool fieldscribe_layout_is_coded(const fieldscribe_layout *layout)
+{
+    return (layout->order & 4U) != 0U;
+}
+
+/* How many decimal digits the point has. */
+static uint8_t fieldscribe_layout_digits(const fieldscribe_layout *layout)
+{
+    uint8_t digits = 0U;
+    uint64_t left;
+    for (left = layout->mask >> layout->shift; (left != 0U) && (digits < 16U); left >>= 4) {
+        ++digits;
+    }
+    return digits;
+}
+
 /* The bits of the point, right-aligned. */
 static uint32_t fieldscribe_layout_field(const fieldscribe_layout *layout, const uint16_t *words)
 {
     return (fieldscribe_layout_joined(layout, words) & (uint32_t)(layout->mask & 0xFFFFFFFFU)) >> layout->shift;
+}
+
+/* The number in the bits of an unsigned point. */
+static uint32_t fieldscribe_layout_number(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    const uint32_t field = fieldscribe_layout_field(layout, words);
+    if (!fieldscribe_layout_is_coded(layout)) {
+        return field;
+    }
+    return (uint32_t)(fieldscribe_of_bcd(field, fieldscribe_layout_digits(layout)) & 0xFFFFFFFFU);
 }
 
 /* The largest number that the bits of the point can hold. */
@@ -2028,6 +2098,10 @@ static int32_t fieldscribe_layout_signed_field(const fieldscribe_layout *layout,
 {
     const uint32_t field = fieldscribe_layout_field(layout, words);
     const uint32_t most = fieldscribe_layout_most(layout) >> 1;
+    if (fieldscribe_layout_is_coded(layout)) {
+        const int32_t magnitude = (int32_t)(field & most);
+        return (field > most) ? -magnitude : magnitude;
+    }
     return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)field;
 }
 
@@ -2060,7 +2134,12 @@ static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t ra
     if (raw > fieldscribe_layout_most(layout)) {
         return false;
     }
-    fieldscribe_layout_put_bits(layout, raw, words);
+    if (fieldscribe_layout_is_coded(layout)) {
+        const uint64_t bits = fieldscribe_bcd_of(raw, fieldscribe_layout_digits(layout));
+        fieldscribe_layout_put_bits(layout, (uint32_t)(bits & 0xFFFFFFFFU), words);
+    } else {
+        fieldscribe_layout_put_bits(layout, raw, words);
+    }
     return true;
 }
 
@@ -2068,10 +2147,16 @@ static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t ra
 static bool fieldscribe_layout_put_signed(const fieldscribe_layout *layout, int32_t raw, uint16_t *words)
 {
     const uint32_t size = (raw < 0) ? (uint32_t)(-1 - raw) : (uint32_t)raw;
-    if (size > (fieldscribe_layout_most(layout) >> 1)) {
+    const uint32_t most = fieldscribe_layout_most(layout) >> 1;
+    if (size > most) {
         return false;
     }
-    fieldscribe_layout_put_bits(layout, (raw < 0) ? ~size : size, words);
+    if (fieldscribe_layout_is_coded(layout)) {
+        const uint32_t magnitude = (uint32_t)(fieldscribe_magnitude(raw) & most);
+        fieldscribe_layout_put_bits(layout, (raw < 0) ? (magnitude | (most + 1U)) : magnitude, words);
+    } else {
+        fieldscribe_layout_put_bits(layout, (raw < 0) ? ~size : size, words);
+    }
     return true;
 }
 
@@ -2089,7 +2174,7 @@ bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U8)) {
         return false;
     }
-    *raw = (uint8_t)(fieldscribe_layout_field(layout, words) & 0xFFU);
+    *raw = (uint8_t)(fieldscribe_layout_number(layout, words) & 0xFFU);
     return true;
 }
 
@@ -2107,7 +2192,7 @@ bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *word
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U16)) {
         return false;
     }
-    *raw = (uint16_t)(fieldscribe_layout_field(layout, words) & 0xFFFFU);
+    *raw = (uint16_t)(fieldscribe_layout_number(layout, words) & 0xFFFFU);
     return true;
 }
 
@@ -2125,7 +2210,7 @@ bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *word
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U32)) {
         return false;
     }
-    *raw = fieldscribe_layout_field(layout, words);
+    *raw = fieldscribe_layout_number(layout, words);
     return true;
 }
 
@@ -2144,6 +2229,9 @@ bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *word
         return false;
     }
     *raw = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
+    if (fieldscribe_layout_is_coded(layout)) {
+        *raw = fieldscribe_of_bcd(*raw, fieldscribe_layout_digits(layout));
+    }
     return true;
 }
 
@@ -2156,7 +2244,11 @@ bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *word
     }
     most = layout->mask >> 1;
     bits = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
-    *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
+    if (fieldscribe_layout_is_coded(layout)) {
+        *raw = fieldscribe_of_sign_and_magnitude(bits, most + 1U);
+    } else {
+        *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
+    }
     return true;
 }
 
@@ -2204,7 +2296,11 @@ bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64) || (raw > layout->mask)) {
         return false;
     }
-    fieldscribe_layout_store(layout, raw, words);
+    if (fieldscribe_layout_is_coded(layout)) {
+        fieldscribe_layout_store(layout, fieldscribe_bcd_of(raw, fieldscribe_layout_digits(layout)), words);
+    } else {
+        fieldscribe_layout_store(layout, raw, words);
+    }
     return true;
 }
 
@@ -2214,7 +2310,11 @@ bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64) || (size > (layout->mask >> 1))) {
         return false;
     }
-    fieldscribe_layout_store(layout, (raw < 0) ? ~size : size, words);
+    if (fieldscribe_layout_is_coded(layout)) {
+        fieldscribe_layout_store(layout, fieldscribe_sign_and_magnitude(raw, (layout->mask >> 1) + 1U), words);
+    } else {
+        fieldscribe_layout_store(layout, (raw < 0) ? ~size : size, words);
+    }
     return true;
 }
 

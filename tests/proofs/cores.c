@@ -224,6 +224,16 @@ void prove_bits(void)
     (void)fieldscribe_fix64(big, big, big);
 }
 
+void prove_codings(uint64_t bits, uint8_t digits_of_it, uint8_t sign)
+{
+    (void)fieldscribe_of_bcd(bits, digits_of_it);
+    (void)fieldscribe_bcd_of(bits, digits_of_it);
+    if ((sign > 0U) && (sign < 64U)) {
+        (void)fieldscribe_of_sign_and_magnitude(bits, (uint64_t)1U << sign);
+        (void)fieldscribe_sign_and_magnitude(an_s64, (uint64_t)1U << sign);
+    }
+}
+
 void prove_words(void)
 {
     words[0] = fieldscribe_exchanged(words[0]);

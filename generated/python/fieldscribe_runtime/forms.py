@@ -37,6 +37,7 @@ class Type(Record):
     bits: int
     signed: bool = False
     low_byte_first: bool = False
+    coding: str = ""
 
     def limits(self, width: int) -> tuple[int, int]:
         """Return the smallest and the largest number in `width` bits of this type."""
@@ -45,7 +46,26 @@ class Type(Record):
     def number(self, pattern: int, width: int) -> int:
         """Return the number that the lowest `width` bits of `pattern` hold."""
         pattern &= (1 << width) - 1
+        if self.coding == "bcd":
+            digits = f"{pattern:0{width // 4}x}"
+            return int(digits) if digits.isdecimal() else max(pattern, 10 ** (width // 4))
+        if self.coding:
+            sign = 1 << width - 1
+            return sign - pattern if pattern & sign else pattern
         return pattern - (1 << width) if self.signed and pattern >> width - 1 else pattern
+
+    def pattern(self, raw: int, width: int) -> int:
+        """Return the bits of a number; those above `width` are its sign."""
+        if self.coding == "bcd":
+            return int(str(raw), 16) if raw < 10 ** (width // 4) else raw
+        if self.coding:
+            return abs(raw) & (1 << width - 1) - 1 | (raw < 0) << width - 1
+        return raw
+
+    @property
+    def plain(self) -> bool:
+        """True if the bits are the number, in the order in which they travel."""
+        return not self.low_byte_first and not self.coding
 
     def ordered(self, words: Sequence[int]) -> Sequence[int]:
         """Return words with their high byte first, or as they travel."""

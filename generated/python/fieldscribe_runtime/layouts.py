@@ -252,7 +252,7 @@ def _is_whole(point: Point) -> bool:
     """Return True if the raw number is its words as they are, the high one first."""
     addresses = point.facts.at.addresses
     in_order = list(addresses) == sorted(addresses)
-    plain = point.facts.bits is None and not point.wire.low_byte_first
+    plain = point.facts.bits is None and point.wire.plain
     return plain and point.wire.bits in _LETTERS and in_order
 
 
@@ -282,7 +282,7 @@ def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> P
     decoder = point.sure_decoder if isinstance(point, Decoding) else itself
     if whole.get(point.facts.at.address) is point:
         return Piece(point, fields[0], decoder, int, True)
-    if len(fields) == 1 and not point.wire.low_byte_first:
+    if len(fields) == 1 and point.wire.plain:
         return Piece(point, fields[0], bits_of(*point.bit_field, decoder), bits_of(*point.bit_field, itself), False)
     chosen = [at - fields[0] for at in fields]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from struct import unpack_from
 
+from fieldscribe.arithmetic.codings import coded_number, coded_pattern
 from fieldscribe.model import Point, Special
 
 
@@ -64,12 +65,20 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
     if point.text is not None:
         return pattern
     low = 0 if point.bits is None else point.bits[1]
-    return number_of(pattern >> low & mask_of(point.width), point.width, signed=point.info.signed)
+    pattern = pattern >> low & mask_of(point.width)
+    if point.coding:
+        return coded_number(pattern, point.width, point.coding)
+    return number_of(pattern, point.width, signed=point.info.signed)
+
+
+def pattern_of(point: Point, raw: int) -> int:
+    """Return the bits of a raw number; of a negative one, with the sign in all bits above."""
+    return coded_pattern(raw, point.width, point.coding) if point.coding else raw
 
 
 def words_of(point: Point, raw: int, count: int = 0) -> tuple[int, ...]:
     """Return the unsigned words of a raw number; `count` if these are not as many as the point has."""
-    return exchanged(point, *split(raw, count or point.words))
+    return exchanged(point, *split(pattern_of(point, raw), count or point.words))
 
 
 def group_mask(point: Point) -> int:
@@ -81,7 +90,7 @@ def insert(point: Point, word: int, raw: int) -> int:
     """Return the word with the bits of a point replaced and its constant bits set."""
     low = 0 if point.bits is None else point.bits[1]
     mask = group_mask(point)
-    word = exchanged(point, word)[0] & ~mask & 0xFFFF | raw << low & mask
+    word = exchanged(point, word)[0] & ~mask & 0xFFFF | pattern_of(point, raw) << low & mask
     return exchanged(point, word if point.fixed is None else word & ~point.fixed.mask | point.fixed.bits)[0]
 
 

@@ -244,6 +244,17 @@ POINT: FactTable = (
         remark="{}",
     ),
     Fact(
+        "coding",
+        "How the bits hold the raw number, if not plainly or in two's complement.",
+        null_or(one_of("bcd", "sign and magnitude")),
+        WIRE,
+        shared="shape",
+        value=lambda point, _: point.coding or None,
+        label="Coding",
+        text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
+        remark="{}",
+    ),
+    Fact(
         "base",
         "What its addresses count from, by name; null: they count from 0.",
         TEXT_OR_NULL,

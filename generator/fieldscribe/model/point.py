@@ -190,6 +190,7 @@ class Point:
     digits = _Shared(lambda point: point.shape.digits)
     patterns = _Shared(lambda point: point.shape.patterns)
     swapped = _Shared(lambda point: point.shape.swapped)
+    coding = _Shared(lambda point: point.shape.coding)
     fixed = _Shared(lambda point: point.shape.fixed)
     info = _Shared(lambda point: point.shape.info)
     form = _Shared(lambda point: point.shape.form)

@@ -22,6 +22,8 @@ class Shape:
     or format of those that the point shares with others. `display` is the number of decimals that people see, None
     if the description gives none; no computation depends on it. `patterns` is True if an enum names floating-point
     numbers: raw numbers are their patterns. `swapped` is True if the low byte of each word comes first.
+    `coding` says how the bits hold the raw number if that is neither plain nor two's complement: `bcd` or `sign and
+    magnitude`.
 
     Equal shapes are one object, so that the facts derived below are computed once.
     """
@@ -43,6 +45,7 @@ class Shape:
     display: int | None = None
     patterns: bool = False
     swapped: bool = False
+    coding: str = ""
 
     def __hash__(self) -> int:
         """Hash the facts that usually differ, because titles have no hash; equality compares all facts."""

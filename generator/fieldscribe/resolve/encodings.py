@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from fieldscribe.arithmetic.codings import BCD, MAGNITUDE, coded_ends
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import quoted
@@ -21,7 +22,8 @@ class Encoding(NamedTuple):
     """The encoding of a point, known before any formula is read.
 
     `width` is the number of bits of the raw number, `holds` the least and the greatest raw number. `specials_of` names
-    the special codes if the point shares them with others. `swapped` says that the low byte of each word comes first.
+    the special codes if the point shares them with others. `swapped` says that the low byte of each word comes first,
+    `coding` how the bits hold the number if not as usual.
     """
 
     space: str
@@ -32,6 +34,7 @@ class Encoding(NamedTuple):
     specials: tuple[Special, ...]
     specials_of: str
     swapped: bool = False
+    coding: str = ""
 
 
 class Encodings:
@@ -55,12 +58,14 @@ class Encodings:
         width = info.bits if bits is None else bits[0] - bits[1] + 1
         if self._scope.family.spaces[space] == "signal" and width < 16:
             bits = (width - 1, 0)  # of a word of its own
-        holds = ends_of(width, signed=info.signed)
+        coding = _coding_of(self._scope, facts, name, width)
+        holds = coded_ends(width, coding) if coding else ends_of(width, signed=info.signed)
         carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
         order = None if self._scope.bus is None else self._scope.bus.get("bytes")
         words = self._scope.family.spaces[space] == "word" and name != "text"
         swapped = words and low_first(facts, "bytes", order, carrier if bits is None else "u16")
-        return Encoding(space, carrier, bits, width, holds, *self._codes.of(facts, name, bits), swapped)
+        codes = self._codes.of(facts, name, bits, coding)
+        return Encoding(space, carrier, bits, width, holds, *codes, swapped, coding)
 
 
 def low_first(facts: PointFacts, key: str, order: object, carrier: str) -> bool:
@@ -68,6 +73,26 @@ def low_first(facts: PointFacts, key: str, order: object, carrier: str) -> bool:
     name = f"f{facts.pattern_bits}" if facts.pattern_bits else carrier
     usual = order.get(name) if isinstance(order, Map) else order
     return bool((facts.get(key) or usual) == "low first")
+
+
+def _coding_of(scope: Scope, facts: PointFacts, name: str, width: int) -> str:
+    """Return the coding of a number, empty for the usual one; report one that the point cannot have.
+
+    The coding of a group is for those of its points that can have it.
+    """
+    coding, info = str(facts.get("coding") or ""), type_info(name)
+    if not coding or facts.untyped is not None:
+        return ""
+    other = name in ("text", "bit") or any(facts.get(key) for key in ("flags", "digits", "fixed"))
+    plain = other or info.floating or scope.family.spaces.get(str(facts.get("space"))) == "signal"
+    if plain or info.signed != (coding == MAGNITUDE) or (coding == BCD and width % 4) or width < 2:
+        if facts.layer("coding") is not facts.group and not info.floating and name != "text":  # these are told anyway
+            needs = "an s type" if coding == MAGNITUDE else "a u type whose bits are a multiple of 4"
+            message, hint = f"`coding: {coding}` is for numbers of {needs}", "correct `type` or `bits`, or leave it out"
+            scope.report.error("wrong-choice", message, facts.span("coding"), hint)
+            facts.failed.add("coding")
+        return ""
+    return coding
 
 
 def _space_of(scope: Scope, facts: PointFacts) -> str:

@@ -117,6 +117,7 @@ class Shapes:
             digits=digits,
             patterns=facts.pattern_bits > 0,
             swapped=encoding.swapped and facts.untyped is None,
+            coding=encoding.coding,
             fixed=fixed_of(scope, facts, encoding.bits, encoding.width) if "w" in access else None,
         )
         shape = self._interner.shape(replace(shape, display=_display_of(facts, shape, bounds)))

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from fieldscribe.arithmetic.words import ends_of, number_of
+from fieldscribe.arithmetic.codings import BCD, coded_ends, coded_number
+from fieldscribe.arithmetic.words import ends_of, mask_of, number_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval
@@ -57,16 +58,28 @@ class SpecialCodes:
                 if "special" in facts:
                     self.held(facts["special"], kind, type_info(kind).bits)
 
-    def of(self, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
+    def of(
+        self, facts: PointFacts, kind: str, bits: tuple[int, int] | None, coding: str
+    ) -> tuple[tuple[Special, ...], str]:
         """Return the codes of a point of this type, nearest first, and a name for those that it shares with others."""
         levels = tuple(_levels(self.scope, facts, kind, bits))
-        if not levels:
-            return (), ""
         width = type_info(kind).bits if bits is None else bits[0] - bits[1] + 1
         key = (*(id(node) for _, node in levels), kind, width)
-        if key not in self._specials:
+        if levels and key not in self._specials:
             self._specials[key] = self._specials_of(levels, kind, width)
-        return self._specials[key]
+        found, shared = self._specials.get(key, ((), ""))
+        if not coding:
+            return found, shared
+        own = tuple(
+            replace(
+                code,
+                low=coded_number(code.low & mask_of(width), width, coding) if code.hexadecimal else code.low,
+                high=coded_number(code.high & mask_of(width), width, coding) if code.hexadecimal else code.high,
+                shared=False,
+            )
+            for code in found
+        )
+        return own + (_not_decimal(own, width) if coding == BCD else ()), ""
 
     def _specials_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
         codes = self._merged([self.held(node, kind, width) for _, node in levels])
@@ -184,6 +197,17 @@ class SpecialCodes:
         if (span, message) not in self._reported:
             self._reported.add((span, message))
             self.scope.report.error(rule, message, span, hint, [] if related is None else [related])
+
+
+def _not_decimal(codes: tuple[Special, ...], width: int) -> tuple[Special, ...]:
+    """Return the codes of bits that are no decimal number: all numbers with too many digits that no code names."""
+    first = coded_ends(width, BCD)[1] + 1
+    parts = [part.fixed for part in _without(first, mask_of(width), codes) if part.fixed is not None]
+    title = {"en": "Not a decimal number"}
+    return tuple(
+        Special(low, high, f"not_decimal{f'_{number}' if number > 1 else ''}", title, no_value=True)
+        for number, (low, high) in enumerate(parts, 1)
+    )
 
 
 def _overlap(code: _Code, other: _Code) -> bool:

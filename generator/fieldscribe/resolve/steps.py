@@ -216,9 +216,10 @@ class Steps:
             self._check(point, with_fixed(point, raw) if word.factor == 0 else raw, span, action)
         if word.factor == 0:
             return self._constants(point, with_fixed(point, word.constant), action)
-        if point.words != 1 or point.swapped or (point.bits is not None and min(self._extremes(word)) < 0):
+        moved = point.words != 1 or point.swapped or point.coding
+        if moved or (point.bits is not None and min(self._extremes(word)) < 0):
             message = (
-                f"`{point.name}` takes no formula: it is several words, has its low byte first, or bits with a sign"
+                f"`{point.name}` takes no formula: it is several words, has bits of its own order, or a sign in bits"
             )
             raise FactError("steps", message, span, "write its words by `at` and `words`")
         shift = 0 if point.bits is None else point.bits[1]

@@ -563,23 +563,23 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "raw", (uint64_t)(constant));                                   \
     }
 
-/* `order` is what makes the high byte of the word the first: a cast where it is the first. */
-#define FIELDSCRIBE_BITS_IN(order, function, raw_type, macro)                                    \
+/*
+ * `order` is what makes the high byte of the word the first: a cast where it is the first. `is_plain` says that the
+ * bits are the number.
+ */
+#define FIELDSCRIBE_BITS_IN(order, is_plain, function, raw_type, macro)                          \
     if (fieldscribe_asks(v, "bits")) {                                                           \
         const uint16_t word = (uint16_t)fieldscribe_bits(v, "word");                             \
         const raw_type put = (raw_type)fieldscribe_bits(v, "replaced");                          \
         const uint32_t ones = (uint32_t)(macro##_MASK) >> macro##_SHIFT;                         \
-        fieldscribe_agree(v, (order(word) & (uint32_t)(macro##_MASK)) ==                         \
+        fieldscribe_agree(v, !(is_plain) || (order(word) & (uint32_t)(macro##_MASK)) ==          \
             ((uint32_t)fieldscribe_bits(v, "raw") & ones) << macro##_SHIFT);                     \
         fieldscribe_is_number(v, "raw", (uint64_t)function##_extract(word));                     \
         fieldscribe_agree(v, function##_extract(order(macro##_MASK)) == function##_extract(0xFFFFU)); \
         fieldscribe_is_number(v, "result", (uint64_t)function##_insert(word, put));              \
     }
 
-#define FIELDSCRIBE_BITS(function, raw_type, macro) FIELDSCRIBE_BITS_IN((uint16_t), function, raw_type, macro)
-
-#define FIELDSCRIBE_EXCHANGED_BITS(function, raw_type, macro) \
-    FIELDSCRIBE_BITS_IN(fieldscribe_exchanged, function, raw_type, macro)
+#define FIELDSCRIBE_BITS(function, raw_type, macro) FIELDSCRIBE_BITS_IN((uint16_t), true, function, raw_type, macro)
 
 #define FIELDSCRIBE_WORDS(function, raw_type, count)                                             \
     if (fieldscribe_asks(v, "words")) {                                                          \

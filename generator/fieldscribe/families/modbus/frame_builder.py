@@ -38,7 +38,9 @@ def write_requests(
     """Return the request that writes a raw number, with its bytes; of a long text several. Raises RefusedError."""
     addresses, profile = point.written.addresses, profile_of(device.bus)
     if point.bits is not None:
-        mask, bits = exchanged(point, group_mask(point), raw << point.bits[1] & group_mask(point))
+        mask, bits = exchanged(
+            point, group_mask(point), words.pattern_of(point, raw) << point.bits[1] & group_mask(point)
+        )
         raise RefusedError(
             "shared_word",
             f"{label(point)} shares its word with other points, so no single request can write it",

@@ -39,9 +39,9 @@ KEYS = (
     Key(
         "untyped",
         FACTS,
-        "An encoding that no `type` covers (sign and magnitude, logarithmic), in words: the point is then "
+        "An encoding that no `type` covers (logarithmic, two numbers in a word), in words: the point is then "
         "documented and not generated; its words can be read raw.",
-        ["sign and magnitude, the sign in bit 15"],
+        ["two numbers, base 60"],
         Text(80),
     ),
     Key(
@@ -50,6 +50,15 @@ KEYS = (
         "The number of words of a point that is `untyped` or whose type is open; 1 by default.",
         [3],
         Whole(1, 125),
+    ),
+    Key(
+        "coding",
+        _GROUPED,
+        "How the bits hold a number if not as usual: decimal digits of four bits each (u types), or the sign in the "
+        "highest bit and the magnitude in the others (s types).",
+        ["bcd", "sign and magnitude"],
+        one_of("bcd", "sign and magnitude"),
+        of=WHOLE_NUMBERS,
     ),
     Key("words", _GROUPED, "The order of the words of a value that has several.", ["low first"], WORD_ORDER),
     Key(

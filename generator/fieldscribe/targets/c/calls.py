@@ -10,7 +10,7 @@ from fieldscribe.targets.c.layout import Function, called, function
 from fieldscribe.targets.c.literals import raw_kind
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
-from fieldscribe.targets.c.word_functions import has_words
+from fieldscribe.targets.c.word_functions import coded_bits, has_words
 from fieldscribe.text import upper
 
 
@@ -142,5 +142,6 @@ def _bits_of_raw(view: PointView) -> str:
         return f"{view.function}_insert(word, raw)"
     if view.point.words > 1:
         return f"{view.function}_to_words(raw, words)"
-    word = {"bool": "raw ? 1U : 0U", "uint16_t": "raw"}.get(view.raw_type, "(uint16_t)raw")
+    usual = f"(uint16_t){coded_bits(view.point)}"
+    word = usual if view.point.coding else {"bool": "raw ? 1U : 0U", "uint16_t": "raw"}.get(view.raw_type, usual)
     return f"fieldscribe_exchanged({word})" if view.point.swapped else word

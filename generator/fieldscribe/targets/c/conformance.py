@@ -92,7 +92,9 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         yield from (f'NAMED("{name}", {scope.upper}_{macro}_{upper(name)})' for name in first.values())
     yield from _place_cases(view)
     if point.bits is not None:
-        yield f"{'EXCHANGED_' if point.swapped else ''}BITS({function}, {kind}, {view.macro})"
+        order, plain = "fieldscribe_exchanged" if point.swapped else "(uint16_t)", "false" if point.coding else "true"
+        usual = (order, plain) == ("(uint16_t)", "true")
+        yield f"BITS{'(' if usual else f'_IN({order}, {plain}, '}{function}, {kind}, {view.macro})"
     elif has_words(point):
         yield f"WORDS({function}, {kind}, {point.words}U)"
     elif point.text is None:

@@ -186,7 +186,7 @@ class Layouts:
     def of(self, point: Point, high_first: Sequence[int]) -> str:
         """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
         kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
-        places = [place | 8 * point.swapped for place in reversed(high_first)]
+        places = [place | 8 * point.swapped | 4 * bool(point.coding) for place in reversed(high_first)]
         order = f"{sum(place << 4 * at for at, place in enumerate(places)):0{max(2, len(high_first))}X}"
         name = f"{self.scope.prefix}_layout_{kind}{_tail(point, order, mask)}"
         shared = "false" if point.bits is None else "true"
@@ -219,7 +219,7 @@ def _mask(point: Point) -> int:
 def _tail(point: Point, order: str, mask: int) -> str:
     """Return the part of a layout's name that tells it from others of its type."""
     parts = [f"{point.width}_bits"] if point.shape.narrow else []
-    parts += [f"order_{order.lower()}"] if point.words > 1 or point.swapped else []
+    parts += [f"order_{order.lower()}"] if point.words > 1 or point.swapped or point.coding else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
     elif point.info.bits == 1 and mask > 1:

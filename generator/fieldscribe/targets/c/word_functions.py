@@ -73,7 +73,7 @@ def has_words(point: Point) -> bool:
     """Return True if the point has word functions: a text, a bit group and a word that is the raw number have none."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
-    return point.text is None and point.bits is None and (not plain or point.swapped)
+    return point.text is None and point.bits is None and (not plain or point.swapped or bool(point.coding))
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
@@ -84,21 +84,25 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
     read = [f"fieldscribe_exchanged({place})" if swaps else place for place in places]
     if point.words == 1:
         sign = "0x8000U" if info.bits == 16 else "0x80U"
-        split = f"words[0] = {'raw ? 1U : 0U' if info.bits == 1 else '(uint16_t)raw'};"
+        split = f"words[0] = {'raw ? 1U : 0U' if info.bits == 1 else f'(uint16_t){coded_bits(point)}'};"
         joined = read[0] if info.bits == 16 else f"{read[0]} & 0xFFU"
-        if info.signed:
+        if point.coding:
+            joined = decoded_bits(point, joined)
+        elif info.signed:
             joined = f"({kind})fieldscribe_signed({joined}, {sign})"
         elif info.bits < 16:
             joined = f"{read[0]} != 0U" if info.bits == 1 else f"({kind})({joined})"
     else:
         above = info.bits // 16 - point.words  # words that the type has and the wire has not
         into = ", ".join(["&above"] * above + [f"&{place}" for place in places])
-        split = f"fieldscribe_split{info.bits}((uint{info.bits}_t)raw, {into});"
+        split = f"fieldscribe_split{info.bits}((uint{info.bits}_t){coded_bits(point)}, {into});"
         split = f"uint16_t above; {split}" if above else split
         joined = f"fieldscribe_join{info.bits}({', '.join(['0U'] * above + read)})"
         if point.width % 16:
             joined = f"{joined} & {hexadecimal(mask_of(point.width))}"
-        if point.shape.narrow and info.signed:
+        if point.coding:
+            joined = decoded_bits(point, joined)
+        elif point.shape.narrow and info.signed:
             sign = hexadecimal(1 << (point.width - 1))
             joined = f"({kind})(({joined}) ^ {sign}) - ({kind}){sign}"
         elif info.signed:
@@ -106,6 +110,22 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
     words = f"uint16_t words[{point.words}]"
     yield function(f"{INLINE} void", f"{name}_to_words", (f"{kind} raw", words), split, *swaps)
     yield function(f"{INLINE} {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
+
+
+def coded_bits(point: Point) -> str:
+    """Return the expression for the bits of the number `raw`."""
+    if not point.coding:
+        return "raw"
+    if point.info.signed:
+        return f"fieldscribe_sign_and_magnitude(raw, {hexadecimal(1 << point.width - 1)})"
+    return f"fieldscribe_bcd_of(raw, {point.width // 4}U)"
+
+
+def decoded_bits(point: Point, bits: str) -> str:
+    """Return the expression for the raw number in bits of a coding of their own."""
+    if point.info.signed:
+        return f"({raw_type(point)})fieldscribe_of_sign_and_magnitude({bits}, {hexadecimal(1 << point.width - 1)})"
+    return f"({raw_type(point)})fieldscribe_of_bcd({bits}, {point.width // 4}U)"
 
 
 def places_of(point: Point) -> list[int]:
@@ -122,13 +142,21 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     place = f"{hexadecimal(group_mask(point))}, {low}U"
     word = "fieldscribe_exchanged(word)" if point.swapped else "word"
     extract = f"fieldscribe_extract({word}, {place})"
-    if kind == "bool":
+    if point.coding:
+        extract = decoded_bits(point, extract)
+    elif kind == "bool":
         extract = f"{extract} != 0U"
     elif point.info.signed:
         extract = f"({kind})fieldscribe_signed({extract}, {hexadecimal(1 << (point.width - 1), 1)})"
     elif kind != "uint16_t":
         extract = f"({kind})({extract})"
-    number = "raw ? 1U : 0U" if kind == "bool" else "(uint16_t)raw" if point.info.signed else "raw"
+    number = (
+        "raw ? 1U : 0U"
+        if kind == "bool"
+        else f"(uint16_t){coded_bits(point)}"
+        if point.info.signed or point.coding
+        else "raw"
+    )
     insert = f"fieldscribe_insert({word}, {place}, {number})"
     if point.fixed is not None:
         insert = f"fieldscribe_fix({insert}, {constant_bits(point)})"

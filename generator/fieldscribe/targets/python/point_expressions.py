@@ -90,11 +90,13 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
 def _wire(point: Point, scope: PackageScope) -> Node:
     """Return the type on the wire: `U16`; one that has no constant as `Type(24)`."""
     shape = point.shape
-    if not shape.narrow and not shape.swapped:
+    if not shape.narrow and not shape.swapped and not shape.coding:
         return scope.runtime(point.type.upper())
     facts = {"signed": shape.info.signed, "low_byte_first": shape.swapped}
     bits = point.width if shape.narrow else shape.info.bits
-    return call(scope.runtime("Type"), (str(bits), *[f"{name}=True" for name, holds in facts.items() if holds]))
+    stated = [f"{name}=True" for name, holds in facts.items() if holds]
+    stated += [f"coding={python_string(shape.coding)}"] if shape.coding else []
+    return call(scope.runtime("Type"), (str(bits), *stated))
 
 
 def _scaled(point: Point, scope: PackageScope) -> Iterator[Node]:

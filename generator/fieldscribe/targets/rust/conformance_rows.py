@@ -182,7 +182,8 @@ def _has_place(point: Point) -> bool:
 
 def _has_words(point: Point) -> bool:
     """Return True if the words of the point differ from its raw number."""
-    return point.bits is None and point.text is None and (point.words > 1 or point.info.signed or point.swapped)
+    differs = point.words > 1 or point.info.signed or point.swapped or bool(point.coding)
+    return point.bits is None and point.text is None and differs
 
 
 def _references(point: Point) -> Tokens:

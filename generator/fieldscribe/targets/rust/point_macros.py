@@ -144,8 +144,7 @@ def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
         yield f"words {point.words};"
     if point.shape.narrow:
         yield f"width {point.width};"
-    if point.swapped:
-        yield "low_byte_first true;"
+    yield from ["low_byte_first true;"] * point.swapped + ["coded true;"] * bool(point.coding)
     if point.write_place is not None:
         yield f"write_at 0x{min(point.write_place.addresses):04X};"
     if point.index is not None:

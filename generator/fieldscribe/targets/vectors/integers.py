@@ -6,7 +6,7 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines, text
-from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, as_raw, code_of, quantity_at_most
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, as_pattern, as_raw, code_of, quantity_at_most
 from fieldscribe.targets.vectors.samples import PointEncoding
 
 
@@ -142,7 +142,7 @@ def bits(lines: Lines, encoding: PointEncoding) -> None:
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
     for word, put in dict.fromkeys(tries):
         held = bytes_exchanged(shape, word)
-        raw, result = held >> low & ones, held & ~(ones << low) | put << low
+        raw, result = held >> low & ones, held & ~(ones << low) | (as_pattern(shape, as_raw(shape, put)) & ones) << low
         if shape.fixed is not None:
             result = result & ~shape.fixed.mask | shape.fixed.bits
         lines.add("bits", word, as_raw(shape, raw), as_raw(shape, put), bytes_exchanged(shape, result))
@@ -158,12 +158,16 @@ def words(lines: Lines, encoding: PointEncoding) -> None:
     if order is None or encoding.bits is not None or shape.text is not None:
         return
     count = shape.words
-    if count < 2 and not shape.info.signed and not shape.swapped:
+    if count < 2 and not shape.info.signed and not shape.swapped and not shape.coding:
         return
-    raws = [as_raw(shape, pattern) for pattern in (_wide_patterns(count) if count > 1 else _NARROW)]
+    patterns = _wide_patterns(count) if count > 1 else _NARROW
+    raws = [as_raw(shape, pattern) for pattern in (*patterns, *(_CODED if shape.coding else ()))]
+    raws = [raw for raw in dict.fromkeys(raws) if not shape.coding or as_raw(shape, as_pattern(shape, raw)) == raw]
     lines.add_all("words", [(raw, words_of(encoding, order, raw)) for raw in raws])
 
 
+_CODED = (0x1234_5678_9012_3456, 0x9999_9999_9999_9999, 0x0102_0304_8506_9708)
+"""Samples of decimal digits, of which a shorter number has the last ones."""
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
 """Samples of a signed word: the least number, negative odd numbers, a positive number."""
 
@@ -184,7 +188,7 @@ def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, recei
     if encoding.bits is not None:
         return (_shared_word(encoding, encoding.bits[1], raw, received=received),)
     count = len(order)
-    pattern = raw & (1 << 16 * count) - 1
+    pattern = as_pattern(encoding.shape, raw) & (1 << 16 * count) - 1
     if received and encoding.shape.narrow:
         pattern ^= mask_of(16 * count - encoding.shape.width, encoding.shape.width)
     in_reading_order = [pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order]
@@ -198,7 +202,7 @@ def bytes_exchanged(shape: Shape, word: int) -> int:
 
 def _shared_word(encoding: PointEncoding, low: int, raw: int, *, received: bool) -> int:
     ones, fixed = (1 << encoding.shape.width) - 1, encoding.shape.fixed
-    word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
+    word = OTHER_BITS & ~(ones << low) | (as_pattern(encoding.shape, raw) & ones) << low
     if fixed is not None:
         word = word & ~fixed.mask | (fixed.bits ^ fixed.mask if received else fixed.bits)
     return bytes_exchanged(encoding.shape, word)

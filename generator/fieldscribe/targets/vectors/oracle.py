@@ -35,7 +35,31 @@ def quotient(over: int, under: int) -> float:
 def as_raw(shape: Shape, pattern: int) -> int:
     """Return the raw number in a pattern of its bits; higher bits are ignored."""
     pattern &= (1 << shape.width) - 1
+    if shape.coding:
+        return _as_coded(shape, pattern)
     return pattern - (1 << shape.width) if shape.info.signed and pattern >> (shape.width - 1) else pattern
+
+
+def _as_coded(shape: Shape, pattern: int) -> int:
+    """Return the number in a pattern that is neither plain nor in two's complement, digit by digit."""
+    if shape.info.signed:
+        half = 1 << (shape.width - 1)
+        return pattern if pattern < half else half - pattern
+    digits = [pattern >> low & 15 for low in range(0, shape.width, 4)]
+    beyond = 10 ** len(digits)
+    if max(digits) > 9:
+        return pattern if pattern > beyond else beyond
+    return sum(digit * 10**place for place, digit in enumerate(digits))
+
+
+def as_pattern(shape: Shape, raw: int) -> int:
+    """Return the bits of a raw number; a negative one in two's complement stays negative."""
+    if not shape.coding:
+        return raw
+    if shape.info.signed:
+        return raw if raw >= 0 else ((1 << shape.width) - 2 * raw) // 2
+    digits = [raw // 10**place % 10 for place in range(shape.width // 4)]
+    return sum(digit << 4 * place for place, digit in enumerate(digits)) if raw < 10 ** len(digits) else raw
 
 
 def bits_of(value: float, width: int) -> int:

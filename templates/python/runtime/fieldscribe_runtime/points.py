@@ -225,7 +225,7 @@ class Point(Guided):
 
     def to_words(self, raw: int) -> tuple[int, ...]:
         """Return the unsigned words of a raw number in ascending order of address; raises RangeError."""
-        raw = self._within(raw, *self.wire.limits(self.width))
+        raw = self.wire.pattern(self._within(raw, *self.wire.limits(self.width)), self.width)
         words = [0] * self.size
         for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
             words[place] = raw >> 16 * part & 0xFFFF
@@ -250,6 +250,7 @@ class Point(Guided):
         """Return the whole word with this bit group replaced, and with the constant bits set."""
         mask = (1 << self.width) - 1
         word, raw = self.wire.ordered([self._number(word)])[0], self._number(raw)
+        raw = self.wire.pattern(raw, self.width)
         result = word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
         fixed, bits = self.facts.fixed or (0, 0)
         return self.wire.ordered([result & ~fixed | bits])[0]

@@ -18,6 +18,7 @@ pub mod arithmetic;
 pub mod can;
 pub mod check;
 pub mod client;
+pub mod coding;
 pub mod data;
 mod device;
 pub mod digits;

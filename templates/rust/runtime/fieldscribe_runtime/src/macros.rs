@@ -8,6 +8,7 @@
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
 /// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order,
 ///   `[words 2]`, `[width 24]`: the bits of a number narrower than its type, `[low_byte_first true]` of each word,
+///   `[coded true]`: a [coding](crate::coding) of its own,
 ///   `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`:
 ///   the bits of the word that are always the same, and what they are;
@@ -54,6 +55,7 @@ macro_rules! point {
         $(words $words:literal;)?
         $(width $width:literal;)?
         $(low_byte_first $low_byte_first:literal;)?
+        $(coded $coded:literal;)?
         $(write_at $write_address:literal;)?
         $(index $index:literal;)?
         $(telegram $telegram:literal;)?
@@ -87,6 +89,7 @@ macro_rules! point {
             $(const WORDS: u16 = $words;)?
             $(const WIDTH: u32 = $width;)?
             $(const LOW_BYTE_FIRST: bool = $low_byte_first;)?
+            $(const CODED: bool = $coded;)?
             $(const WRITE_ADDRESS: u16 = $write_address;)?
             $(const INDEX: Option<u8> = Some($index);)?
             $(const TELEGRAM: Option<&'static str> = Some($telegram);)?
@@ -108,7 +111,8 @@ macro_rules! point {
 
                 #[inline]
                 fn from_words([word]: [u16; 1]) -> $raw {
-                    $crate::Raw::from_words([$crate::$extract::<Self>(word)])
+                    let bits = $crate::Raw::from_words([$crate::$extract::<Self>(word)]);
+                    $crate::coding::decoded::<Self>(bits)
                 }
             )?
         }

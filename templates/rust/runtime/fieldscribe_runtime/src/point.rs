@@ -2,6 +2,7 @@
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
 use crate::arithmetic::{extract, extract_signed, insert};
+use crate::coding::{decoded, encoded};
 use crate::data::PointFacts;
 use crate::info::{Access, PointInfo};
 use crate::scale::Scale;
@@ -109,6 +110,8 @@ pub trait Point: Sized {
     const WIDTH: u32 = 0;
     /// Whether the low byte of each word comes first.
     const LOW_BYTE_FIRST: bool = false;
+    /// Whether the bits have a [coding](crate::coding) of their own.
+    const CODED: bool = false;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
     /// With how many decimals people see the value, where the description says it.
@@ -192,7 +195,7 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     ///
     /// The word's fixed bits are put in too.
     fn insert(word: u16, raw: Self::Raw) -> u16 {
-        let [bits] = raw.into_words();
+        let [bits] = encoded::<Self>(raw).into_words();
         let word = insert(ordered::<Self>(word), Self::SHIFT, Self::MASK, bits);
         ordered::<Self>((word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS))
     }
@@ -444,6 +447,12 @@ pub(crate) fn joined<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
 #[inline]
 pub(crate) fn joined_in_order<P: Point>(mut words: <P::Raw as Raw>::Words) -> P::Raw {
     order_bytes::<P>(words.as_mut());
+    decoded::<P>(bits_in_order::<P>(words))
+}
+
+/// The bits in the same words, read as they lie.
+#[inline]
+fn bits_in_order<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
     if P::WIDTH == 0 {
         return P::Raw::from_words(words);
     }
@@ -463,7 +472,7 @@ pub(crate) fn joined_in_order<P: Point>(mut words: <P::Raw as Raw>::Words) -> P:
 /// The words of a raw number in reading order; of a number narrower than its type, those that it has come first.
 #[inline]
 pub(crate) fn split<P: Point>(raw: P::Raw) -> <P::Raw as Raw>::Words {
-    let mut words = raw.into_words();
+    let mut words = encoded::<P>(raw).into_words();
     if P::WIDTH != 0 {
         let above = words.as_ref().len().saturating_sub(usize::from(P::WORDS));
         words.as_mut().rotate_left(above);
