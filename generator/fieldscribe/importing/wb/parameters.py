@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
-from fieldscribe.importing.wb.conditions import Condition, any_of, condition_of
+from fieldscribe.importing.wb.conditions import COMPARE, Condition, any_of, condition_of
 from fieldscribe.importing.wb.rows import Row
 from fieldscribe.importing.wb.values import Texts
 from fieldscribe.wording.exact import number_text
@@ -24,6 +24,7 @@ class Parameters:
                 self._rows.setdefault(row.key, []).append(row)
         names = Names()
         self._axes = {key: names.give(snake(key, "choice")) for key, rows in self._rows.items() if rows[0].is_choice}
+        self._choices = {key: _choices(self._rows[key]) for key in self._axes}
         self._texts = texts
         self.units = list(dict.fromkeys(row.unit for row in rows if row.unit))
         self._asking: Row | None = None
@@ -35,25 +36,18 @@ class Parameters:
         for key, axis in self._axes.items():
             row, names = self._rows[key][0], Names()
             lines += [f"  {axis}:", f"    title: {titles_text(row.point.title, row.point.titles)}", "    values:"]
-            for number, label in self._choices(key).items():
+            for number, label in self._choices[key].items():
                 english = self._texts.english(label)
                 name = scalar(names.give(snake(english, "number"), str(abs(number))))
                 title = titles_text(english, self._texts.others(label))
                 lines.append(f"      {name}: {{number: {number}, title: {title}}}")
         return [DraftBlock(["variants:", *lines])] if lines else []
 
-    def _choices(self, key: str) -> dict[int, str]:
-        """Return the numbers that can be chosen, with their names."""
-        choices: dict[int, str] = {}
-        for row in self._rows[key]:
-            numbers = row.labels or {number: str(number) for number in row.choices[:_MOST_VALUES]}
-            choices = numbers | choices
-        return dict(sorted(choices.items()))
-
     def compared(self, name: str, sign: str, number: int) -> Condition:
         """Return the condition that a parameter compares so with a number; one that is not there equals none."""
         if name in self._axes:
-            return f"{self._axes[name]}.number {sign} {number}"
+            fits = {COMPARE[sign](choice, number) for choice in self._choices[name]}
+            return f"{self._axes[name]}.number {sign} {number}" if len(fits) > 1 else True in fits
         rows = self._rows.get(name, [])
         if not rows:
             return sign == "!="
@@ -102,6 +96,14 @@ class Parameters:
             questions.append(f"not carried: condition: {text}")
             return True
         return when
+
+
+def _choices(rows: Sequence[Row]) -> dict[int, str]:
+    """Return the numbers that can be chosen, with their names."""
+    choices: dict[int, str] = {}
+    for row in rows:
+        choices = (row.labels or {number: str(number) for number in row.choices[:_MOST_VALUES]}) | choices
+    return dict(sorted(choices.items()))
 
 
 def _comparison(row: Row, sign: str, number: int) -> str:
