@@ -310,10 +310,7 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_word(
     fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t word);
 
-/*
- * Several words (or coils) of a unit, of a point or a block: `words` has `count` of them. A text that is longer than a
- * request has no ..._frame: read its words in parts, and decode all of them at once.
- */
+/* Several words (or coils) of a unit, of a point, a block or a part of a long text: `words` has `count` of them. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_reading *what, uint16_t *words, size_t count);
 
@@ -535,8 +532,8 @@ const char *fieldscribe_modbus_status_name(fieldscribe_modbus_status status)
 {
     static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
         "overflow", "special", "malformed", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
-        "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
-        "wrong_function", "exception", "bad_byte_count", "echo_mismatch", "noise"};
+        "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction",
+        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch", "noise"};
     return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
 }
 
