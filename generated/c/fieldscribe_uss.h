@@ -474,8 +474,8 @@ const char *fieldscribe_uss_status_name(fieldscribe_uss_status status)
 {
     static const char *const names[] = {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case",
         "overflow", "special", "malformed", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
-        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter", "no_answer",
-        "refused", "no_rights", "wrong_response", "noise"};
+        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
+        "no_answer", "refused", "no_rights", "wrong_response", "noise"};
     return ((size_t)status < FIELDSCRIBE_COUNT(names)) ? names[(size_t)status] : "unknown";
 }
 
