@@ -45,8 +45,9 @@ def described(device: Device) -> Iterator[Row]:
 
 def notes(device: Device) -> Mapping[str, str]:
     """What is said in words, by where: the bus, a group, a point."""
-    named = {one.name: one.note.get("en", "") for some in (device.groups, device.points) for one in some}
-    return {"bus": device.bus.note.get("en", ""), **named}
+    groups = {group.name: group.note.get("en", "") for group in device.groups}
+    points = {point.name: f"{point.note.get('en', '')} {point.takes_effect or ''}" for point in device.points}
+    return {"bus": device.bus.note.get("en", ""), **groups, **points}
 
 
 def _row(kind: str, line: int | None, key: Row, facts: Facts) -> Row:
