@@ -22,7 +22,7 @@ _SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+"
 _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|von")
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
-    *("at", "bits", "write_at", "view_of", "access", "format", "type", "length", "words", "bytes", "coding"),
+    *("at", "bits", "write_at", "view_of", "access", "format", "type", "untyped", "length", "words", "bytes", "coding"),
     *("characters", "per_word", "padding", "range", "range_in_units", "scale", "unit", "display", "default"),
     *("default_in_units", "enum", "open", "flags", "special", "fixed", "changes", "when", "since", "sets"),
     *("indices", "most", "each", "reserved", "note"),

@@ -40,6 +40,8 @@ _OF_TYPES = {
     "text": "{padding: 00h}",
 }
 """The facts that all points of a type share."""
+_BYTES = {"eui48": "EUI-48", "ipaddr": "IPv4 address", "ipv6addr": "IPv6 address"}
+"""Types that are no numbers: their words can be read raw."""
 _WORDS = {"16": 1, "32": 2, "64": 4}
 _OTHER_UNITS = (
     "Secs=s Sec=s Tms=s Tmh=h Tmd=d mSecs=ms C=°C Pct=% Degrees=° deg=° Var=var Varh=varh AH=Ah kAH=kAh WH=Wh "
@@ -113,7 +115,8 @@ def _state_type(point: Point, drafted: DraftPoint) -> None:
     elif point.type == "string":
         facts |= {"type": "text", "characters": str(point.size * 2)}
     else:
-        facts |= {"type": "~", "length": str(point.size)}
+        open_type = {"untyped": _BYTES[point.type]} if point.type in _BYTES else {"type": "~"}
+        facts |= {**open_type, "length": str(point.size)}
         drafted.questions.append(f"type {point.type}: {point.size} words")
 
 
