@@ -875,10 +875,11 @@ static fieldscribe_can_piece fieldscribe_can_piece_at(const fieldscribe_can_sign
     const unsigned first = signal->low_first ? ((unsigned)signal->start % 8U) : (7U - ((unsigned)signal->start % 8U));
     const unsigned left = (done < width) ? (width - done) : 0U;
     const unsigned skipped = (first + done) % 8U;
+    const unsigned there = 8U - skipped;
     fieldscribe_can_piece piece;
     piece.byte = ((size_t)signal->start / 8U) + ((first + done) / 8U);
-    piece.bits = ((8U - skipped) < left) ? (8U - skipped) : left;
-    piece.low = (signal->low_first ? skipped : (8U - skipped - piece.bits)) & 7U;
+    piece.bits = (there < left) ? there : left;
+    piece.low = (signal->low_first ? skipped : (there - piece.bits)) & 7U;
     piece.above = (signal->low_first ? done : (left - piece.bits)) & 63U;
     return piece;
 }
@@ -962,8 +963,9 @@ fieldscribe_can_status fieldscribe_can_take_signals(const fieldscribe_can_signal
         const uint64_t raw = fieldscribe_can_get(&message->signals[at], data, length);
         unsigned left = fieldscribe_can_words_of(&message->signals[at]);
         while ((left > 0U) && (word < count)) {
+            const unsigned above = (16U * (left - 1U)) % 64U;
+            words[word] = (uint16_t)((raw >> above) & 0xFFFFU);
             --left;
-            words[word] = (uint16_t)((raw >> (16U * (left % 4U))) & 0xFFFFU);
             ++word;
         }
     }

@@ -16,10 +16,11 @@ from fieldscribe.importing import compilable
 from fieldscribe.importing.tables import UnreadableError
 
 from corpus.collection import Collection
+from corpus.dbc import DBC
 from corpus.sunspec import SUNSPEC
 from corpus.wb import WB
 
-COLLECTIONS: tuple[Collection, ...] = (WB, SUNSPEC)
+COLLECTIONS: tuple[Collection, ...] = (WB, SUNSPEC, DBC)
 
 
 class Measured(NamedTuple):
@@ -93,5 +94,7 @@ def _print(name: str, files: list[Path], measured: list[Measured | None]) -> Non
 
 if __name__ == "__main__":
     if len(sys.argv) != 2 or not Path(sys.argv[1]).is_dir():
-        sys.exit("make corpus FOLDER=...: the folder of a collection, templates of wb-mqtt-serial or models of SunSpec")
+        sys.exit(
+            "make corpus FOLDER=...: the folder of a collection, templates of wb-mqtt-serial, models of SunSpec, DBC"
+        )
     sys.exit(main(Path(sys.argv[1])))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import cantools
+import corpus.__main__ as corpus
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
@@ -145,3 +146,11 @@ def test_without_cantools(tmp_path: Path, capsys: pytest.CaptureFixture[str], mo
     monkeypatch.setitem(sys.modules, "cantools.database", None)
     assert main(["import", "dbc", str(tmp_path / "x.dbc")]) != 0
     assert "fieldscribe[dbc]" in capsys.readouterr().err
+
+
+def test_a_collection_is_equal_in_random_frames(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "engine.dbc").write_text(DBC, "cp1252")
+    (tmp_path / "empty.dbc").write_text('VERSION ""\n', "cp1252")
+    (tmp_path / "broken.dbc").write_text("BO_", "cp1252")
+    assert corpus.main(tmp_path) == 0
+    assert "| dbc | 1 | 1 | 1 | 13 | 100.00% |" in capsys.readouterr().out

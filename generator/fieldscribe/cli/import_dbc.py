@@ -30,8 +30,8 @@ def run(arguments: Namespace) -> int:
     """Import, and return the exit code."""
     data = read_regular(arguments.file, MOST_BYTES).data
     try:
-        text = _text(data)
-        drafted = DbcDraft(_database(text), text, arguments.node)
+        text = text_of(data)
+        drafted = DbcDraft(database_of(text), text, arguments.node)
     except UnreadableError as error:
         raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
     if not drafted.groups:
@@ -51,7 +51,7 @@ def run(arguments: Namespace) -> int:
     return FINE
 
 
-def _text(data: bytes) -> str:
+def text_of(data: bytes) -> str:
     """Return the text of a database: UTF-8 if it is, else as Windows writes it."""
     try:
         return data.decode("utf-8-sig")
@@ -59,7 +59,7 @@ def _text(data: bytes) -> str:
         return data.decode("cp1252", "replace")
 
 
-def _database(text: str) -> Any:
+def database_of(text: str) -> Any:
     """Return the database that cantools reads. Raises UnreadableError and StopError."""
     try:
         from cantools.database import load_string
