@@ -18,7 +18,7 @@ from fieldscribe.importing.sunspec.models import Group, Model
 from fieldscribe.importing.sunspec.points import Facts, note_of
 
 _FOUND = "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
-_LONGEST_TITLE, _LONGEST_CODE = 120, 40
+_LONGEST_TITLE, _LONGEST_NAME, _LONGEST_CODE = 120, 78, 40
 
 
 class Imported(NamedTuple):
@@ -169,7 +169,7 @@ class _Drafter:
                 code = ".".join((number, *path[1:], point.name))
                 drafted.code = code if len(code) <= _LONGEST_CODE else f"{number}.{point.name}"
             name = _snake(drafted.title, "point") + place.suffix
-            drafted.name = self._names.give(name, ending, number)
+            drafted.name = self._names.give(name, ending[: _LONGEST_NAME - len(name)].rstrip("_"), number)
             if place.start is None:
                 drafted.questions.append("place: it lies behind elements whose number a point holds; `--count` says it")
             else:
