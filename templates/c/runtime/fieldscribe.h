@@ -1113,13 +1113,15 @@ static inline uint64_t fieldscribe_of_bcd(uint64_t bits, uint8_t digits)
 {
     uint64_t number = 0U;
     uint64_t above = 1U;
+    uint64_t left = bits;
     bool decimal = true;
     uint8_t at;
     for (at = 0U; (at < digits) && (at < 16U); ++at) {
-        const uint64_t digit = (bits >> (4U * at)) & 0xFU;
+        const uint64_t digit = left & 0xFU;
         decimal = decimal && (digit < 10U);
         number += digit * above;
         above *= 10U;
+        left >>= 4;
     }
     return decimal ? number : ((bits < above) ? above : bits);
 }
@@ -1128,9 +1130,11 @@ static inline uint64_t fieldscribe_bcd_of(uint64_t number, uint8_t digits)
 {
     uint64_t left = number;
     uint64_t bits = 0U;
+    uint64_t above = 1U;
     uint8_t at;
     for (at = 0U; (at < digits) && (at < 16U); ++at) {
-        bits |= (left % 10U) << (4U * at);
+        bits += (left % 10U) * above;
+        above <<= 4;
         left /= 10U;
     }
     return (left == 0U) ? bits : number;
@@ -1139,7 +1143,8 @@ static inline uint64_t fieldscribe_bcd_of(uint64_t number, uint8_t digits)
 /* A sign, the highest bit, and the magnitude in the bits below it; minus zero is 0. */
 static inline int64_t fieldscribe_of_sign_and_magnitude(uint64_t bits, uint64_t sign)
 {
-    const int64_t magnitude = (int64_t)(bits & (sign - 1U) & (uint64_t)INT64_MAX);
+    const uint64_t below = bits & (sign - 1U) & (uint64_t)INT64_MAX;
+    const int64_t magnitude = (int64_t)below;
     return ((bits & sign) != 0U) ? -magnitude : magnitude;
 }
 
