@@ -40,12 +40,12 @@ impl<const N: usize, const W: usize> Units<[u16; W]> for Utf8<N> {
 
     fn encoded(self, layout: Layout, bits: u32) -> Option<[u16; W]> {
         let text = self.as_str();
-        let length = if bits == 8 {
-            text.len()
+        let is_long = if bits == 8 {
+            text.len() > layout.characters()
         } else {
-            text.encode_utf16().count()
+            text.encode_utf16().nth(layout.characters()).is_some()
         };
-        if length > layout.characters() || text.chars().any(char::is_control) {
+        if is_long || text.chars().any(char::is_control) {
             return None;
         }
         Some(if bits == 8 {
