@@ -510,6 +510,4 @@ pub mod stepped_commands {
 }
 
 /// The commands of several requests.
-pub const STEPPED_COMMANDS: &[runtime::modbus::SteppedCommand] = &[
-    stepped_commands::USE_INTEGERS,
-];
+pub const STEPPED_COMMANDS: &[runtime::modbus::SteppedCommand] = &[stepped_commands::USE_INTEGERS];

@@ -41,7 +41,7 @@ def bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
     lines = FAMILY.part("description").bus_of(spaces).splitlines()
     for key, pattern in (("max_read_registers", "(read_.*_registers)"), ("max_write_registers", "(write_registers)")):
         most = number_of(body.get(key))
-        if most and 0 < most <= 125:
+        if most and most.denominator == 1 and 0 < most <= 125:
             lines = [re.sub(f" {pattern}$", rf" {{name: \1, max: {most}}}", text) for text in lines]
     times = {name: time for key, name in _TIMES.items() if 0 < (time := _milliseconds(key, body)) <= _LONGEST}
     listed = [f"    {name}: {number_text(time)} ms" for name, time in times.items()]

@@ -22,6 +22,7 @@ def context(device: Device) -> dict[str, object]:
     bus = device.bus
     framings = [f"Framing::{framing.capitalize()}" for framing in framings_of(bus)]
     groups = [f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]
+    stepped = tuple(map(_stepped, device.stepped_commands))
     return {
         "example_link": f"{framings[0]}, {bus.units[0]}",
         "functions": array(Item("const FUNCTIONS", "&[Function]"), list(_functions(bus))),
@@ -36,7 +37,11 @@ def context(device: Device) -> dict[str, object]:
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array(Item("pub const BLOCKS", "&[(&str, &[Block])]"), groups),
         "commands": tuple(map(_command, device.commands)),
-        "stepped": tuple(map(_stepped, device.stepped_commands)),
+        "stepped": stepped,
+        "stepped_commands": array(
+            Item("pub const STEPPED_COMMANDS", "&[runtime::modbus::SteppedCommand]"),
+            [f"stepped_commands::{name}" for _, name, _ in stepped],
+        ),
     }
 
 
