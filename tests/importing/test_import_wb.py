@@ -14,7 +14,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.importing.wb import rendering
 from fieldscribe.importing.wb.conditions import Condition, condition_of
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 FOLDER = Path(__file__).parent / "wb"
@@ -278,6 +278,8 @@ _DRAWN = count()
     ),
     hardware=st.one_of(st.lists(st.dictionaries(st.sampled_from(["signature", "fw"]), _VALUES), max_size=2), _VALUES),
 )
+@example(device={"channels": [{}], "max_read_registers": 0.5}, hardware=None)
+@example(device={"channels": [{}], "guard_interval_us": 1e-308, "stride": 0.5, "shift": 0.5}, hardware=None)
 def test_whatever_a_template_holds_compiles(
     device: dict[str, Any], hardware: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

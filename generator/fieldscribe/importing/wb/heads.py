@@ -11,7 +11,7 @@ from fieldscribe.families import families
 from fieldscribe.importing.draft_text import DraftBlock, DraftGroup, DraftPoint, Names, scalar
 from fieldscribe.importing.wb.parameters import Parameters
 from fieldscribe.importing.wb.templates import in_slots
-from fieldscribe.importing.wb.values import number_of, objects
+from fieldscribe.importing.wb.values import number_of, objects, whole_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
 
@@ -40,8 +40,8 @@ def bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
     spaces = {group.space for group in groups} | {_space(item) for item in objects(body.get("setup"))}
     lines = FAMILY.part("description").bus_of(spaces).splitlines()
     for key, pattern in (("max_read_registers", "(read_.*_registers)"), ("max_write_registers", "(write_registers)")):
-        most = number_of(body.get(key))
-        if most and most.denominator == 1 and 0 < most <= 125:
+        most = whole_of(body.get(key))
+        if most and 0 < most <= 125:
             lines = [re.sub(f" {pattern}$", rf" {{name: \1, max: {most}}}", text) for text in lines]
     times = {name: time for key, name in _TIMES.items() if 0 < (time := _milliseconds(key, body)) <= _LONGEST}
     listed = [f"    {name}: {number_text(time)} ms" for name, time in times.items()]
@@ -49,13 +49,15 @@ def bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
 
 
 def _milliseconds(key: str, body: Mapping[str, Any]) -> Fraction:
+    """Return a time to the microsecond; 0 if there is none."""
     time = number_of(body.get(key)) or Fraction(0)
-    return time / 1000 if key.endswith("_us") else time
+    milliseconds = time / 1000 if key.endswith("_us") else time
+    return milliseconds if (milliseconds * 1000).denominator == 1 else Fraction(0)
 
 
 def base_of(body: Mapping[str, Any]) -> dict[str, str]:
     """Return the base of a module's addresses, which depends on its slot, as the fact of a group."""
-    stride, shift = number_of(body.get("stride")), number_of(body.get("shift"))
+    stride, shift = whole_of(body.get("stride")), whole_of(body.get("shift"))
     if not in_slots(body) or not stride:
         return {}
     return {"base": f"slot * {stride}{f' + {shift}' if shift else ''}"}
@@ -128,9 +130,9 @@ def _space(item: Mapping[str, Any]) -> str:
 
 def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
     """Return the commands of these writes: for each slot, as a step has no base, or such that run first."""
-    block, steps = DraftBlock([]), list[tuple[str, Fraction, str]]()
+    block, steps = DraftBlock([]), list[tuple[str, int, str]]()
     for item in _writes(body):
-        address, value, form = number_of(item.get("address")), number_of(item.get("value")), item.get("format", "u16")
+        address, value, form = whole_of(item.get("address")), whole_of(item.get("value")), item.get("format", "u16")
         when = parameters.condition(str(item["condition"]), block.questions) if item.get("condition") else True
         if address is None or value is None or _space(item) not in ("holding", "coil") or form not in ("u16", "s16"):
             stated = f"{item.get('address')} = {item.get('value')}"
@@ -139,7 +141,7 @@ def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
             condition = "" if when is True else f", when: {scalar(str(when))}"
             words = f"words: [{value}]{condition}}}  # {line(str(item.get('title', '')))}"
             steps.append((f"  - {{space: {_space(item)}, at: ", address, f", {words}"))
-    stride, shift = number_of(body.get("stride")) or 0, number_of(body.get("shift")) or 0
+    stride, shift = whole_of(body.get("stride")) or 0, whole_of(body.get("shift")) or 0
     for slot in SLOTS if in_slots(body) else (0,):
         run, suffix = ("by caller", f"_in_slot_{slot}") if slot else ("first", "")
         for number, first in enumerate(range(0, len(steps), _MOST_STEPS), 1):

@@ -38,6 +38,12 @@ def objects(value: Any) -> list[dict[str, Any]]:
     return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
 
 
+def whole_of(value: Any) -> int | None:
+    """Return a whole number of a template; None for what is none."""
+    number = number_of(value)
+    return None if number is None or number.denominator != 1 else int(number)
+
+
 def number_of(value: Any) -> Fraction | None:
     """Return a number of a template (5, 0.1, "0x1F"); None for what is none."""
     if isinstance(value, int | Fraction) and not isinstance(value, bool):
