@@ -16,7 +16,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.output.writing import write_depfile
 from fieldscribe.pipeline import find_devices, load_models
 from fieldscribe.safe_files import UnfitFileError
-from support.places import ROOT
 from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool
 
@@ -24,16 +23,6 @@ DOCS = [
     *("docs/jumo_controller.csv", "docs/jumo_controller.md", "docs/jumo_controller_meanings.csv"),
     "manifest/jumo_controller.json",
 ]
-
-
-@pytest.fixture
-def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with descriptions/jumo_controller, the working folder, with a cache of its own."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    place = tmp_path / "project"
-    shutil.copytree(ROOT / "descriptions/jumo_controller", place / "descriptions/jumo_controller")
-    monkeypatch.chdir(place)
-    return place
 
 
 def files(folder: Path) -> dict[str, int]:

@@ -1,0 +1,46 @@
+"""Runs a function in a child process while the run goes on, where the system can fork."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from tempfile import TemporaryFile
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+def may_have_children() -> bool:
+    """Return True if there are processors for more than one process, and a fork breaks no thread."""
+    return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1
+
+
+def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
+    """Start a child that makes results, and return an iterator over them that waits until it has made all.
+
+    The iterator raises ChildProcessError if the child was killed.
+    """
+    file = TemporaryFile()  # noqa: SIM115 - closed by the iterator
+    child = os.fork()
+    if not child:
+        status = 1
+        try:
+            for result in make():
+                pickle.dump(result, file)
+            file.close()
+            status = 0
+        finally:
+            os._exit(status)
+
+    def results() -> Iterator[T]:
+        with file:
+            if os.waitpid(child, 0)[1]:
+                raise ChildProcessError("a process that made files was killed: is there enough memory?")
+            size = file.seek(0, os.SEEK_END)
+            file.seek(0)
+            while file.tell() < size:
+                yield pickle.load(file)  # noqa: S301 - written by our own child to a file without a name
+
+    return results()
