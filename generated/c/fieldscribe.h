@@ -2082,20 +2082,32 @@ static uint32_t fieldscribe_layout_field(const fieldscribe_layout *layout, const
     return (fieldscribe_layout_joined(layout, words) & (uint32_t)(layout->mask & 0xFFFFFFFFU)) >> layout->shift;
 }
 
-/* The number in the bits of an unsigned point. */
-static uint32_t fieldscribe_layout_number(const fieldscribe_layout *layout, const uint16_t *words)
-{
-    const uint32_t field = fieldscribe_layout_field(layout, words);
-    if (!fieldscribe_layout_is_coded(layout)) {
-        return field;
-    }
-    return (uint32_t)(fieldscribe_of_bcd(field, fieldscribe_layout_digits(layout)) & 0xFFFFFFFFU);
-}
-
 /* The largest number that the bits of the point can hold. */
 static uint32_t fieldscribe_layout_most(const fieldscribe_layout *layout)
 {
     return (uint32_t)(layout->mask & 0xFFFFFFFFU) >> layout->shift;
+}
+
+/* The number in the bits of an unsigned point. */
+static uint32_t fieldscribe_layout_number(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    const uint32_t field = fieldscribe_layout_field(layout, words);
+    uint32_t number = 0U;
+    uint32_t above = 1U;
+    uint32_t left = field;
+    uint32_t most;
+    bool decimal = true;
+    if (!fieldscribe_layout_is_coded(layout)) {
+        return field;
+    }
+    for (most = fieldscribe_layout_most(layout); most != 0U; most >>= 4) { /* as fieldscribe_of_bcd, in 32 bits */
+        const uint32_t digit = left & 0xFU;
+        decimal = decimal && (digit < 10U);
+        number += digit * above;
+        above *= 10U;
+        left >>= 4;
+    }
+    return decimal ? number : ((field < above) ? above : field);
 }
 
 /* The bits of the point as a number in two's complement. */
@@ -2136,15 +2148,20 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
 /* Store an unsigned number; false if it has more bits than the point. */
 static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
 {
+    uint32_t bits = raw;
     if (raw > fieldscribe_layout_most(layout)) {
         return false;
     }
-    if (fieldscribe_layout_is_coded(layout)) {
-        const uint64_t bits = fieldscribe_bcd_of(raw, fieldscribe_layout_digits(layout));
-        fieldscribe_layout_put_bits(layout, (uint32_t)(bits & 0xFFFFFFFFU), words);
-    } else {
-        fieldscribe_layout_put_bits(layout, raw, words);
+    if (fieldscribe_layout_is_coded(layout) && (raw <= 99999999U)) {
+        uint32_t left;
+        bits = 0U;
+        for (left = 0x80000000U; left != 0U; left >>= 1) { /* bit by bit: a digit from 5 on, doubled, carries */
+            const uint32_t carries = (bits + 0x33333333U) & 0x88888888U;
+            bits = ((bits + ((carries >> 2) | (carries >> 3))) << 1) | (((raw & left) != 0U) ? 1U : 0U);
+        }
+        bits = (bits > fieldscribe_layout_most(layout)) ? raw : bits; /* too many digits stay as they are */
     }
+    fieldscribe_layout_put_bits(layout, bits, words);
     return true;
 }
 

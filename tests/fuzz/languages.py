@@ -64,7 +64,7 @@ def generate(work: Path) -> None:
             (work / path).parent.mkdir(parents=True, exist_ok=True)
             (work / path).write_text(text, "utf-8")
         if device.messages:
-            listed = "".join(f"    &{name}_message_{message.name},\n" for message in device.messages)
+            listed = "".join(f"    &{name}_message_{message.name},\n" for message in device.messages if message.roles)
             (work / "c" / "messages.inc").write_text(listed, "utf-8")
     programs = work / "fuzz" / "src" / "bin"
     programs.mkdir(parents=True, exist_ok=True)

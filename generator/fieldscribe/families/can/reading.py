@@ -100,7 +100,7 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
     else:
         identifier = _group(scope, bus, node)
     laid_out = "layout" in node or "layout" in node.broken
-    roles = _roles(scope, node) if laid_out else ()
+    roles = _roles(scope, node) if "layout" in node else None if laid_out else ()
     if laid_out and "length" in node:
         message = f"the {LENGTH} bytes of a `layout` are the length of the message"
         scope.report.error("two-meanings", message, node.key_span("length"), "leave `length` out")

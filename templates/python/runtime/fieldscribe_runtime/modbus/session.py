@@ -16,7 +16,7 @@ from ..layouts import Layout
 from ..points import Decoding, Point
 from ..session import Refusals, Session
 from ..table import check_unit, check_variants, exists
-from .bases import Base, Bases, Chain, Start
+from .bases import Bases, Start
 from .frames import (
     BIT_READS,
     TCP,
@@ -50,12 +50,12 @@ class ModbusSession(Session):
     """The state of one Modbus device."""
 
     PROFILE: ClassVar[Profile]
-    BASES: ClassVar[Mapping[str, Base]] = {}
-    """What addresses count from, by name."""
-    GIVEN: ClassVar[Mapping[str, tuple[int, int]]] = {}
-    """The ends of the numbers that are given when a device is opened."""
-    CHAIN: ClassVar[Chain | None] = None
-    """The blocks that are found."""
+    BASES: ClassVar[Any] = {}
+    """What addresses count from, a `Base` by name; a device has it from its points, whose types are narrower."""
+    GIVEN: ClassVar[Any] = {}
+    """The ends of the numbers that are given when a device is opened, by name."""
+    CHAIN: ClassVar[Any] = None
+    """The `Chain` of blocks that are found, if there is one."""
 
     def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
         check_framing(framing, self.PROFILE)
