@@ -24,6 +24,7 @@ _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
 """A name that would make its column wide."""
+_LONG_NUMBER = re.compile(r"\b(\d{9,10})(\d{9,10})\b")
 _NARROW = 12
 """A shorter text needs no break."""
 _LONG = 17
@@ -79,8 +80,10 @@ def code(text: str) -> str:
 
 
 def narrow(text: str) -> str:
-    """Return a finished cell whose long names may be broken after an underscore; searching still finds them."""
-    return text if len(text) < _NARROW else _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", text))
+    """Return a finished cell whose long names and numbers may be broken; searching still finds them."""
+    if len(text) < _NARROW:
+        return text
+    return _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", _LONG_NUMBER.sub(r"\1<wbr>\2", text)))
 
 
 def _breaking(name: re.Match[str]) -> str:

@@ -155,7 +155,7 @@ class _Rows:
         remarks = lists.cell_of(point), cells.names, self._remarks.of(point)
         name = narrow_target("point", point.item if point.variant else point.name)
         return (
-            cell(point.code) if point.code else "",
+            narrow(cell(point.code)) if point.code else "",
             f"{name}{LINE_BREAK}{cell(wording.title_text(point.title))}",
             cells.space if with_space else "",
             place_text(point),
