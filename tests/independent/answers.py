@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
 from math import isfinite
+from typing import Any
 
 from independent.arithmetic import evaluate, is_number, line_of, nearest, number
 from independent.reader import NOTHING, Description, Row
@@ -46,6 +47,11 @@ class Point:
         closed = self.row.get("access") == "none" or self.row.get("reserved") in YES
         return "at" in self.row and not unsettled and not closed
 
+    def is_beyond(self, kind: str) -> bool:
+        """Whether this reader knows nothing of it: places of CAN signals, meanings of coded numbers."""
+        places = ("address", "place", "words", "write_address")
+        return self.row.get("space") == "signal" if kind in places else "coding" in self.row
+
     @cached_property
     def bits(self) -> tuple[int, int] | None:
         """The highest and the lowest bit of a group inside its word."""
@@ -73,7 +79,8 @@ class Point:
         if last:
             start, end = number(first), number(last)
             return list(range(start, end + 1)) if start <= end else list(range(start, end - 1, -1))
-        held = int(self.row.get("per_word", "2")) if self.type == "text" else 16
+        two = self.row.get("per_word") != "1" and self.row.get("encoding") != "utf-16"
+        held = (2 if two else 1) if self.type == "text" else 16
         count = -(-int(self.row["characters"] if self.type == "text" else _width_of(self.type)) // held)
         if self.device.family == "uss" and self.row["space"] == "parameter":
             return [number(first)]
@@ -82,10 +89,23 @@ class Point:
 
     @property
     def _order(self) -> str:
-        words = self.device.words
+        return str(self.row.get("words", self._shared(self.device.words)))
+
+    def _shared(self, orders: Any) -> str:
+        """What the bus says of the type."""
         wider = f"{self.type[0]}{next((width for width in (16, 32, 64) if width >= _width_of(self.type)), 0)}"
-        shared = words.get(wider, "high first") if isinstance(words, dict) else words
-        return str(self.row.get("words", shared))
+        return str(orders.get(wider, "high first") if isinstance(orders, dict) else orders)
+
+    def on_the_wire(self, raw: int, count: int) -> list[int]:
+        """The words of a raw number, the high one first."""
+        coding, bits = self.row.get("coding"), raw & (1 << 16 * count) - 1
+        if coding == "bcd":
+            bits = int(str(raw), 16) if len(str(raw)) <= self.width // 4 else raw
+        elif coding:
+            bits = (1 << self.width - 1) | -raw if raw < 0 else raw
+        whole = [bits >> 16 * (count - 1 - place) & 0xFFFF for place in range(count)]
+        swapped = self.row.get("bytes", self._shared(self.device.bytes)) == "low first"
+        return [(word & 0xFF) << 8 | word >> 8 for word in whole] if swapped else whole
 
     @cached_property
     def references(self) -> dict[str, int]:

@@ -18,7 +18,7 @@ Row = dict[str, Any]
 
 NOTHING = ("", "~", "null")
 _CHOICES = {"set": "sets", "index": "indices"}
-_INHERITED = ("space", "access", "type", "telegram", "numbering", "addressing")
+_INHERITED = ("space", "access", "type", "telegram", "numbering", "addressing", "bytes", "coding")
 
 
 @dataclass
@@ -27,6 +27,7 @@ class Description:
 
     family: str
     words: Any = "high first"
+    bytes: Any = "high first"
     enums: dict[str, Row] = field(default_factory=dict)
     formats: dict[str, Row] = field(default_factory=dict)
     records: dict[str, Row] = field(default_factory=dict)
@@ -40,6 +41,7 @@ def read(folder: Path) -> Description:
     found = Description(device["family"])
     for part in parts:
         found.words = part.get("bus", {}).get("words", found.words)
+        found.bytes = part.get("bus", {}).get("bytes", found.bytes)
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
     for group in parts:
@@ -122,8 +124,9 @@ def _counted(row: Row, which: str) -> list[int]:
     """The sets, or the indices, that a row stands for: one alone, a count from 1, or an interval."""
     if which in row or _CHOICES[which] not in row:
         return [number(row.get(which, "1"))]
-    low, _, high = row[_CHOICES[which]].partition("..")
-    return list(range(number(low), number(high) + 1) if high else range(1, number(low) + 1))
+    low, _, high = str(row[_CHOICES[which]]).replace("to end", "1..end").partition("..")
+    last = row["most"] if high and not is_number(high) else high  # the device says how many there are
+    return list(range(number(low), number(last) + 1) if high else range(1, number(low) + 1))
 
 
 def _own_of(each: Row, chosen: Mapping[str, int], by: str) -> Row:

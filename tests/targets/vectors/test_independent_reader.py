@@ -78,8 +78,8 @@ def flag(point: Point, vector: Vector, _: Points) -> object:
 def words(point: Point, vector: Vector, _: Points) -> object:
     count = len(vector["words"])
     order = sorted(range(count), key=point.addresses.__getitem__) if len(point.addresses) == count else range(count)
-    whole = vector["raw"] & (1 << 16 * count) - 1
-    return [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order] == vector["words"]
+    whole = point.on_the_wire(vector["raw"], count)
+    return [whole[place] for place in order] == vector["words"]
 
 
 def place(point: Point, vector: Vector, _: Points) -> object:
@@ -110,7 +110,7 @@ def test_the_vectors_say_what_the_yaml_says(folder: Path) -> None:
     outcomes = [(vector, outcome) for vector in _vectors(folder) if (outcome := _outcome(vector, points)) is not None]
     assert [vector for vector, good in outcomes if not good] == []
     answered = Counter(vector["kind"] for vector, _ in outcomes)
-    assert answered["address"] == sum(point.settled for point in points.values())
+    assert answered["address"] == sum(point.settled and not point.is_beyond("address") for point in points.values())
     assert min(answered["check"], answered["decode_count"]) > 0
 
 
@@ -129,6 +129,8 @@ def test_this_reader_can_disagree() -> None:
 def _outcome(vector: Vector, points: Points) -> bool | None:
     """Whether the vector says what this reader says; None where it says nothing."""
     answer = ANSWERS.get(vector["kind"])
+    if answer and points[vector["point"]].is_beyond(vector["kind"]):
+        return None
     try:
         return None if answer is None else bool(answer(points[vector["point"]], vector, points))
     except UnknownError:
