@@ -83,7 +83,7 @@ def _modbus_pdu(random: Random, function: int, address: int, items: int, number:
 
 def _messages() -> tuple[Message, ...]:
     """The layouts of the made device, as the model has them: built here without any target's code."""
-    return made("kitchen_can").messages
+    return tuple(message for message in made("kitchen_can").messages if message.roles)
 
 
 def _laid_out(random: Random, message: Message, unit: int) -> bytes:

@@ -50,11 +50,12 @@ def can() -> Iterator[str]:
     errors: Any = import_module("fieldscribe_runtime.errors")
     receivers: Any = import_module("fieldscribe_runtime.can.receiver")
     profile = import_module("kitchen_can").KitchenCan.PROFILE
+    messages = [message for message in profile.messages if message.roles]
     listening = [receivers.Receiver(profile, name, UNIT) for name in ("measurements", "heartbeat")]
     for message, unit, position, identifier, data in cases("<BBHIH"):
         frame = frames.Frame(identifier, data)
         try:
-            line = "ok {} {}".format(*frames.parse(profile.messages[message], unit, frame))
+            line = "ok {} {}".format(*frames.parse(messages[message], unit, frame))
         except errors.FrameError as error:
             line = f"{error.status} 0 0"
         for receiver, place in zip(listening, (position, 0), strict=True):
