@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from fractions import Fraction
-from itertools import product
 from math import prod
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Base, Found, Given
 from fieldscribe.resolve.scope import Scope, humanised, titles
-from fieldscribe.resolve.values import FactError, formula_value, integer, interval
+from fieldscribe.resolve.values import FactError, formula_multiples, integer, interval
 from fieldscribe.text import shortened
 
 _MOST_BASES = 65536
@@ -66,10 +63,9 @@ def _given(scope: Scope, nodes: Map) -> Iterator[Given]:
 def _found(scope: Scope, nodes: Map) -> Found | None:
     """Return the chain of blocks; report what cannot be searched for."""
     report = scope.report
-    for name, node in list(nodes.items())[1:]:
+    for name in list(nodes)[1:]:
         message, hint = f"`{name}` is a second chain of blocks", "a device has one chain: describe it once"
         report.error("two-meanings", message, nodes.key_span(name), hint)
-        del node
     for name, node in nodes.items():
         text, places, space = str(node["text"]), node["at"], str(node.get("space", _USUAL_SPACE))
         if not text or len(text) % 2 or not text.isascii() or not text.isprintable():
@@ -127,19 +123,11 @@ def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
     span, places = group.span("base"), dict(_counting_points(scope, group))
     unknown = f"points of the block that can count are: {', '.join(places) or 'none'}"
 
-    def value(*counted: str, held: int = 1) -> Fraction:
-        numbers = {name: Fraction(held if name in counted else 0) for name in places}
-        return formula_value(formula, numbers, span, unknown)
-
-    used = [name for name in places if re.search(rf"\b{name}\b", formula)]
-    offset = value()
-    factors = {name: value(name) - offset for name in used}
-    rises = value(*used, held=3) == offset + 3 * sum(factors.values())
-    if not rises or any(number < 0 or number.denominator > 1 for number in (offset, *factors.values())):
-        hint = "write it as a sum of multiples, such as `points * 2 + 10`"
-        raise FactError("bad-formula", f"`{formula}` does not rise in whole steps", span, hint)
-    counts = tuple((name, places[name], int(factor)) for name, factor in factors.items())
-    return Base(f"{start.name}_behind", f"{start.formula} + {formula}", int(offset), (), start.block, counts)
+    offset, factors = formula_multiples(formula, places, span, unknown)
+    if min(offset, *factors.values(), 0) < 0:
+        raise FactError("bad-formula", f"`{formula}` can lie before the block", span, "points of a block count words")
+    counts = tuple((name, places[name], factor) for name, factor in factors.items())
+    return Base(f"{start.name}_behind", f"{start.formula} + {formula}", offset, (), start.block, counts)
 
 
 def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
@@ -166,29 +154,16 @@ def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
     if not given and scope.header.get("given"):
         raise FactError  # they have findings
     unknown = f"given are: {', '.join(given)}" if given else "declare the number under `given`, at the head"
-
-    def value(numbers: Mapping[str, int]) -> Fraction:
-        return formula_value(formula, {name: Fraction(number) for name, number in numbers.items()}, span, unknown)
-
-    lowest = {name: each.low for name, each in given.items()}
-    start = value(lowest)
-    steps = {name: value({**lowest, name: each.low + 1}) - start for name, each in given.items()}
-    terms = tuple((name, int(step)) for name, step in steps.items() if step)
-    offset = start - sum(lowest[name] * step for name, step in steps.items())
-    used = {name: range(given[name].low, given[name].high + 1) for name, _ in terms}
-    if prod(map(len, used.values())) > _MOST_BASES:
+    offset, factors = formula_multiples(formula, given, span, unknown)
+    terms = tuple((name, factors[name]) for name in given if name in factors)
+    if prod(given[name].high + 1 - given[name].low for name in factors) > _MOST_BASES:
         hint = f"a group has at most {_MOST_BASES} bases: narrow the ranges under `given`"
         raise FactError("too-many-items", f"`{formula}` gives too many bases", span, hint)
-    base = Base("_".join(used) or "base", formula, int(offset), terms, None)
-    whole = all(number.denominator == 1 for number in (offset, *steps.values()))
-    ends = product(*((numbers[0], numbers[-1], numbers[len(numbers) // 2]) for numbers in used.values()))
-    for numbers in ends:
-        chosen = lowest | dict(zip(used, numbers, strict=True))
-        if not whole or value(chosen) != base.at(chosen):
-            hint = "write it as a sum of multiples, such as `slot * 1000 + 200`"
-            raise FactError("bad-formula", f"`{formula}` does not rise in whole steps", span, hint)
+    base = Base("_".join(name for name, _ in terms) or "base", formula, offset, terms, None)
+    for rising in (True, False):
+        chosen = {name: given[name].high if (factor > 0) == rising else given[name].low for name, factor in terms}
         if not 0 <= base.at(chosen) <= _LAST:
-            where = ", ".join(f"{name} {number}" for name, number in zip(used, numbers, strict=True))
+            where = ", ".join(f"{name} {number}" for name, number in chosen.items())
             message = f"the base is {shortened(str(base.at(chosen)))} for {where or 'all devices'}"
             raise FactError("address-outside-space", message, span, "correct the formula, or the range under `given`")
     return base

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, check
@@ -21,7 +20,7 @@ from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
-from fieldscribe.resolve.values import FactError, formula_value, interval, whole
+from fieldscribe.resolve.values import FactError, formula_multiples, interval, whole
 from fieldscribe.wording import meaning_text
 
 MOST_STEPS = 1000
@@ -143,19 +142,13 @@ class Steps:
     def _formula(self, value: Any, span: Span) -> Word:
         """Return a number, or a formula of one argument, as a word of any size. Raises FactError."""
         known = f"known: {', '.join(self.arguments)}" if self.arguments else "write a number, or declare `arguments`"
-
-        def at(numbers: Mapping[str, int]) -> Fraction:
-            values = {name: Fraction(numbers.get(name, 0)) for name in self.arguments}
-            return formula_value(str(value), values, span, known)
-
-        constant = at({})
-        factors = {name: at({name: 1}) - constant for name in self.arguments}
-        used = [name for name, factor in factors.items() if factor]
-        bent = at(dict.fromkeys(self.arguments, 2)) != constant + 2 * sum(factors.values())
-        if bent or len(used) > 1 or any(number.denominator != 1 for number in (constant, *factors.values())):
+        constant, factors = formula_multiples(str(value), self.arguments, span, known)
+        if len(factors) > 1:
             hint = "write a whole number, or one argument times and plus whole numbers: 65535 - unit"
-            raise FactError("steps", f"`{value}` is no word", span, hint)
-        return Word(int(constant), int(factors[used[0]]), used[0]) if used else Word(int(constant))
+            raise FactError("steps", f"`{value}` has two arguments", span, hint)
+        for name, factor in factors.items():
+            return Word(constant, factor, name)
+        return Word(constant)
 
     def _extremes(self, word: Word) -> Iterator[int]:
         """Yield the least and the greatest number that a word can be."""

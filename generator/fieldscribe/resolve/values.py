@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.normal import MOST_BITS, evaluate, multiples
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
@@ -117,9 +117,28 @@ def formula_value(text: str, names: Mapping[str, Fraction], span: Span, unknown:
     try:
         return evaluate(parse_expression(text), names)
     except FormulaError as error:
-        if unknown and "is not known" in error.message:
-            error.hint = unknown
-        raise formula_fault(error, span) from error
+        raise _unknown_or_wrong(error, span, unknown) from error
+
+
+def formula_multiples(text: str, names: Collection[str], span: Span, unknown: str) -> tuple[int, dict[str, int]]:
+    """Return the constant and the factors of a sum of whole multiples of names. Raises FactError, as formula_value."""
+    try:
+        constant, factors = multiples(parse_expression(text), names)
+    except FormulaError as error:
+        raise _unknown_or_wrong(error, span, unknown) from error
+    if any(max(map(int.bit_length, number.as_integer_ratio())) > MOST_BITS for number in (constant, *factors.values())):
+        raise FactError("bad-formula", "the numbers of this formula are too large", span, "write smaller ones")
+    if any(number.denominator != 1 for number in (constant, *factors.values())):
+        message = f"`{text}` does not rise in whole steps"
+        raise FactError("bad-formula", message, span, "write it as a sum of multiples, such as `slot * 1000 + 200`")
+    return int(constant), {name: int(factor) for name, factor in factors.items()}
+
+
+def _unknown_or_wrong(error: FormulaError, span: Span, unknown: str) -> FactError:
+    """Return the finding of a formula, with this hint if it names what is not known."""
+    if unknown and "is not known" in error.message:
+        error.hint = unknown
+    return formula_fault(error, span)
 
 
 def formula_finding(error: FormulaError, span: Span, report: Report) -> None:

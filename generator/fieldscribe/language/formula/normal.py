@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import gcd, lcm
@@ -26,6 +26,7 @@ from fieldscribe.model import Factor, Linear
 MOST_BITS = 4096
 """The most bits of a numerator or denominator; larger results make no sense and cannot be printed."""
 SHAPE = "supported is number * product of points + number, where a factor may be (number * point + number)"
+_MULTIPLES = "multiply a name by a whole number alone, such as `slot * 1000 + 200`"
 LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
 
@@ -201,6 +202,38 @@ def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction
         raise FormulaError(f"`{key}` is not known here", 0, f"known: {known}" if known else "write a number")
 
     return limit_rule(expression, resolve).ratio
+
+
+def multiples(expression: Expression, known: Collection[str]) -> tuple[Fraction, dict[str, Fraction]]:
+    """Return the constant and the factors of a sum of multiples of names. Raises FormulaError for anything else."""
+    match expression:
+        case Name(name, part, column):
+            if part != "value" or name not in known:
+                hint = f"known: {', '.join(known)}" if known else "write a number"
+                raise FormulaError(f"`{name if part == 'value' else f'{name}.raw'}` is not known here", column, hint)
+            return Fraction(0), {name: Fraction(1)}
+        case Negate(operand):
+            return _times(multiples(operand, known), Fraction(-1))
+        case Binary("+" | "-" as op, left_side, right_side):
+            constant, factors = multiples(left_side, known)
+            further, others = _times(multiples(right_side, known), Fraction(1 if op == "+" else -1))
+            sums = {name: factors.get(name, 0) + others.get(name, Fraction(0)) for name in factors | others}
+            return constant + further, {name: factor for name, factor in sums.items() if factor}
+        case Binary(op, left_side, right_side, column):
+            left, right = multiples(left_side, known), multiples(right_side, known)
+            if op == "*" and not left[1]:
+                return _times(right, left[0])
+            if right[1] or (op == "/" and right[0] == 0):
+                raise FormulaError("this is no sum of multiples", column, _MULTIPLES)
+            return _times(left, right[0] if op == "*" else 1 / right[0])
+        case Power10(Name() as exponent):
+            raise FormulaError("this is no sum of multiples", exponent.column, _MULTIPLES)
+    return evaluate(expression, {}), {}
+
+
+def _times(terms: tuple[Fraction, dict[str, Fraction]], by: Fraction) -> tuple[Fraction, dict[str, Fraction]]:
+    constant, factors = terms
+    return constant * by, {name: factor * by for name, factor in factors.items() if by}
 
 
 def scale_rule(scale: Scale, resolve: Resolve) -> Linear:
