@@ -84,7 +84,7 @@ def opposite(clauses: Clauses) -> Clauses:
 
 def _opposite(comparison: Comparison) -> Clauses:
     if comparison.test == "in":
-        unequal = (replace(comparison, test="!=", than=(each,)) for each in comparison.than)  # type: ignore[arg-type]  # alike
+        unequal = (replace(comparison, test="!=", than=(each,)) for each in comparison.than)  # type: ignore[arg-type]  # of one type
         return (tuple(unequal),)
     return ((replace(comparison, test=OPPOSITES[comparison.test]),),)
 

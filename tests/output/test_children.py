@@ -67,5 +67,7 @@ def test_a_child_that_is_killed_ends_the_run(
     in_children(monkeypatch)
     monkeypatch.setattr(vectors, "outputs", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
     assert main(["generate", "--target", TARGETS]) == 2
-    assert "a process that made files was killed: is there enough memory?" in " ".join(capsys.readouterr().err.split())
+    assert "a process that made files broke off: is there enough memory, and room for temporary files?" in " ".join(
+        capsys.readouterr().err.split()
+    )
     assert not (project / "generated/docs").exists()

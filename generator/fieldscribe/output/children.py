@@ -37,7 +37,9 @@ def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
     def results() -> Iterator[T]:
         with file:
             if os.waitpid(child, 0)[1]:
-                raise ChildProcessError("a process that made files was killed: is there enough memory?")
+                raise ChildProcessError(
+                    "a process that made files broke off: is there enough memory, and room for temporary files?"
+                )
             size = file.seek(0, os.SEEK_END)
             file.seek(0)
             while file.tell() < size:

@@ -35,7 +35,10 @@ def contents_of(data: bytes) -> Contents:
 
 
 class Spool:
-    """An unnamed temporary file, created for the first large text; it disappears with the run, however the run ends."""
+    """An unnamed temporary file, created for the first large text; it disappears with the run, however the run ends.
+
+    A child process that shares the file keeps contents `apart` in it: they travel without the file.
+    """
 
     def __init__(self) -> None:
         self._file: IO[bytes] | None = None
@@ -58,6 +61,19 @@ class Spool:
             digest.update(data)
             size += spool.write(data)
         return Contents(digest.hexdigest(), size, b"", spool, start)
+
+    def keep_apart(self, text: str) -> Contents:
+        """As keep, in a child process. Raises UnicodeEncodeError."""
+        return self.keep(text)._replace(spool=None)
+
+    def joined(self, contents: Contents) -> Contents:
+        """Return contents that a child kept apart with the file that has them."""
+        return contents if len(contents.data) == contents.size else contents._replace(spool=self._opened())
+
+    def share(self) -> Self:
+        """Return the spool with its file, which a child process may share, and write what is kept so far."""
+        self._opened().flush()
+        return self
 
     def _opened(self) -> IO[bytes]:
         if self._file is None:

@@ -6,33 +6,26 @@ A device with an error in its description or in a target, or with a foreign file
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
-from fieldscribe.diagnostics import Report, Span, show_traceback
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.model import Device
-from fieldscribe.output.children import may_have_children, results_of_child
-from fieldscribe.output.contents import Contents, Spool, contents_of
+from fieldscribe.output.children import may_have_children
+from fieldscribe.output.contents import Spool
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
+from fieldscribe.output.rendering import ChildTarget, Failure, failure, rendered
 from fieldscribe.output.writing import Result, carry_out
-from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
+from fieldscribe.pipeline import Models, is_new, load_models
 from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import knows
 
 MANY_POINTS = 1_000
 """With so many points in a run, each further target is rendered in a process of its own."""
-
-
-class Failure(NamedTuple):
-    """An internal error with a device: where it happened, and what it is."""
-
-    where: str
-    bug: str
 
 
 @dataclass(slots=True)
@@ -60,7 +53,7 @@ class Generation:
             try:
                 models = load_models(device_file, self.report, self.inputs)
             except Exception as error:  # a bug with one device must not stop the others
-                self._report_bug(device_file, *_failure("the compiler", error))
+                self._report_bug(device_file, *failure("the compiler", error))
                 continue
             if models is not None and is_new(models.whole, device_file, self.known, self.report):
                 self.devices[models.whole.id] = device_file, models
@@ -112,19 +105,21 @@ class Generation:
         ready = [entry for entry in self.devices.values() if self._has_targets(*entry)]
         points = sum(len(models.whole.points) for _, models in ready)
         here = 1 if points >= MANY_POINTS and may_have_children() else len(self.targets)
-        rendered = partial(_all_rendered, [models for _, models in ready])
-        children = [results_of_child(partial(rendered, target)) for target in self.targets[here:]]
-        for device_file, models in ready:
-            with Spool() as spool:
-                parts = [_rendered(models, target, spool.keep) for target in self.targets[:here]]
-                parts += [next(child) for child in children]
-                files = {
-                    target: part for target, part in zip(self.targets, parts, strict=True) if isinstance(part, dict)
-                }
-                if failures := [part for part in parts if isinstance(part, Failure)]:
-                    self._report_bug(device_file, *failures[0])
-                else:
-                    yield models.whole, files
+        with ExitStack() as stack:
+            children = [
+                ChildTarget([models for _, models in ready], target, stack.enter_context(Spool()))
+                for target in self.targets[here:]
+            ]
+            for device_file, models in ready:
+                with Spool() as spool:
+                    parts = [rendered(models, target, spool.keep) for target in self.targets[:here]]
+                    parts += [child.next() for child in children]
+                    made = zip(self.targets, parts, strict=True)
+                    files = {target: part for target, part in made if isinstance(part, dict)}
+                    if failures := [part for part in parts if isinstance(part, Failure)]:
+                        self._report_bug(device_file, *failures[0])
+                    else:
+                        yield models.whole, files
 
     def _record_version(self, manifests: Manifests, device: Device, files: TargetFiles) -> None:
         """Record the version with the digest of its facts; the same version with other facts is a finding instead."""
@@ -170,26 +165,6 @@ class Generation:
         message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
         self.report.error("internal-error", message, Span(shown_path(device_file), 1, 1), hint)
-
-
-def _rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> dict[str, Contents] | Failure:
-    """Return the files of a device for a target by their paths, or why there are none."""
-    try:
-        return {path: keep(text) for _, path, text in outputs(models.whole, [target], models.plain)}
-    except TargetError as error:
-        return _failure(f"target {error}", error.__cause__ or error)
-    except UnicodeEncodeError as error:
-        return _failure("a text", error)
-
-
-def _all_rendered(devices: list[Models], target: str) -> Iterator[dict[str, Contents] | Failure]:
-    """Yield the files of each device, in memory."""
-    return (_rendered(models, target, lambda text: contents_of(text.encode())) for models in devices)
-
-
-def _failure(where: str, error: BaseException) -> Failure:
-    show_traceback(error)
-    return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
 
 
 def _paths(device: Device, files_of_targets: TargetFiles) -> Iterator[str]:

@@ -12,13 +12,9 @@ from .frames import recognizer
 from .signals import Packing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
     from .frames import Frame, Message, Profile
-
-
-_NONE: Mapping[int, bytes] = {}
-"""The parts in a frame of something else."""
 
 
 class _Slot:
@@ -61,23 +57,23 @@ class Receiver:
         """Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came."""
         return bool(self._taken(frame, moment))
 
-    def _taken(self, frame: Frame, moment: float) -> Mapping[int, bytes]:
-        """The parts of the telegram that a frame brings, by number, with the bytes that hold their words."""
+    def _taken(self, frame: Frame, moment: float) -> tuple[tuple[int, bytes], ...]:
+        """The parts of the telegram that a frame brings: their numbers, with the bytes that hold their words."""
         try:
             if not self._is_own(frame):
-                return _NONE
+                return ()
         except (AttributeError, TypeError):
             raise RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}") from None
         data = frame.data
         if self._packing is not None:
-            parts: Mapping[int, bytes] = self._packing.coming(data)
+            parts = tuple(self._packing.coming(data).items())
         else:
             place = 0 if self._multiplexer is None else data[self._multiplexer]
             if place >= len(self._slots):
-                return _NONE
-            parts = {place: data}
+                return ()
+            parts = ((place, data),)
         self._count += 1
-        for place, held in parts.items():
+        for place, held in parts:
             slot = self._slots[place]
             slot.data_before, slot.number_before = slot.data, slot.number
             slot.data, slot.number, slot.moment = held, self._count, moment

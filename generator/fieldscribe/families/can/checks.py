@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from fieldscribe.checks import frames_agree
@@ -13,7 +13,7 @@ from fieldscribe.checks.reachability import report_missing
 from fieldscribe.diagnostics import Span
 from fieldscribe.families.can import frames, identifier_bits, identifier_of, signals
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Frame, Message, Point
+from fieldscribe.model import Field, Frame, Message, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.frames import LocatedFrame
 from fieldscribe.resolve.points import ResolvedPoint
@@ -184,17 +184,16 @@ def signals_fit(subject: Analysis) -> None:
             hint = f"add `layout: …`, or a group with `space: signal` and `message: {message.name}`"
             text = f"the message `{message.name}` has neither a layout nor signals"
             subject.report.error("missing-key", text, node.span("name"), hint)
-        points = [each.point for each in mine]
+        names, fields = {each.point.name for each in mine}, {field.word: field for field in message.fields}
         taken: dict[int, list[ResolvedPoint]] = {}
         for resolved in mine:
             if subject.report.full:
                 return
-            if not _signal_fits(subject, message, resolved, points):
+            field = fields[resolved.point.addresses[0]]
+            if not _signal_fits(subject, message, resolved, field, names):
                 continue
-            field = signals.field_of(message, resolved.point)[1]
             others = {id(other): other for bit in field.bits for other in taken.setdefault(bit, [])}
-            fields = {key: signals.field_of(message, other.point)[1] for key, other in others.items()}
-            near = [other for key, other in others.items() if not signals.exclude(field, fields[key])]
+            near = (each for each in others.values() if not signals.exclude(field, fields[each.point.addresses[0]]))
             rival = next((each for each in near if _meet(coexistence, viewed, resolved, each)), None)
             if rival is not None:
                 text = f"`{rival.point.name}` and `{resolved.point.name}` share bits of `{message.name}`"
@@ -205,12 +204,13 @@ def signals_fit(subject: Analysis) -> None:
                 taken[bit].append(resolved)
 
 
-def _signal_fits(subject: Analysis, message: Message, resolved: ResolvedPoint, points: Sequence[Point]) -> bool:
+def _signal_fits(
+    subject: Analysis, message: Message, resolved: ResolvedPoint, field: Field, names: Collection[str]
+) -> bool:
     """Report a condition that selects nothing; return False, with a finding, for a signal outside its message."""
     point, facts = resolved.point, resolved.facts
-    field = signals.field_of(message, point)[1]
     wide = any(message.fields[place].width > _WIDEST_SELECTOR for place, _ in field.when)
-    if wide or (signals.selected(point, points) is None and "when" not in facts.failed):
+    if wide or (signals.selected(point, names) is None and "when" not in facts.failed):
         text, hint = "a selector has at most 16 bits", "compare a narrower signal"
         if not wide:
             text = "a signal comes with numbers of other signals: `page == 3`, joined by `and`, or by `or` for one"

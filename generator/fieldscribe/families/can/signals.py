@@ -22,9 +22,10 @@ _MOST_RAWS = 256
 
 def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Place]]:
     """Return the message with its fields, and the place of each of its points in the words of its telegram."""
-    own = {point.name: dict(selected(point, points) or ()) for point in points}
+    listed = {point.name: number for number, point in enumerate(points)}
+    own = {point.name: dict(selected(point, listed) or ()) for point in points}
     whens = {name: _with_those_of_selectors(name, own) for name in own}
-    order = sorted(points, key=lambda point: _rank(whens[point.name], points))
+    order = sorted(points, key=lambda point: _rank(whens[point.name], listed))
     numbers = {point.name: number for number, point in enumerate(order)}
     fields: list[Field] = []
     places: dict[int, Place] = {}
@@ -49,19 +50,17 @@ def _with_those_of_selectors(name: str, own: Mapping[str, Selection]) -> Selecti
     return result
 
 
-def _rank(when: Selection, points: Sequence[Point]) -> list[tuple[int, tuple[int, ...]]]:
-    names = [point.name for point in points]
-    return [(names.index(name), raws) for name, raws in sorted(when.items(), key=lambda item: names.index(item[0]))]
+def _rank(when: Selection, listed: Mapping[str, int]) -> list[tuple[int, tuple[int, ...]]]:
+    return sorted((listed[name], raws) for name, raws in when.items())
 
 
-def selected(point: Point, points: Collection[Point]) -> tuple[tuple[str, tuple[int, ...]], ...] | None:
-    """Return which raw numbers of which other signals select this one; None if `when` is no such condition.
+def selected(point: Point, names: Collection[str]) -> tuple[tuple[str, tuple[int, ...]], ...] | None:
+    """Return which raw numbers of which others of these signals select a point; None if `when` is no such condition.
 
     Comparisons of variants and of points elsewhere select nothing here.
     """
-    names = {other.name for other in points if other is not point}
     clauses = () if point.when is None else point.when.clauses
-    found = [_raws(clause, names) for clause in clauses]
+    found = [_raws(clause, point.name, names) for clause in clauses]
     if not found or not any(found):
         return ()
     first = found[0]
@@ -72,11 +71,11 @@ def selected(point: Point, points: Collection[Point]) -> tuple[tuple[str, tuple[
     return tuple((name, tuple(sorted({raw for each in found if each for raw in each[name]}))) for name in first)
 
 
-def _raws(clause: Clause, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
+def _raws(clause: Clause, own: str, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
     """Return the raw numbers that a clause asks of other signals of the message; None if it compares otherwise."""
     raws: dict[str, tuple[int, ...]] = {}
     for comparison in clause:
-        if comparison.of in names:
+        if comparison.of in names and comparison.of != own:
             if comparison.test not in ("==", "in") or comparison.of in raws or len(comparison.than) > _MOST_RAWS:
                 return None
             raws[comparison.of] = tuple(map(int, comparison.than))

@@ -56,7 +56,7 @@ def _render(path: Path) -> None:
 
 if __name__ == "__main__":
     _limit()
-    sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # type: ignore[union-attr]
+    sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # type: ignore[union-attr]  # a program has a stream of text
     try:
         _render(Path(sys.argv[1]))
         sys.stdout.flush()

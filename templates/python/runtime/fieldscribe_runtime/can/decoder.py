@@ -79,9 +79,11 @@ class Decoder(Receiver):
         if self.errors:
             self.errors = {}
         taken = self._taken(frame, moment)
+        if len(taken) == 1:
+            return self._brought(*taken[0], raws)
         values: dict[str, Value] = {}
-        for number, data in taken.items():
-            values = {**values, **self._brought(number, data, raws)} if values else self._brought(number, data, raws)
+        for number, data in taken:
+            values.update(self._brought(number, data, raws))
         return values
 
     def _brought(self, number: int, data: bytes, raws: Raws) -> dict[str, Value]:
