@@ -185,23 +185,21 @@ def signals_fit(subject: Analysis) -> None:
             text = f"the message `{message.name}` has neither a layout nor signals"
             subject.report.error("missing-key", text, node.span("name"), hint)
         names, fields = {each.point.name for each in mine}, {field.word: field for field in message.fields}
-        taken: dict[int, list[ResolvedPoint]] = {}
+        taken = signals.TakenBits[ResolvedPoint](message)
         for resolved in mine:
             if subject.report.full:
                 return
             field = fields[resolved.point.addresses[0]]
             if not _signal_fits(subject, message, resolved, field, names):
                 continue
-            others = {id(other): other for bit in field.bits for other in taken.setdefault(bit, [])}
-            near = (each for each in others.values() if not signals.exclude(field, fields[each.point.addresses[0]]))
+            near = taken.others(field)
             rival = next((each for each in near if _meet(coexistence, viewed, resolved, each)), None)
             if rival is not None:
                 text = f"`{rival.point.name}` and `{resolved.point.name}` share bits of `{message.name}`"
                 related = [(rival.facts.span("at"), f"`{rival.point.name}` stands here")]
                 hint = f"correct `at` or `type`{APART}"
                 subject.report.error("bits-overlap", text, resolved.facts.span("at"), hint, related)
-            for bit in field.bits:
-                taken[bit].append(resolved)
+            taken.take(field, resolved)
 
 
 def _signal_fits(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
+from typing import Generic, TypeVar
 
 from fieldscribe.conditions import Clause
 from fieldscribe.model import Field, Message, Place, Point
@@ -18,6 +19,8 @@ When = tuple[tuple[int, tuple[int, ...]], ...]
 Selection = Mapping[str, tuple[int, ...]]
 """The raw numbers of other signals, by name, that select a signal."""
 _MOST_RAWS = 256
+
+T = TypeVar("T")
 
 
 def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Place]]:
@@ -104,6 +107,36 @@ def exclude(field: Field, other: Field) -> bool:
     """Return True if no frame has both fields: a selector would need different numbers."""
     raws_of = dict(other.when)
     return any(place in raws_of and not {*raws} & {*raws_of[place]} for place, raws in field.when)
+
+
+class TakenBits(Generic[T]):
+    """Who has which bits of a message, by what selects them: those that no frame has together are not compared."""
+
+    def __init__(self, message: Message) -> None:
+        self._message = message
+        self._of: dict[int, dict[int | None, dict[int, list[tuple[Field, T]]]]] = {}
+
+    def _selected(self, field: Field) -> tuple[int | None, tuple[int, ...]]:
+        """Return the outermost selector of a field with the numbers that select it."""
+        return next((choice for choice in field.when if not self._message.fields[choice[0]].when), (None, (0,)))
+
+    def others(self, field: Field) -> Iterator[T]:
+        """Yield who has bits of a field in a frame that has the field."""
+        selector, raws = self._selected(field)
+        for bit in field.bits:
+            for place, by_raw in self._of.get(bit, {}).items():
+                known = raws if place == selector else tuple(by_raw)
+                for other, owner in (one for raw in known for one in by_raw.get(raw, ())):
+                    if not exclude(field, other):
+                        yield owner
+
+    def take(self, field: Field, owner: T) -> None:
+        """Add the owner of a field."""
+        selector, raws = self._selected(field)
+        for bit in field.bits:
+            by_raw = self._of.setdefault(bit, {}).setdefault(selector, {})
+            for raw in raws:
+                by_raw.setdefault(raw, []).append((field, owner))
 
 
 def words_of(message: Message, data: bytes) -> tuple[int, ...]:
