@@ -12,7 +12,7 @@ from .frames import recognizer
 from .signals import Packing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from .frames import Frame, Message, Profile
 
@@ -55,28 +55,40 @@ class Receiver:
 
     def take(self, frame: Frame, moment: float = 0.0) -> bool:
         """Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came."""
-        return bool(self._taken(frame, moment))
+        if self._packing is None:
+            return self._taken(frame, moment) is not None
+        return bool(self._signals_taken(self._packing, frame, moment))
 
-    def _taken(self, frame: Frame, moment: float) -> tuple[tuple[int, bytes], ...]:
-        """The parts of the telegram that a frame brings: their numbers, with the bytes that hold their words."""
+    def _taken(self, frame: Frame, moment: float) -> int | None:
+        """Which of the telegram's frames it is, from 0; None if it is another one."""
         try:
             if not self._is_own(frame):
-                return ()
+                return None
         except (AttributeError, TypeError):
-            raise RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}") from None
+            raise _no_frame(frame) from None
         data = frame.data
-        if self._packing is not None:
-            parts = tuple(self._packing.coming(data).items())
-        else:
-            place = 0 if self._multiplexer is None else data[self._multiplexer]
-            if place >= len(self._slots):
-                return ()
-            parts = ((place, data),)
+        place = 0 if self._multiplexer is None else data[self._multiplexer]
+        if place >= len(self._slots):
+            return None
         self._count += 1
-        for place, held in parts:
+        slot = self._slots[place]
+        slot.data_before, slot.number_before = slot.data, slot.number
+        slot.data, slot.number, slot.moment = data, self._count, moment
+        return place
+
+    def _signals_taken(self, packing: Packing, frame: Frame, moment: float) -> Mapping[int, bytes]:
+        """The parts of a telegram of signals that a frame brings, by number, with the bytes that hold their words."""
+        try:
+            if not self._is_own(frame):
+                return {}
+        except (AttributeError, TypeError):
+            raise _no_frame(frame) from None
+        self._count += 1
+        parts = packing.coming(frame.data)
+        for place, data in parts.items():
             slot = self._slots[place]
             slot.data_before, slot.number_before = slot.data, slot.number
-            slot.data, slot.number, slot.moment = held, self._count, moment
+            slot.data, slot.number, slot.moment = data, self._count, moment
         return parts
 
     def word(self, position: int) -> int:
@@ -125,6 +137,10 @@ class Receiver:
         if not 0 <= position < count:
             raise RequestError("bad_address", f"{self.telegram} has {count} words, and none at {shown(position)}")
         return self._slots[self._part_of[position][0]]
+
+
+def _no_frame(frame: object) -> RequestError:
+    return RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}")
 
 
 def pairs_of(message: Message) -> list[tuple[int, int]]:

@@ -78,11 +78,11 @@ class Decoder(Receiver):
         """
         if self.errors:
             self.errors = {}
-        taken = self._taken(frame, moment)
-        if len(taken) == 1:
-            return self._brought(*taken[0], raws)
+        if self._packing is None:
+            number = self._taken(frame, moment)
+            return {} if number is None else self._brought(number, frame.data, raws)
         values: dict[str, Value] = {}
-        for number, data in taken:
+        for number, data in self._signals_taken(self._packing, frame, moment).items():
             values.update(self._brought(number, data, raws))
         return values
 
