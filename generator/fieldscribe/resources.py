@@ -6,6 +6,7 @@ Templates only place text: what they need is worked out before.
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -46,6 +47,13 @@ def runtime_files(folder: str) -> tuple[str, ...]:
     root = templates_dir() / folder
     files = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
     return tuple(sorted(path.as_posix() for path in files if not _LEFT_BEHIND.intersection(path.parts)))
+
+
+def use_python_runtime() -> None:
+    """Let `fieldscribe_runtime` be imported from the templates, which is the one that generated packages get."""
+    folder = str(templates_dir() / "python/runtime")
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
 
 
 def _shipped(name: str) -> Path:
