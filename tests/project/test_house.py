@@ -47,6 +47,8 @@ ROOMS = (
     ("the table of contents", "pipeline"),
     ("what talks to people", "conversation audit export differences importing search"),
     ("what a family exports alone", "families.*.dbc families.*.dbc_signals"),
+    ("a simulated device", "simulation"),
+    ("what a family knows of simulated devices", "families.*.simulation"),
     ("output", "output"),
     ("what a project takes", "vendoring"),
     ("a person who writes a description", "authoring"),

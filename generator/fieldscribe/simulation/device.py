@@ -1,0 +1,249 @@
+"""A simulated device: a memory that obeys the rules of the manual. It knows no bus: the core of a family asks it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError
+from fieldscribe.arithmetic.words import raw_of, split, with_fixed
+from fieldscribe.model import Command, Point, Source
+from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.layout import Area, Cells, Layout
+from fieldscribe.simulation.memory import Memory, joined_cells
+from fieldscribe.simulation.values import Values
+from fieldscribe.wording import label
+
+BUSY_FOR = 0.05
+"""The seconds for which a point says that a command is at work; no manual gives them."""
+
+
+class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
+    """The device does not do what a request asks for.
+
+    `kind` is `address` (nothing is there), `part` (a part of a number), `write_only`, `read_only`, `condition` (one
+    that must hold before a write), `together` (points that are written with others only), or the status of the value:
+    `out_of_range`, `unknown_value`, `special`, ... `point` is the point that refuses, if it is one.
+    """
+
+    def __init__(self, kind: str, why: str, point: Point | None = None) -> None:
+        super().__init__(why)
+        self.kind = kind
+        self.why = why
+        self.point = point
+
+
+@dataclass(frozen=True, slots=True)
+class Complaint:
+    """What a client did that the manual forbids: the rule, what happened, and where the manual has the rule."""
+
+    rule: str
+    what: str
+    source: Source | None = None
+
+    def __str__(self) -> str:
+        where = ""
+        if self.source is not None:
+            places = [f"line {self.source.line}"] if self.source.line else []
+            places += [f"page {self.source.page}"] if self.source.page else []
+            where = f" ({self.source.document}{', ' if places else ''}{', '.join(places)})"
+        return f"{self.rule}: {self.what}{where}"
+
+
+class Behaviour(Protocol):
+    """What moves the numbers of a device; `simulation.behaviour` makes it from a behaviour file."""
+
+    def advance(self, device: SimulatedDevice, now: float) -> None:
+        """Bring the memory to the time `now`, in seconds of the clock; called before each access."""
+
+    def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
+        """Take notice of a write that was accepted; the memory has the new numbers."""
+
+    def restarted(self, device: SimulatedDevice, now: float) -> None:
+        """Begin anew; the memory has what survived."""
+
+
+class SimulatedDevice:
+    """One device at a `unit` of a line.
+
+    `values` has the values of the points by name, in their units, whatever the rules say. `conditions` has what must
+    hold before some writes (`stopped`, `password`), all true at the start: set one to False and such writes are
+    refused. `complaints` grows while `strict` is set. `refusals` may name the number of the exception for a kind of
+    refusal; the core of the family knows the others. `wear` counts the writes that wear the memory, by point or command.
+    """
+
+    def __init__(  # noqa: PLR0913  # each is given by name
+        self,
+        layout: Layout,
+        unit: int | None = None,
+        *,
+        seed: int = 0,
+        clock: Clock | None = None,
+        strict: bool = False,
+        behaviour: Behaviour | None = None,
+    ) -> None:
+        self.layout = layout
+        self.device = layout.device
+        self.unit = layout.device.bus.usual_unit if unit is None else unit
+        self.clock = clock or Clock()
+        self.strict = strict
+        self.behaviour = behaviour
+        self.memory = Memory.started(layout, seed)
+        self.values = Values(self)
+        self.conditions = dict.fromkeys((name for point in layout.points.values() for name in point.conditions), True)
+        self.refusals: dict[str, int] = {}
+        self.complaints: list[Complaint] = []
+        self.wear: dict[str, int] = {}
+        self._kept: dict[str, int] = {}
+        self._lost: dict[str, int] = {}
+        self._busy: dict[str, float] = {}
+
+    def advance(self) -> None:
+        """Bring the memory to the present."""
+        now = self.clock.now()
+        for name in [name for name, until in self._busy.items() if until <= now]:
+            del self._busy[name]
+            self.memory.put(name, 0)
+        if self.behaviour is not None:
+            self.behaviour.advance(self, now)
+
+    def read(self, area: Area, addresses: Sequence[int]) -> list[int]:
+        """Return the cells at these addresses. Raises Refusal: something must be there that can be read."""
+        self.advance()
+        held = self.memory.areas.get(area, {})
+        readers, fixed = self.layout.readers.get(area, {}), self.layout.fixed.get(area, {})
+        for address in addresses:
+            points = readers.get(address, ())
+            if not points and address not in fixed:
+                raise Refusal("address", f"nothing is at {area[0]} {address}")
+            if points and not any(point.access != "w" for point in points):
+                raise Refusal("write_only", f"{label(points[0])} can only be written", points[0])
+        if self.strict:
+            self._look_at_parts(area, addresses)
+        return [held[address] for address in addresses]
+
+    def write(self, area: Area, cells: Mapping[int, int], *, keep: bool | None = None) -> list[Point]:
+        """Write cells by address and return the points that they touch; nothing is written if one point refuses.
+
+        `keep` says whether the values survive a restart, where the request chooses that. Raises Refusal.
+        """
+        self.advance()
+        command = self._command(area, cells)
+        if command is not None:
+            self.perform(command)
+            return []
+        before = dict(self.memory.areas.get(area, {}))
+        points = self._touched(area, cells)
+        together = {point.name for point in points}
+        numbers = {point.name: self._number(point, cells, before, together) for point in points}
+        for point in points:
+            self._check(point, numbers[point.name])
+        for point in points:
+            self._remember(point, keep)
+        self.memory.areas[area].update(cells)
+        for point in points:
+            self.memory.put(point.name, numbers[point.name])
+        if self.behaviour is not None:
+            self.behaviour.written(self, points, self.clock.now())
+        return points
+
+    def perform(self, command: Command) -> None:
+        """Carry out a command that is one write: it stores what waits for it, and takes its time."""
+        if command.wears is not None:
+            self._wears(command.name, command.wears, command.source)
+        stored = [name for name in self._lost if self.layout.points[name].keeps == command.name]
+        for name in stored:
+            del self._lost[name]
+        if command.busy is not None and command.busy in self.layout.points:
+            self.memory.put(command.busy, 1)
+            self._busy[command.busy] = self.clock.now() + BUSY_FOR
+
+    def restart(self) -> None:
+        """Switch the device off and on: values that were written and not stored are as before."""
+        for name, raw in self._lost.items():
+            self.memory.put(name, raw)
+        self._lost.clear()
+        if self.behaviour is not None:
+            self.behaviour.restarted(self, self.clock.now())
+
+    def complain(self, rule: str, what: str, source: Source | None = None) -> None:
+        """Take down what a client did against the manual, if the device is strict."""
+        if self.strict:
+            self.complaints.append(Complaint(rule, what, source))
+
+    def _command(self, area: Area, cells: Mapping[int, int]) -> Command | None:
+        if len(cells) != 1:
+            return None
+        (address, value), *_ = cells.items()
+        command = self.layout.commands.get((area, address))
+        return command if command is not None and command.value in (None, value) else None
+
+    def _touched(self, area: Area, cells: Mapping[int, int]) -> list[Point]:
+        """Return the existing points in these cells. Raises Refusal where there is none."""
+        writers, touched = self.layout.writers.get(area, {}), dict[str, Point]()
+        for address in cells:
+            points = [point for point in writers.get(address, ()) if self.memory.exists(point)]
+            if not points:
+                raise Refusal("address", f"nothing is at {area[0]} {address}")
+            writable = [point for point in points if point.writable]
+            if not writable:
+                raise Refusal("read_only", f"{label(points[0])} can only be read", points[0])
+            touched.update((point.name, point) for point in writable)
+        return list(touched.values())
+
+    def _number(self, point: Point, cells: Mapping[int, int], before: Mapping[int, int], together: set[str]) -> int:
+        """Return the raw number that a write would give a point. Raises Refusal for a part of one."""
+        place: Cells = self.layout.written[point.name]
+        if missing := [address for address in place.addresses if address not in cells]:
+            if self.strict:
+                self.complain("a part of a number", f"{label(point)} is written without {missing[0]}", point.source)
+            raise Refusal("part", f"the write has a part of {label(point)}", point)
+        if left := [name for name in point.write_with if name not in together and name in self.layout.points]:
+            raise Refusal("together", f"{label(point)} is written together with {left[0]}", point)
+        held = [cells[address] for address in place.addresses]
+        words: Sequence[int] = held if place.size == 1 else split(joined_cells(held, place.size), point.words)
+        return _on_a_step(point, raw_of(point, words))
+
+    def _check(self, point: Point, raw: int) -> None:
+        """Raise Refusal if a point must not take a raw number now."""
+        for condition in point.conditions:
+            if not self.conditions[condition]:
+                raise Refusal("condition", f"{label(point)} is written only when {condition}", point)
+        if point.text is not None:
+            return
+        try:
+            codec.check(point, raw, self.memory.settings)
+        except CodecError as error:
+            if point.bits is not None and raw == self.memory.raw(point.name):
+                return  # the bits of another point in the word that the request does not change
+            raise Refusal(error.status, f"{label(point)} does not take raw {raw}", point) from error
+
+    def _remember(self, point: Point, keep: bool | None) -> None:
+        """Note what a point held before the first write that no restart survives, and what wears the memory."""
+        if point.keeps == "yes" or (point.keeps == "choice" and keep):
+            self._lost.pop(point.name, None)
+            self._wears(point.name, None, point.source)
+        elif point.keeps is not None:
+            self._lost.setdefault(point.name, self.memory.raw(point.name))
+
+    def _wears(self, name: str, most: int | None, source: Source) -> None:
+        self.wear[name] = self.wear.get(name, 0) + 1
+
+    def _look_at_parts(self, area: Area, addresses: Sequence[int]) -> None:
+        inside = set(addresses)
+        for point in {p.name: p for a in addresses for p in self.layout.readers.get(area, {}).get(a, ())}.values():
+            if not inside.issuperset(self.layout.cells[point.name].addresses):
+                self.complain("a part of a number", f"a read has a part of {label(point)}", point.source)
+
+
+def _on_a_step(point: Point, raw: int) -> int:
+    """Return the raw number that the device keeps: the step below."""
+    start, step = max(((start, step) for start, step in point.steps if start <= raw), default=(0, 1))
+    return with_fixed(point, start + (raw - start) // step * step) if point.steps and point.text is None else raw
+
+
+def by_unit(devices: Iterable[SimulatedDevice]) -> dict[int, SimulatedDevice]:
+    """Return the devices of a line by unit."""
+    return {device.unit: device for device in devices}

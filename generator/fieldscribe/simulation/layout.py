@@ -1,0 +1,141 @@
+"""Which words of which area each point of a device takes; equal for all devices of a kind, and shared by them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from fieldscribe.conditions import absent
+from fieldscribe.conversation.bases import at_bases
+from fieldscribe.conversation.selection import choose_variants
+from fieldscribe.families import family
+from fieldscribe.model import Base, Command, Device, Place, Point
+
+Area = tuple[str, int]
+"""A space or a telegram, and the index where one travels with the address (else 0)."""
+
+_BEHIND_HEAD = 2
+"""The words of a found block that its length does not count: its id and its length."""
+
+
+class Cells(NamedTuple):
+    """Where a point lies: an area, and its addresses there, high part first; one cell holds `size` words."""
+
+    area: Area
+    addresses: tuple[int, ...]
+    size: int
+
+
+class Layout:
+    """The points of one kind of device, each with its cells.
+
+    `device` has the points of one value of each variant axis (the first, unless `variants` chooses another), at the
+    addresses that `given` numbers lead to (the least, unless given); found chains begin at the first of their places.
+    `fixed` are words that belong to no point, such as the ids of found blocks.
+    """
+
+    def __init__(self, device: Device, variants: Iterable[str] = (), given: Mapping[str, int] | None = None) -> None:
+        chosen = {axis: f"{axis}={values[0]}" for axis, values in device.variants.items()}
+        chosen |= {choice.partition("=")[0]: choice for choice in variants}
+        device = choose_variants(device, chosen.values())
+        self.fixed: dict[Area, dict[int, int]] = {}
+        starts = {each.name: each.low for each in device.given} | self._chain(device) | dict(given or {})
+        self.device, _ = at_bases(device, [f"{name}={number}" for name, number in starts.items()])
+        self.family = family(device.family)
+        self.variants = {axis: values[0] for axis, values in self.device.variants.items()}
+        existing = (point for point in self.device.points if not absent(point.when, self.device.variants))
+        self.points: Mapping[str, Point] = {point.name: point for point in existing}
+        """The points by name; rules name points so."""
+        self.cells: dict[str, Cells] = {}
+        """Where each point is read."""
+        self.written: dict[str, Cells] = {}
+        """Where each writable point is written."""
+        self.readers: dict[Area, dict[int, tuple[Point, ...]]] = {}
+        """The points that have a part in a cell when it is read."""
+        self.writers: dict[Area, dict[int, tuple[Point, ...]]] = {}
+        """The points that have a part in a cell when it is written."""
+        for point in self.points.values():
+            self._place(point)
+        self.commands: dict[tuple[Area, int], Command] = {
+            ((command.space, 0), command.address): command for command in self.device.commands
+        }
+        self.exponents = {
+            factor.point
+            for point in self.points.values()
+            for case in point.scale or ()
+            for factor in case.rule.factors
+            if factor.ten_to
+        }
+        """The points that scales use as exponents of ten."""
+        self.order = tuple(_in_order(self.points))
+        """The points, each behind those that its scale, its limits and its condition need."""
+
+    def _place(self, point: Point) -> None:
+        name = point.name
+        self.cells[name] = cells = self._cells(point, point.place)
+        self._share(self.readers, cells, point)
+        self.written[name] = written = cells if point.write_place is None else self._cells(point, point.write_place)
+        self._share(self.writers, written, point)
+
+    @staticmethod
+    def _share(of: dict[Area, dict[int, tuple[Point, ...]]], cells: Cells, point: Point) -> None:
+        points = of.setdefault(cells.area, {})
+        for address in cells.addresses:
+            points[address] = (*points.get(address, ()), point)
+
+    def _cells(self, point: Point, place: Place) -> Cells:
+        if not place.addresses:
+            return Cells((f"point {point.name}", 0), tuple(range(point.words)), 1)
+        index = point.index or 0 if point.space in self.family.indexed else 0
+        size = -(-point.words // len(place.addresses))
+        return Cells((point.telegram or point.space, index), place.addresses, size)
+
+    def _chain(self, device: Device) -> dict[str, int]:
+        """Lay the blocks of a found chain one behind the other; return the start of each by the name of its base."""
+        if device.found is None:
+            return {}
+        words = self.fixed.setdefault((device.found.space, 0), {})
+        place = device.found.places[0]
+        words.update(enumerate(device.found.words, place))
+        place += len(device.found.words)
+        starts: dict[str, int] = {}
+        for base in device.bases:
+            if base.block is None:
+                continue
+            if base.starts_block:
+                starts[base.name] = place
+                length = _length(device, base)
+                words[place], words[place + 1] = base.block, length - _BEHIND_HEAD
+                place += length
+        words[place], words[place + 1] = device.found.end, 0
+        for base in device.bases:  # behind a block's first part: where its counts lead
+            if base.block is not None and not base.starts_block:
+                first = next(each for each in device.bases if each.starts_block and each.block == base.block)
+                starts[base.name] = starts[first.name] + base.offset
+        return starts
+
+
+def _length(device: Device, base: Base) -> int:
+    """Return how many words a found block has: up to the last of its points."""
+    last = 0
+    for each in device.bases:
+        if each.block == base.block:
+            ends = (each.offset + max(point.addresses) for point in device.points if point.base == each.name)
+            last = max(last, max(ends, default=0))
+    return last + 1
+
+
+def _in_order(points: Mapping[str, Point]) -> Iterator[Point]:
+    done: set[str] = set()
+
+    def visit(point: Point) -> Iterator[Point]:
+        if point.name in done:
+            return
+        done.add(point.name)
+        for name in (*point.arguments, *(point.when.names if point.when is not None else ())):
+            if name in points:
+                yield from visit(points[name])
+        yield point
+
+    for point in points.values():
+        yield from visit(point)

@@ -1,0 +1,139 @@
+"""The words of one device. Points are read from the words, so that views, twins and bit groups always agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from random import Random
+
+from fieldscribe.arithmetic.codec import setting_of
+from fieldscribe.arithmetic.words import insert, joined, mask_of, raw_of, split, words_of
+from fieldscribe.model import Point
+from fieldscribe.simulation.layout import Area, Cells, Layout
+from fieldscribe.simulation.starting import corrected_raw, starting_raw
+
+
+class Memory:
+    """A raw number for every point, kept as words (or bits) by area and address."""
+
+    def __init__(self, layout: Layout, areas: Mapping[Area, Mapping[int, int]]) -> None:
+        self.layout = layout
+        self.areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in areas.items()}
+        self.settings: Mapping[str, int | Fraction] = Settings(self)
+        """The settings that rules compute with, by the name of the point: always what the memory holds now."""
+        self.facts: Mapping[str, int | str] = Facts(self)
+        """What conditions compare: raw numbers by the name of the point, values by variant axis."""
+
+    @classmethod
+    def started(cls, layout: Layout, seed: int = 0) -> Memory:
+        """Return the memory of a device as delivered; what no manual says follows from the seed."""
+        return cls(layout, _start(layout, seed))
+
+    def raw(self, name: str) -> int:
+        """Return the raw number of a point."""
+        point = self.layout.points[name]
+        return raw_of(point, self.words(point, self.layout.cells[name]))
+
+    def put(self, name: str, raw: int) -> None:
+        """Let a point hold a raw number, whatever the rules say."""
+        point = self.layout.points[name]
+        self._put(point, self.layout.cells[name], raw)
+        if point.write_place is not None:
+            self._put(point, self.layout.written[name], raw)
+
+    def exists(self, point: Point) -> bool:
+        """Return True if the condition of the point holds now."""
+        return point.when is None or point.when.holds(self.facts)
+
+    def words(self, point: Point, cells: Cells) -> tuple[int, ...]:
+        """Return the words of a point, high part first, as they lie in these cells."""
+        held = self.areas[cells.area]
+        if cells.size == 1:
+            return tuple([held[address] for address in cells.addresses])
+        return split(joined_cells([held[address] for address in cells.addresses], cells.size), point.words)
+
+    def _put(self, point: Point, cells: Cells, raw: int) -> None:
+        held = self.areas[cells.area]
+        if point.bits is not None:
+            held[cells.addresses[0]] = insert(point, held[cells.addresses[0]], raw)
+        elif cells.size == 1:
+            held.update(zip(cells.addresses, words_of(point, raw), strict=True))
+        else:
+            held[cells.addresses[0]] = joined(words_of(point, raw))
+
+
+def joined_cells(numbers: list[int], size: int) -> int:
+    """Return the numbers of cells that hold `size` words each as one number, the high one first."""
+    pattern = 0
+    for number in numbers:
+        pattern = pattern << 16 * size | number & mask_of(16 * size)
+    return pattern
+
+
+class Settings(Mapping[str, int | Fraction]):
+    """What rules compute with, read from the memory when it is needed."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+
+    def __getitem__(self, name: str) -> int | Fraction:
+        return setting_of(self._memory.layout.points[name], self._memory.raw(name))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._memory.layout.points
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._memory.layout.points)
+
+    def __len__(self) -> int:
+        return len(self._memory.layout.points)
+
+
+class Facts(Mapping[str, int | str]):
+    """What conditions compare, read from the memory when it is needed."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+
+    def __getitem__(self, name: str) -> int | str:
+        axis = self._memory.layout.variants.get(name)
+        return self._memory.raw(name) if axis is None else axis
+
+    def __iter__(self) -> Iterator[str]:
+        yield from self._memory.layout.variants
+        yield from self._memory.layout.points
+
+    def __len__(self) -> int:
+        return len(self._memory.layout.variants) + len(self._memory.layout.points)
+
+
+_starts: dict[tuple[int, int], tuple[Layout, dict[Area, dict[int, int]]]] = {}
+"""The first words by layout and seed, so that a thousand devices of a kind start as quickly as one."""
+_MOST_STARTS = 64
+
+
+def _start(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
+    key = id(layout), seed
+    if key not in _starts:
+        while len(_starts) >= _MOST_STARTS:
+            del _starts[next(iter(_starts))]
+        _starts[key] = layout, _first_words(layout, seed)
+    return _starts[key][1]
+
+
+def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
+    areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in layout.fixed.items()}
+    for cells in (*layout.cells.values(), *layout.written.values()):
+        for address in cells.addresses:
+            areas.setdefault(cells.area, {}).setdefault(address, 0)
+    for area, address in layout.commands:
+        areas.setdefault(area, {}).setdefault(address, 0)
+    memory = Memory(layout, areas)
+    for point in layout.order:
+        if point.view_of is None and memory.exists(point):
+            random = Random(f"{seed} {point.name}")  # noqa: S311  # no secret
+            memory.put(point.name, starting_raw(layout, point, memory.settings, random))
+    for point in layout.order:
+        if point.writable and memory.exists(point):
+            memory.put(point.name, corrected_raw(point, memory.raw(point.name), memory.settings))
+    return memory.areas

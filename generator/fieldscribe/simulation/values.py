@@ -1,0 +1,93 @@
+"""The values of a simulated device by name, in units, as a test or a person writes and reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, MutableMapping
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError
+from fieldscribe.arithmetic.texts import text_of
+from fieldscribe.conversation.selection import choose_point
+from fieldscribe.conversation.typed_values import read_value
+from fieldscribe.model import Point
+from fieldscribe.user_errors import UnclearError
+
+if TYPE_CHECKING:
+    from fieldscribe.simulation.device import SimulatedDevice
+
+Value = str | int | float
+"""A name of an enum or of a special code, a text, a whole number, or a number in the unit."""
+
+
+class Values(MutableMapping[str, Value]):
+    """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse."""
+
+    def __init__(self, device: SimulatedDevice) -> None:
+        self._device = device
+
+    def __getitem__(self, name: str) -> Value:
+        self._device.advance()
+        point = self._point(name)
+        return value_of(point, self._device.memory.raw(point.name), self._device.memory.settings)
+
+    def __setitem__(self, name: str, value: Value | Fraction | Decimal) -> None:
+        self._device.advance()
+        point = self._point(name)
+        self._device.memory.put(point.name, raw_for(point, value, self._device.memory.settings))
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("a device has all of its points")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._device.layout.points)
+
+    def __len__(self) -> int:
+        return len(self._device.layout.points)
+
+    def _point(self, name: str) -> Point:
+        points = self._device.layout.points
+        try:
+            return points[name] if name in points else points[choose_point(self._device.device, name).name]
+        except UnclearError as error:
+            raise KeyError(f"{error.message}; {error.hint}".rstrip("; ")) from None
+
+
+def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
+    """Return the value of a raw number: a name, a text, or a number in the unit."""
+    special = point.special(raw)
+    if special is not None:
+        return special.name
+    if point.text is not None:
+        try:
+            return text_of(point.text, raw)
+        except UnicodeDecodeError:
+            return raw
+    if point.enum is not None:
+        return next((entry.name for entry in point.enum.entries if entry.raw == raw), raw)
+    try:
+        value = codec.decode(point, raw, settings)
+    except CodecError:
+        return codec.float_of(point, raw) if point.info.floating else raw
+    return int(value) if value.denominator == 1 and not point.info.floating else float(value)
+
+
+def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Settings) -> int:
+    """Return the raw number of a value. Raises ValueError if the bits cannot hold it, or the point has no such name."""
+    try:
+        if isinstance(value, str):
+            typed = read_value(point, value)
+            raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
+        elif point.form in ("enum", "flags", "bit", "digits"):
+            raw = int(value)
+        else:
+            raw = codec.encode(point, Fraction(value), settings)
+    except UnclearError as error:
+        raise ValueError(f"{error.message}; {error.hint}".rstrip("; ")) from None
+    except (CodecError, OverflowError) as error:
+        raise ValueError(f"{point.name} cannot hold {value}: {error}") from None
+    if point.text is None and not point.least <= raw <= point.greatest:
+        raise ValueError(f"{point.name} cannot hold {value}")
+    return raw
