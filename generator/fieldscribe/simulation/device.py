@@ -71,7 +71,7 @@ class SimulatedDevice:
     `values` has the values of the points by name, in their units, whatever the rules say. `conditions` has what must
     hold before some writes (`stopped`, `password`), all true at the start: set one to False and such writes are
     refused. `complaints` grows while `strict` is set. `refusals` may name the number of the exception for a kind of
-    refusal; the core of the family knows the others. `wear` counts the writes that wear the memory, by point or command.
+    refusal; the core of the family knows the others. `wear` counts the writes that wear the memory.
     """
 
     def __init__(  # noqa: PLR0913  # each is given by name
@@ -91,7 +91,7 @@ class SimulatedDevice:
         self.strict = strict
         self.behaviour = behaviour
         self.memory = Memory.started(layout, seed)
-        self.values = Values(self)
+        self.values = Values(self.memory, self.advance)
         self.conditions = dict.fromkeys((name for point in layout.points.values() for name in point.conditions), True)
         self.refusals: dict[str, int] = {}
         self.complaints: list[Complaint] = []

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, MutableMapping
+from collections.abc import Callable, Iterator, MutableMapping
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
@@ -13,10 +12,8 @@ from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.conversation.typed_values import read_value
 from fieldscribe.model import Point
+from fieldscribe.simulation.memory import Memory
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from fieldscribe.simulation.device import SimulatedDevice
 
 Value = str | int | float
 """A name of an enum or of a special code, a text, a whole number, or a number in the unit."""
@@ -25,32 +22,32 @@ Value = str | int | float
 class Values(MutableMapping[str, Value]):
     """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse."""
 
-    def __init__(self, device: SimulatedDevice) -> None:
-        self._device = device
+    def __init__(self, memory: Memory, advance: Callable[[], None]) -> None:
+        self._memory, self._advance = memory, advance
 
     def __getitem__(self, name: str) -> Value:
-        self._device.advance()
+        self._advance()
         point = self._point(name)
-        return value_of(point, self._device.memory.raw(point.name), self._device.memory.settings)
+        return value_of(point, self._memory.raw(point.name), self._memory.settings)
 
     def __setitem__(self, name: str, value: Value | Fraction | Decimal) -> None:
-        self._device.advance()
+        self._advance()
         point = self._point(name)
-        self._device.memory.put(point.name, raw_for(point, value, self._device.memory.settings))
+        self._memory.put(point.name, raw_for(point, value, self._memory.settings))
 
     def __delitem__(self, name: str) -> None:
         raise TypeError("a device has all of its points")
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._device.layout.points)
+        return iter(self._memory.layout.points)
 
     def __len__(self) -> int:
-        return len(self._device.layout.points)
+        return len(self._memory.layout.points)
 
     def _point(self, name: str) -> Point:
-        points = self._device.layout.points
+        points = self._memory.layout.points
         try:
-            return points[name] if name in points else points[choose_point(self._device.device, name).name]
+            return points[name] if name in points else points[choose_point(self._memory.layout.device, name).name]
         except UnclearError as error:
             raise KeyError(f"{error.message}; {error.hint}".rstrip("; ")) from None
 
