@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from operator import attrgetter
 from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point, Telegram
+from fieldscribe.targets.python.expressions import Node, call
 from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, attribute, parameter, sorted_imports
-from fieldscribe.targets.python.layout import Node, call, imported
+from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import pascal, python_doc, python_string
 
 RUNTIME = "fieldscribe_runtime"
@@ -47,8 +48,8 @@ class PythonFamily(NamedTuple):
 
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
     before their names. `line` gives the transport that most people have, `maker` the function that makes a point's
-    attribute. `settings` are further parameters of a device's constructor (name, class). `blocks` plans reads of
-    groups; `bases` are class variables that say what addresses count from.
+    attribute. `settings` are further parameters of a device's constructor (name, class). `facts` are class variables,
+    such as planned reads, or what addresses count from.
     """
 
     module: str
@@ -58,9 +59,8 @@ class PythonFamily(NamedTuple):
     profile: Callable[[Device, PackageScope], Node]
     line: Callable[[Device], Line]
     maker: Callable[[Point], str] = usual_maker
-    blocks: Callable[[Device, PackageScope], Node | None] = lambda _device, _scope: None
     settings: tuple[tuple[str, str], ...] = ()
-    bases: Callable[[Device, PackageScope], tuple[Node, ...]] = lambda _device, _scope: ()
+    facts: Callable[[Device, PackageScope], Mapping[str, Node]] = lambda _device, _scope: {}
 
 
 def in_python(device: Device) -> PythonFamily:
@@ -71,12 +71,9 @@ def in_python(device: Device) -> PythonFamily:
 
 def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
     """Return the telegrams of a device."""
-    nodes = []
-    for telegram in named_telegrams:
-        message = () if telegram.message is None else (python_string(telegram.message),)
-        facts = (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message)
-        nodes.append(call(scope.runtime("Telegram"), facts))
-    return tuple(nodes)
+    made = scope.runtime("Telegram")
+    facts = ((each, () if each.message is None else (each.message,)) for each in named_telegrams)
+    return tuple(call(made, each.name, each.direction, each.words, *message) for each, message in facts)
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:

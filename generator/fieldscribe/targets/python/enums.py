@@ -9,8 +9,9 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point, Titles
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
+from fieldscribe.targets.python.expressions import Hex, Name, Node, call
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
-from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
+from fieldscribe.targets.python.layout import docstring, laid_out
 from fieldscribe.text import python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
@@ -100,35 +101,37 @@ def _enum(name: str, sentence: str, entries: tuple[Entry, ...]) -> EnumClass:
 
 def _word(name: str, sentence: str, point: Point, classes: tuple[str, ...]) -> EnumClass:
     bits = tuple((upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", _flag_doc(flag)) for flag in point.flags)
-    readers = tuple(laid_out(_reader(flag, named), 4) for flag, named in zip(point.flags, classes, strict=True))
+    readers = tuple(
+        laid_out(reader(flag, named), 4, f"{word_attribute(flag.name)} = ")
+        for flag, named in zip(point.flags, classes, strict=True)
+    )
     composer = _composer(point, classes) if point.writable else ()
     # the readers are in a base class, because type checkers take an enum's own attributes for members
-    bases = call(f"class {name}", (f"_{name}Flags", "enum.IntFlag", "boundary=enum.KEEP"))
+    bases = call(f"class {name}", Name(f"_{name}Flags"), Name("enum.IntFlag"), boundary=Name("enum.KEEP"))
     return EnumClass(name, f"{laid_out(bases, 0)}:", docstring((sentence, *_WORD_DOC)), bits, readers, *composer)
 
 
 def _composer(point: Point, classes: tuple[str, ...]) -> tuple[tuple[str, ...], str]:
     """Return parameters and result; flags whose bits are always written as a constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
-    parameters, parts = [], []
+    parameters, parts = [], list[Node]()
     for flag, named in zip(point.flags, classes, strict=True):
         if mask_of(flag.width, flag.low) & ~mask == 0:
             continue
         attribute = word_attribute(flag.name)
         kind = "bool = False" if flag.width == 1 else f"{named} | int = 0" if named else "int = 0"
         parameters.append(f"{attribute}: {kind}")
-        parts.append(f"cls.{attribute}.place({attribute})")
+        parts.append(Name(f"cls.{attribute}.place({attribute})"))
     if bits:
-        parts.append(f"0x{bits:04X}")
-    return tuple(parameters), laid_out(call("return cls", (call("cls._joined", tuple(parts)),)), 8)
+        parts.append(Hex(bits))
+    return tuple(parameters), laid_out(call("return cls", call("cls._joined", *parts)), 8)
 
 
-def _reader(flag: Flag, named: str) -> Node:
-    """Return the assignment of the attribute that reads a flag of the word; `named` is the class of its numbers."""
-    attribute = word_attribute(flag.name)
+def reader(flag: Flag, named: str) -> Node:
+    """Return what reads a flag of the word; `named` is the class of its numbers."""
     if flag.width == 1:
-        return call(f"{attribute} = Flag", (str(flag.low),) if flag.active else (str(flag.low), "active=0"))
-    return call(f"{attribute} = Field", (str(flag.low), str(flag.width), *((named,) if named else ())))
+        return call("Flag", flag.low) if flag.active else call("Flag", flag.low, active=0)
+    return call("Field", flag.low, flag.width, *([Name(named)] if named else ()))
 
 
 def _entry_doc(entry: Entry) -> str:

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Self
 
-from fieldscribe.lowered import Lowered, named_numbers
+from fieldscribe.lowered import Lowered, lower, named_numbers
 from fieldscribe.model import Device, Point, Shape
-from fieldscribe.targets.python.layout import Node
+from fieldscribe.targets.python.expressions import Node
 from fieldscribe.text import pascal
 
 _RESERVED = frozenset(
@@ -190,15 +191,20 @@ class Identifiers:
 
 @dataclass(frozen=True, slots=True)
 class PackageScope:
-    """Final names, the lowered model and the variants; it collects used names of the runtime, and shared codes."""
+    """A device with final names and the lowered model; it collects used names of the runtime, and shared codes."""
 
+    device: Device
     names: Identifiers
     lowered: Lowered
-    variants: Mapping[str, tuple[str, ...]]
     commands: Mapping[str, str]
     """The attributes of the commands, by name."""
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, device: Device, names: Identifiers) -> Self:
+        """Return the scope of a device in which nothing is used yet."""
+        return cls(device, names, lower(device), command_attributes(device))
 
     def runtime(self, name: str) -> str:
         """Return a name of the runtime, which the module then imports."""

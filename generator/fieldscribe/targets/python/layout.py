@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
 
-from fieldscribe.text import python_doc
+from fieldscribe.targets.python.expressions import Branch, Call, Hex, Leaf, Name, Node
+from fieldscribe.text import python_doc, python_string
 
 WIDTH = 88
 """The narrowest common line length, so that formatters with longer lines change nothing either."""
@@ -15,66 +15,74 @@ DOC = WIDTH - 4 - 6
 """The width of a docstring inside a class, less the indentation and two triple quotes."""
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
-    """A call, tuple or dict: its opening (`Rule(`, `allowed=(`), its items, its closing, and whether it is a call."""
-
-    head: str
-    items: tuple[Node, ...]
-    close: str = ")"
-    calls: bool = False
-
-    @property
-    def is_tuple(self) -> bool:
-        """True for a tuple: a single item then needs a comma behind it."""
-        return self.close == ")" and not self.calls
-
-
-Node = str | Group
-
-
 def comment(text: str) -> str:
     """Return text for a `#` comment, in which no second `#` can start a directive for some tool."""
     return python_doc(text).replace("#", "")
 
 
-def call(head: str, items: Iterable[Node]) -> Group:
-    """Return a call of `head`."""
-    return Group(f"{head}(", tuple(items), calls=True)
+def laid_out(node: Node, indent: int, before: str = "") -> str:
+    """Return the lines of the expression at that indentation, with room for a comma behind it.
+
+    `before` stands before the expression on its line, such as `allowed=`.
+    """
+    if node is None or isinstance(node, (str, int, float)):
+        return before + leaf(node)
+    line = before + flat(node)
+    return line if indent + len(line) < WIDTH else _spread(node, indent, before)
 
 
-def assigned(name: str, node: Group) -> Group:
-    """Return the assignment of the expression to a name."""
-    return replace(node, head=f"{name} = {node.head}")
+def arguments(made: Call, indent: int) -> tuple[str, ...]:
+    """Return the lines of each argument of a call that stands on its own line."""
+    return tuple([laid_out(item, indent, before) for before, item in _items(made)])
 
 
-def laid_out(node: Node, indent: int) -> str:
-    """Return the lines of the expression at that indentation, with room for a comma behind it."""
-    if isinstance(node, str):
-        return node
-    line = flat(node)
-    return line if indent + len(line) < WIDTH else _spread(node, indent)
-
-
-def _spread(node: Group, indent: int) -> str:
+def _spread(node: Branch, indent: int, before: str) -> str:
     """Return a line for each item.
 
     A tuple of a single item is spread only if the item is spread itself: formatters with longer lines would join it
     again, even with a comma behind the item.
     """
-    inner, only = " " * (indent + 4), node.items[0] if len(node.items) == 1 else ""
-    if isinstance(only, Group) and only.items and node.is_tuple:
-        return f"{node.head}\n{inner}{_spread(only, indent + 4)},\n{' ' * indent}{node.close}"
-    items = "".join(f"{inner}{laid_out(item, indent + 4)},\n" for item in node.items)
-    return f"{node.head}\n{items}{' ' * indent}{node.close}"
+    (opening, closing), items, inner = _brackets(node), _items(node), " " * (indent + 4)
+    only = node[0] if isinstance(node, tuple) and len(node) == 1 else None
+    if only is not None and not isinstance(only, (str, int, float)) and _items(only):
+        lines = f"{inner}{_spread(only, indent + 4, '')},\n"
+    else:
+        lines = "".join([f"{inner}{laid_out(item, indent + 4, key)},\n" for key, item in items])
+    return f"{before}{opening}\n{lines}{' ' * indent}{closing}"
 
 
 def flat(node: Node) -> str:
     """Return the expression on one line."""
+    if node is None or isinstance(node, (str, int, float)):
+        return leaf(node)
+    opening, closing = _brackets(node)
+    comma = "," if isinstance(node, tuple) and len(node) == 1 else ""
+    return f"{opening}{', '.join([key + flat(item) for key, item in _items(node)])}{comma}{closing}"
+
+
+def _brackets(node: Branch) -> tuple[str, str]:
+    if isinstance(node, Call):
+        return f"{node.name}(", ")"
+    return ("(", ")") if isinstance(node, tuple) else ("{", "}")
+
+
+def _items(node: Branch) -> list[tuple[str, Node]]:
+    """Return the items, each with what stands before it: a keyword, or a key."""
+    if isinstance(node, tuple):
+        return [("", item) for item in node]
+    if isinstance(node, Call):
+        keywords = [(f"{name}=", item) for name, item in node.keywords.items()]
+        return [("", item) for item in node.positional] + keywords
+    return [(f"{flat(key)}: ", item) for key, item in node.items()]
+
+
+def leaf(node: Leaf) -> str:
+    """Return a name, a string or a number as text."""
     if isinstance(node, str):
-        return node
-    comma = "," if len(node.items) == 1 and node.is_tuple else ""
-    return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"
+        return node if isinstance(node, Name) else python_string(node)
+    if isinstance(node, Hex):
+        return f"0x{node:0{node.digits}X}"
+    return repr(node)
 
 
 def wrapped(text: str) -> list[str]:

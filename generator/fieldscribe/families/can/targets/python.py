@@ -5,58 +5,54 @@ from __future__ import annotations
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily, telegrams
+from fieldscribe.targets.python.expressions import Hex, Node, call
 from fieldscribe.targets.python.identifiers import PackageScope
-from fieldscribe.targets.python.layout import Group, Node, call
-from fieldscribe.text import python_string
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
     """Return the profile: the messages and telegrams of the device."""
     bus = device.bus
-    arguments: list[Node] = [
-        f"units=({bus.units[0]}, {bus.units[1]})",
-        f"identifier_bits={identifier_bits(bus)}",
-        Group("messages=(", tuple([_message(message, scope) for message in device.messages])),
-    ]
-    if device.telegrams:
-        arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
-    return call(scope.runtime("Profile"), arguments)
+    telegram_facts = {"telegrams": telegrams(device.telegrams, scope)} if device.telegrams else {}
+    return call(
+        scope.runtime("Profile"),
+        units=bus.units,
+        identifier_bits=identifier_bits(bus),
+        messages=tuple(_message(message, scope) for message in device.messages),
+        **telegram_facts,
+    )
 
 
 def _message(message: Message, scope: PackageScope) -> Node:
-    roles = [_role(role, scope) for role in message.roles]
-    signals = [_signal(field, scope) for field in message.fields]
-    arguments: list[Node] = [
-        python_string(message.name),
-        python_string(message.direction),
-        f"0x{message.identifier:X}",
-        Group("roles=(", tuple(roles)),
-    ]
+    facts: dict[str, Node] = {"roles": tuple(_role(role, scope) for role in message.roles)}
+    signals = tuple(_signal(field, scope) for field in message.fields)
     if not message.roles:
-        arguments += [Group("signals=(", tuple(signals)), f"length={message.length}"]
-    arguments += [
-        f"{name}={number}" for name, number in (("bits", message.bits), ("every", message.every)) if number is not None
-    ]
+        facts.update(signals=signals, length=message.length)
+    if message.bits is not None:
+        facts["bits"] = message.bits
+    if message.every is not None:
+        facts["every"] = message.every
     if message.adds_unit:
-        arguments.append("adds_unit=True")
+        facts["adds_unit"] = True
     if message.answers is not None:
-        arguments.append(f"answers={python_string(message.answers)}")
-    return call(scope.runtime("Message"), arguments)
+        facts["answers"] = message.answers
+    identifier = Hex(message.identifier, 1)
+    return call(scope.runtime("Message"), message.name, message.direction, identifier, **facts)
 
 
 def _signal(field: Field, scope: PackageScope) -> Node:
-    when = [f"({number}, ({', '.join(map(str, raws))}{',' * (len(raws) == 1)}))" for number, raws in field.when]
-    arguments: list[Node] = [str(field.start), str(field.width)]
-    arguments += ["low_first=True"] if field.low_first else []
-    arguments += [Group("when=(", tuple(when))] if when else []
-    return call(scope.runtime("Signal"), arguments)
+    facts: dict[str, Node] = {}
+    if field.low_first:
+        facts["low_first"] = True
+    if field.when:
+        facts["when"] = field.when
+    return call(scope.runtime("Signal"), field.start, field.width, **facts)
 
 
 def _role(role: Role, scope: PackageScope) -> Node:
     if role.kind in ("unit", "multiplexer") and role.number == 0:
-        return call(scope.runtime("Role"), (python_string(role.kind),))
-    number = f"0x{role.number:02X}" if role.kind in ("constant", "xor") else str(role.number)
-    return call(scope.runtime("Role"), (python_string(role.kind), number))
+        return call(scope.runtime("Role"), role.kind)
+    number = Hex(role.number, 2) if role.kind in ("constant", "xor") else role.number
+    return call(scope.runtime("Role"), role.kind, number)
 
 
 _BUS = 'can.Bus("can0", interface="socketcan")'

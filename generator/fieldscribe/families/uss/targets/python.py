@@ -2,46 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily, telegrams, usual_maker
+from fieldscribe.targets.python.expressions import Node, call
 from fieldscribe.targets.python.identifiers import PackageScope
-from fieldscribe.targets.python.layout import Group, Node, call
-from fieldscribe.text import python_string
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
     """Return the profile: the tasks and telegrams that the device accepts."""
-    bus, (low, high) = device.bus, of_bus(device.bus).pzd
-    arguments: list[Node] = [
-        f"units=({bus.units[0]}, {bus.units[1]})",
-        _numbers("pkw=(", of_bus(bus).pkw),
-        f"pzd=({low}, {high})",
-        Group("tasks={", tuple([_numbers(f"{code.number}: (", code.answers) for code in bus.functions]), "}"),
-    ]
+    bus, own = device.bus, of_bus(device.bus)
+    low, high = own.pzd
+    facts: dict[str, Node] = {"units": bus.units, "pkw": own.pkw, "pzd": own.pzd}
+    facts["tasks"] = {code.number: code.answers for code in bus.functions}
     if bus.broadcast is not None:
-        arguments.append(f"broadcast={bus.broadcast}")
+        facts["broadcast"] = bus.broadcast
     if bus.exceptions:
-        errors = [f"{code.number}: {python_string(code.name)}" for code in bus.exceptions]
-        arguments.append(Group("errors={", tuple(errors), "}"))
+        facts["errors"] = {code.number: code.name for code in bus.exceptions}
     if device.telegrams:
-        arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
-    fewer = [
-        _numbers(f"({python_string(variant.axis)}, {python_string(variant.value)}): (", (low, most))
-        for variant, most in dict(of_bus(bus).variant_pzd).items()
-        if most < high
-    ]
+        facts["telegrams"] = telegrams(device.telegrams, scope)
+    fewer = {
+        (variant.axis, variant.value): (low, most) for variant, most in dict(own.variant_pzd).items() if most < high
+    }
     if fewer:
-        arguments.append(Group("variant_pzd={", tuple(fewer), "}"))
-    return call(scope.runtime("Profile"), arguments)
-
-
-def _numbers(head: str, numbers: Iterable[int]) -> Group:
-    return Group(head, tuple(map(str, numbers)))
+        facts["variant_pzd"] = fewer
+    return call(scope.runtime("Profile"), **facts)
 
 
 def _maker(point: Point) -> str:

@@ -1,0 +1,78 @@
+"""What the class of points says beside its points: profile, blocks, variants, identifications, commands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+
+from fieldscribe.model import Command, Device, Point, SteppedCommand
+from fieldscribe.targets.python.device import in_python
+from fieldscribe.targets.python.expressions import Call, Node, call
+from fieldscribe.targets.python.identifiers import PackageScope, attribute
+from fieldscribe.targets.python.point_call import places
+from fieldscribe.targets.python.point_expressions import addresses_of, number, place_of_command, step_of
+
+
+def class_facts(scope: PackageScope) -> Mapping[str, Node]:
+    """Return the class variables by name, in order."""
+    device, family = scope.device, in_python(scope.device)
+    facts: dict[str, Node] = {"PROFILE": family.profile(device, scope), **family.facts(device, scope)}
+    if device.variants:
+        facts["VARIANTS"] = device.variants
+    if device.identifications:
+        facts["IDENTIFICATIONS"] = _identifications(scope)
+    documented = [point for point in device.points if not point.terms.generated]
+    if documented:
+        facts["DOCUMENTED"] = {attribute(point.item): _documented(point, scope) for point in documented}
+    return facts
+
+
+def readable_groups(device: Device) -> tuple[str, ...]:
+    """Return the groups with points to read."""
+    return tuple(dict.fromkeys([point.group for point in device.points if point.generated and point.readable]))
+
+
+def commands_of(scope: PackageScope) -> Iterator[tuple[Command | SteppedCommand, Call]]:
+    """Yield the commands, each with the call that makes it."""
+    for command in scope.device.commands:
+        facts: dict[str, Node] = {"at": place_of_command(command, scope)}
+        if command.value is not None:
+            facts["value"] = command.value
+        yield command, call(scope.runtime("Command"), **facts)
+    for stepped in scope.device.stepped_commands:
+        yield stepped, _stepped(stepped, scope)
+
+
+def _stepped(command: SteppedCommand, scope: PackageScope) -> Call:
+    facts: dict[str, Node] = {}
+    if command.arguments:
+        facts["arguments"] = command.arguments
+    if command.run in ("first", "before write"):
+        facts["run"] = command.run
+    if command.every is not None:
+        facts["every"] = number(Fraction(command.every, 1000), binary=True)
+    return call(scope.runtime("SteppedCommand"), *(step_of(step, scope) for step in command.steps), **facts)
+
+
+def _documented(point: Point, scope: PackageScope) -> Call:
+    """Return why the point has no attribute, and the addresses of its words, if they can be reached."""
+    facts: dict[str, Node] = {}
+    if point.raw_only:
+        facts.update(places(point, addresses_of(point.addresses, point.space), scope))
+    if point.code:
+        facts["code"] = point.code
+    return call(scope.runtime("Documented"), point.reason or "no reason given", **facts)
+
+
+def _identifications(scope: PackageScope) -> Node:
+    """Return what identifies the device and its variants."""
+    made = scope.runtime("Identification")
+    return tuple(
+        call(
+            made,
+            each.point,
+            (*each.raws, *each.texts),
+            *(() if each.variant is None else ((each.variant.axis, each.variant.value),)),
+        )
+        for each in scope.device.identifications
+    )

@@ -1,0 +1,121 @@
+"""The call that makes a point: its form, and all facts about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from fieldscribe.conditions import absent
+from fieldscribe.model import Point
+from fieldscribe.targets.python.device import in_python
+from fieldscribe.targets.python.expressions import Call, Hex, Node, call
+from fieldscribe.targets.python.identifiers import PackageScope
+from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, place
+
+_Facts = Iterator[tuple[str, Node]]
+
+
+class PointFields(NamedTuple):
+    """What only one point has, as values or placeholders for them; what it lacks is empty, a default or code None.
+
+    `numbers` is the class of its numbers or flags. `ends` are the bounds of its intervals.
+    """
+
+    group: Node
+    code: Node
+    default: Node
+    numbers: str
+    addresses: tuple[Node, ...]
+    references: tuple[Node, ...]
+    ends: tuple[Node, ...]
+
+
+def call_of(point: Point, fields: PointFields, scope: PackageScope) -> Call:
+    """Return the call that makes a point."""
+    maker = scope.runtime(in_python(scope.device).maker(point))
+    return call(maker, form(point, fields.numbers, scope), **dict(_facts(point, fields, scope)))
+
+
+def numbers_of(point: Point, scope: PackageScope) -> str:
+    """Return the class of a point's numbers or flags; empty if there is none."""
+    return scope.names.word_class(point) if point.form == "flags" else scope.names.numbers_class(point.shape)
+
+
+def keeps(point: Point, scope: PackageScope) -> str:
+    """Return what keeps a written value, a command by its attribute."""
+    return scope.commands.get(point.keeps or "", point.keeps or "")
+
+
+def places(point: Point, addresses: Iterable[Node], scope: PackageScope) -> _Facts:
+    """Yield where the point is read, and where else it is written."""
+    yield "at", place(point, addresses, scope)
+    if point.write_place is not None:
+        yield "write_at", place(point, addresses_of(point.write_place.addresses, point.space), scope)
+
+
+def _facts(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
+    yield from _identity(point, fields, scope)
+    if point.unit.symbol:
+        yield "unit", point.unit.symbol
+    if point.display is not None:
+        yield "display", point.display
+    if is_limited(point):
+        yield "allowed", allowed(point, fields.ends, scope)
+    if fields.default is not None:
+        yield "default", fields.default
+    if point.fixed is not None:
+        yield "fixed", (Hex(point.fixed.mask), Hex(point.fixed.bits))
+    if point.changes in ("never", "rarely"):
+        yield "changes", point.changes
+    if point.changes_with:
+        yield "changes_with", point.changes_with
+    if point.writable:
+        yield from _writing(point, scope)
+    yield from _existence(point, scope)
+
+
+def _writing(point: Point, scope: PackageScope) -> _Facts:
+    """Yield what a writer has to know."""
+    if point.conditions:
+        yield "conditions", point.conditions
+    if point.takes_effect:
+        yield "takes_effect", point.takes_effect
+    if point.write_with:
+        yield "write_with", point.write_with
+    if point.keeps:
+        yield "keeps", keeps(point, scope)
+
+
+def _identity(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
+    """Yield the places of the point on the wire, and how the manual calls it."""
+    yield from places(point, fields.addresses, scope)
+    if point.bits is not None:
+        yield "bits", point.bits
+    yield "group", fields.group
+    if fields.code is not None:
+        yield "code", fields.code
+    if fields.references:
+        yield "references", dict(zip(point.references, fields.references, strict=True))
+
+
+def _existence(point: Point, scope: PackageScope) -> _Facts:
+    """Yield what says in which devices the point exists."""
+    if point.variant is not None:
+        yield "variant", (point.variant.axis, point.variant.value)
+        yield "name", point.name
+    others = set() if point.when is None else {*point.when.names}
+    if choice := _only_for(point, scope.device.variants):
+        yield "only_for", choice
+        others.remove(choice[0])
+    if others or point.since is not None or point.until is not None or point.to_end:
+        yield "uncertain", True  # another axis, a point, the firmware or the length of a block decides too
+
+
+def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
+    """Return the first axis that decides about the point's existence, and the values for which it can exist."""
+    for axis in () if point.when is None else point.when.names:
+        values = variants.get(axis, ())
+        left = tuple([value for value in values if not absent(point.when, {**variants, axis: (value,)})])
+        if left != values:
+            return axis, left
+    return None
