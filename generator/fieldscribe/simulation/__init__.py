@@ -14,3 +14,6 @@
 
 A behaviour file moves the numbers: `behaviour` implements `device.Behaviour`.
 """
+
+from fieldscribe.simulation.library import Simulated as Simulated
+from fieldscribe.simulation.library import simulated as simulated

@@ -4,9 +4,11 @@ A family's `simulation.py` has
 
     def core_of(devices: Sequence[SimulatedDevice], framing: str) -> Core
 
-for the devices that share a line; `framing` is one of the family's, or empty for its usual one. Requests and answers
-are bytes. A frame of CAN is its identifier in four bytes, high first, with the highest bit set for an extended one,
-then the data: `cut` is not called for it.
+for the devices that share a line, and `LINES`: the lines that its devices can be on (`tcp`, `serial`, `can`), the usual
+one first, each with its framings there, the usual one first: `framing` is one of these.
+
+Requests and answers are bytes. A frame of CAN is its identifier in four bytes, high first, with the highest bit set for
+an extended one, then the data: `cut` is not called for it.
 """
 
 from __future__ import annotations

@@ -59,14 +59,16 @@ class Layout:
         self.commands: dict[tuple[Area, int], Command] = {
             ((command.space, 0), command.address): command for command in self.device.commands
         }
-        self.exponents = {
+        self.least = {
             factor.point
             for point in self.points.values()
             for case in point.scale or ()
             for factor in case.rule.factors
             if factor.ten_to
         }
-        """The points that scales use as exponents of ten."""
+        """The points that start as low as they may be: exponents of ten, and times of the line."""
+        times = set(self.device.bus.timing.values())
+        self.least.update(point.name for point in self.points.values() if {point.name, point.code} & times)
         self.order = tuple(_in_order(self.points))
         """The points, each behind those that its scale, its limits and its condition need."""
 

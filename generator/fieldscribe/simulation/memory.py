@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from random import Random
+from threading import RLock
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.arithmetic.words import insert, joined, mask_of, raw_of, split, words_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
 from fieldscribe.simulation.starting import corrected_raw, starting_raw
+
+LOCK = RLock()
+"""Held while a request is answered, and while a test reads or writes values from another thread."""
 
 
 class Memory:

@@ -76,7 +76,7 @@ def _candidates(layout: Layout, point: Point, settings: Settings, random: Random
         yield pattern_of_text(point.text, "")
     if point.enum is not None:
         yield from (entry.raw for entry in point.enum.entries)
-    if point.flags or point.digits is not None or point.width == 1 or point.name in layout.exponents:
+    if point.flags or point.digits is not None or point.width == 1 or point.name in layout.least:
         yield with_fixed(point, 0)
     usual = _USUAL.get(point.unit.quantity)
     if usual is not None:

@@ -12,7 +12,7 @@ from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.conversation.typed_values import read_value
 from fieldscribe.model import Point
-from fieldscribe.simulation.memory import Memory
+from fieldscribe.simulation.memory import LOCK, Memory
 from fieldscribe.user_errors import UnclearError
 
 Value = str | int | float
@@ -26,14 +26,16 @@ class Values(MutableMapping[str, Value]):
         self._memory, self._advance = memory, advance
 
     def __getitem__(self, name: str) -> Value:
-        self._advance()
         point = self._point(name)
-        return value_of(point, self._memory.raw(point.name), self._memory.settings)
+        with LOCK:
+            self._advance()
+            return value_of(point, self._memory.raw(point.name), self._memory.settings)
 
     def __setitem__(self, name: str, value: Value | Fraction | Decimal) -> None:
-        self._advance()
         point = self._point(name)
-        self._memory.put(point.name, raw_for(point, value, self._memory.settings))
+        with LOCK:
+            self._advance()
+            self._memory.put(point.name, raw_for(point, value, self._memory.settings))
 
     def __delitem__(self, name: str) -> None:
         raise TypeError("a device has all of its points")

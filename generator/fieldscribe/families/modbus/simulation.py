@@ -1,0 +1,241 @@
+"""The end of a Modbus line where devices answer: cuts bytes into requests, carries them out, builds replies. No I/O."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, SPACES, Profile, profile_of
+from fieldscribe.families.modbus.exchange import Request, request_in
+from fieldscribe.families.modbus.frames import Flaw, Unwrapped, crc16, frame, pack_bits, request_length
+from fieldscribe.model import Bus
+from fieldscribe.simulation.core import Answer
+from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
+
+LINES = {"tcp": ("tcp", "rtu"), "serial": ("rtu",)}
+_LONGEST = 256
+"""Bytes of the longest RTU frame."""
+_DIRECT = 255
+"""The unit of a device that is addressed by its IP alone."""
+_GATEWAY_SILENT = 11
+_CODES: Mapping[str, tuple[int, tuple[str, ...]]] = {
+    "function": (1, ("function",)),
+    "address": (2, ("address",)),
+    "format": (3, ("format", "data_value")),
+    "value": (3, ("range", "value", "refused")),
+    "state": (4, ("not_available", "refused", "read_only", "failure")),
+}
+"""The exception of the protocol for each reason, and the words that name it in a description, the best one first."""
+_REASONS = {
+    **dict.fromkeys(("function", "address", "format"), ""),
+    **dict.fromkeys(("part", "write_only"), "address"),
+    **dict.fromkeys(("read_only", "condition", "together"), "state"),
+}
+"""The reason for each kind of refusal; all others are about the value."""
+
+
+def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> ModbusCore:
+    """Return the end of a line with these devices; `framing` is `rtu`, else `tcp`."""
+    return ModbusCore(devices, framing or "tcp")
+
+
+class _Unit:
+    """What the core knows of one device before any request comes."""
+
+    def __init__(self, device: SimulatedDevice) -> None:
+        bus = device.device.bus
+        self.device = device
+        self.profile: Profile = profile_of(bus)
+        self.gaps = bus.gaps
+        self.codes = {reason: _code(bus, reason) for reason in _CODES}
+        self.delay_point = _delay_point(device)
+        self.delay = min((n for key, n in bus.line_numbers.items() if key.endswith("response_delay_ms_min")), default=0)
+        self.silent = bus.line_numbers.get("timing_silent_characters_tenths", 35) / 10
+
+    def delay_now(self) -> float:
+        """Return the seconds until the device answers."""
+        point = self.delay_point
+        return (self.delay if point is None else self.device.memory.raw(point)) / 1000
+
+
+class ModbusCore:
+    """Devices on a line. `character` is the time of one, for strict devices on a line whose speed is known."""
+
+    def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
+        self.devices = devices
+        self.framing = framing
+        self.character = 0.0
+        self.cut: Callable[..., tuple[list[bytes], int]] = _cut_tcp if framing == "tcp" else _cut_rtu
+        self._units = {unit: _Unit(device) for unit, device in by_unit(devices).items()}
+        self._free = 0.0
+
+    def answer(self, request: bytes) -> Answer | None:
+        """Return what a request leads to; None if it is for no unit of this line."""
+        head, pdu = (request[:7], request[7:]) if self.framing == "tcp" else (request[:1], request[1:-2])
+        number = head[-1]
+        unit = self._units.get(number)
+        if unit is None:
+            return self._without_unit(number, head, pdu)
+        if self.character:
+            self._look_at_the_pause(unit, len(request))
+        refused = ""
+        try:
+            reply = self._reply(unit, pdu, number)
+        except Refusal as refusal:
+            code = unit.device.refusals.get(
+                refusal.kind, unit.codes[_REASONS.get(refusal.kind, "value") or refusal.kind]
+            )
+            reply = bytes((pdu[0] & 0x7F | 0x80, code))
+            refused = refusal.why
+            source = refusal.point.source if refusal.point is not None else None
+            unit.device.complain(refusal.kind.replace("_", " "), refusal.why, source)
+            if not code and len(pdu) >= 5 and pdu[0] in FUNCTIONS:  # the device says nothing of it
+                reply = pdu[:5]
+        answer = Answer(unit.device, self._framed(head, reply), unit.delay_now(), refused)
+        if self.character:
+            self._free = unit.device.clock.now() + answer.delay + (len(answer.data) + unit.silent) * self.character
+        return answer
+
+    def spoiled(self, answer: bytes, what: str) -> bytes:
+        """Return an answer that is wrong in one way; the checksum of TCP is the number of the transaction."""
+        if what == "check":
+            place = 1 if self.framing == "tcp" else len(answer) - 1
+            return answer[:place] + bytes((answer[place] ^ 0x55,)) + answer[place + 1 :]
+        head, pdu = (answer[:7], answer[7:]) if self.framing == "tcp" else (answer[:1], answer[1:-2])
+        if what == "unit":
+            head = head[:-1] + bytes((head[-1] % 247 + 1,))
+        elif what == "function":
+            pdu = bytes((pdu[0] ^ 0x40,)) + pdu[1:]
+        elif what == "exception":
+            pdu = bytes((pdu[0] | 0x80, 4))
+        return self._framed(head, pdu)
+
+    def due(self, _now: float) -> tuple[list[bytes], float | None]:
+        """Return nothing: no Modbus device speaks unasked."""
+        return [], None
+
+    def _framed(self, head: bytes, pdu: bytes) -> bytes:
+        return frame(self.framing, head[-1], int.from_bytes(head[:2], "big") if len(head) > 1 else 0, pdu)
+
+    def _without_unit(self, number: int, head: bytes, pdu: bytes) -> Answer | None:
+        """Answer for a unit that no device here has: a broadcast, the direct unit of TCP, or nobody."""
+        hearing = [unit for unit in self._units.values() if unit.profile.broadcast == number]
+        for unit in hearing:
+            try:
+                if pdu[0] not in unit.profile.broadcasts:
+                    raise Refusal("function", f"function {pdu[0]:02X}h is not for all units at once")
+                self._reply(unit, pdu, number)
+            except Refusal as refusal:
+                unit.device.complain("broadcast", refusal.why, refusal.point.source if refusal.point else None)
+        if hearing:
+            return Answer(hearing[0].device, b"")
+        if self.framing != "tcp":
+            return None
+        if number == _DIRECT and len(self._units) == 1:
+            (only,) = self._units
+            answer = self.answer(head[:-1] + bytes((only,)) + pdu)
+            return answer and Answer(answer.device, self._framed(head, answer.data[7:]), answer.delay, answer.refused)
+        reply = bytes((pdu[0] & 0x7F | 0x80, _GATEWAY_SILENT))
+        return Answer(None, self._framed(head, reply), 0.0, f"no device has the unit {number}")
+
+    def _reply(self, unit: _Unit, pdu: bytes, number: int) -> bytes:
+        """Return the PDU of the reply to a request. Raises Refusal."""
+        function = pdu[0]
+        most = unit.profile.most.get(function)
+        if most is None:
+            raise Refusal("function", f"the device does not have function {function:02X}h")
+        request = request_in(Unwrapped("tcp", bytes(6) + bytes((number,)) + pdu, pdu))
+        if isinstance(request, Flaw):
+            raise Refusal("format", f"function {function:02X}h: {request.status.replace('_', ' ')}")
+        if request.count > most:
+            raise Refusal("format", f"function {function:02X}h takes {most} items at most, not {request.count}")
+        if function == 0x08:
+            if request.address:
+                raise Refusal("format", f"sub-function {request.address} of the test is none")
+            return pdu
+        space, last = FUNCTIONS[function].space, request.address + request.count - 1
+        for low, high in unit.gaps.get(space, ()):
+            if low <= last and request.address <= high:
+                raise Refusal(
+                    "address", f"{space} {request.address} to {last} crosses the gap {low:04X}h to {high:04X}h"
+                )
+        if function in READS:
+            return _read(unit.device, request, space)
+        area, addresses = (space, 0), range(request.address, last + 1)
+        unit.device.write(area, dict(zip(addresses, request.values, strict=True)))
+        return pdu[:5]
+
+    def _look_at_the_pause(self, unit: _Unit, size: int) -> None:
+        """Complain if a request began before the line was silent for long enough."""
+        if unit.device.clock.now() - size * self.character < self._free - 2 * self.character:
+            what = f"a request came within {unit.silent:g} characters of an answer"
+            unit.device.complain("turnaround", what)
+
+
+def _read(device: SimulatedDevice, request: Request, space: str) -> bytes:
+    values = device.read((space, 0), range(request.address, request.address + request.count))
+    if SPACES[space].read in (0x01, 0x02):
+        data = pack_bits(tuple(values), even=False)
+    else:
+        data = b"".join([value.to_bytes(2, "big") for value in values])
+    return bytes((request.function, len(data))) + data
+
+
+def _code(bus: Bus, reason: str) -> int:
+    """Return the number of the exception that the device has for a reason, else that of the protocol."""
+    number, words = _CODES[reason]
+    for word in words:
+        for exception in bus.exceptions:
+            if word in exception.name:
+                return exception.number
+    known = {exception.number for exception in bus.exceptions}
+    return number if number in known or not known else min(known & {2, 3, 4} or {number})
+
+
+def _delay_point(device: SimulatedDevice) -> str | None:
+    """Return the point that holds the milliseconds until an answer; None without one."""
+    wanted = device.device.bus.timing.get("response_delay_point")
+    return next((p.name for p in device.layout.points.values() if wanted and wanted in (p.name, p.code)), None)
+
+
+def _cut_tcp(data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
+    """Cut by the length in the header; what cannot begin a frame is skipped."""
+    found, at = [], 0
+    while len(data) - at >= 8:
+        size = 6 + (data[at + 4] << 8 | data[at + 5])
+        if data[at + 2] or data[at + 3] or not 8 <= size <= _LONGEST + 4:
+            at += 1
+        elif at + size > len(data):
+            break
+        else:
+            found.append(bytes(data[at : at + size]))
+            at += size
+    return found, len(data) if quiet else at
+
+
+def _cut_rtu(data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
+    """Cut by the length that the function gives, and the checksum; one of an unknown function ends with the data."""
+    found: list[bytes] = []
+    begin = at = 0
+    while len(data) - at >= 4:
+        size = _rtu_size(data, at)
+        if size and at + size <= len(data) and _is_right(data[at : at + size]):
+            found.append(bytes(data[at : at + size]))
+            begin = at = at + size
+        else:
+            at += 1
+    rest = data[begin:]
+    if 4 <= len(rest) <= _LONGEST and _rtu_size(rest, 0) == 0 and _is_right(rest):
+        return [*found, bytes(rest)], len(data)
+    return found, len(data) if quiet else max(begin, len(data) - _LONGEST)
+
+
+def _rtu_size(data: bytes, at: int) -> int:
+    """Return the length of a request that begins here; 0 if its function is unknown, or too little is there."""
+    if data[at + 1] in SINGLE or data[at + 1] in READS:
+        return 8
+    size = request_length(data[at + 1 : at + 8])
+    return size + 3 if size else 0
+
+
+def _is_right(data: bytes) -> bool:
+    return crc16(data[:-2]) == data[-2] | data[-1] << 8
