@@ -63,6 +63,7 @@ NAMES_A_FAMILY = {
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",
     "language.keys.places": "examples of whole files and messages",
+    "simulation.servers": "a library of Python is called as one",
     "targets.python.namespaces": "a library of Python is called as one",
 }
 """Modules outside the folders of families that name one, with the reason."""
