@@ -1106,17 +1106,50 @@ static inline void fieldscribe_split64(
 }
 
 /*
- * Decimal digits of four bits each. Bits that are no decimal number are a number with too many digits: the bits
- * themselves, or the least such number if that is greater. A number with too many digits is its bits.
+ * Decimal digits of four bits each, and `most` that all these bits can hold. Bits that are no decimal number are a
+ * number with too many digits: the bits themselves, or the least such number if that is greater. A number with too many
+ * digits is its bits.
  */
-static inline uint64_t fieldscribe_of_bcd(uint64_t bits, uint8_t digits)
+static inline uint32_t fieldscribe_of_bcd(uint32_t bits, uint32_t most)
+{
+    uint32_t number = 0U;
+    uint32_t above = 1U;
+    uint32_t left = bits;
+    uint32_t places;
+    bool decimal = true;
+    for (places = most; places != 0U; places >>= 4) {
+        const uint32_t digit = left & 0xFU;
+        decimal = decimal && (digit < 10U);
+        number += digit * above;
+        above *= 10U;
+        left >>= 4;
+    }
+    return decimal ? number : ((bits < above) ? above : bits);
+}
+
+static inline uint32_t fieldscribe_bcd_of(uint32_t number, uint32_t most)
+{
+    uint32_t bits = 0U;
+    uint32_t left;
+    if (number > 99999999U) {
+        return number;
+    }
+    for (left = 0x80000000U; left != 0U; left >>= 1) { /* bit by bit: a digit from 5 on, doubled, carries */
+        const uint32_t carries = (bits + 0x33333333U) & 0x88888888U;
+        bits = ((bits + ((carries >> 2) | (carries >> 3))) << 1) | (((number & left) != 0U) ? 1U : 0U);
+    }
+    return (bits > most) ? number : bits;
+}
+
+/* The same of up to 16 digits. */
+static inline uint64_t fieldscribe_of_bcd_wide(uint64_t bits, uint64_t most)
 {
     uint64_t number = 0U;
     uint64_t above = 1U;
     uint64_t left = bits;
+    uint64_t places;
     bool decimal = true;
-    uint8_t at;
-    for (at = 0U; (at < digits) && (at < 16U); ++at) {
+    for (places = most; places != 0U; places >>= 4) {
         const uint64_t digit = left & 0xFU;
         decimal = decimal && (digit < 10U);
         number += digit * above;
@@ -1126,13 +1159,13 @@ static inline uint64_t fieldscribe_of_bcd(uint64_t bits, uint8_t digits)
     return decimal ? number : ((bits < above) ? above : bits);
 }
 
-static inline uint64_t fieldscribe_bcd_of(uint64_t number, uint8_t digits)
+static inline uint64_t fieldscribe_bcd_of_wide(uint64_t number, uint64_t most)
 {
-    uint64_t left = number;
     uint64_t bits = 0U;
     uint64_t above = 1U;
-    uint8_t at;
-    for (at = 0U; (at < digits) && (at < 16U); ++at) {
+    uint64_t left = number;
+    uint64_t places;
+    for (places = most; places != 0U; places >>= 4) {
         bits += (left % 10U) * above;
         above <<= 4;
         left /= 10U;
@@ -1894,7 +1927,10 @@ FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative,
 
 /* ---- Raw numbers in words ---- */
 
-/* The C type of a raw number; the pattern of a floating-point number is U32 or U64. */
+/*
+ * The C type of a raw number; the pattern of a floating-point number is U32 or U64. Functions of their own take and put
+ * the last three: ..._from_words and ..._to_words, of bits that share a word ..._extract and ..._insert.
+ */
 typedef enum fieldscribe_type {
     FIELDSCRIBE_BIT,
     FIELDSCRIBE_U8,
@@ -1904,14 +1940,17 @@ typedef enum fieldscribe_type {
     FIELDSCRIBE_U32,
     FIELDSCRIBE_S32,
     FIELDSCRIBE_U64,
-    FIELDSCRIBE_S64
+    FIELDSCRIBE_S64,
+    FIELDSCRIBE_LOW_FIRST,        /* any of these, the low byte of each word first... */
+    FIELDSCRIBE_LOW_FIRST_SIGNED, /* ...with a sign */
+    FIELDSCRIBE_CODED             /* any of these in decimal digits, or as sign and magnitude */
 } fieldscribe_type;
 
 /* The position of a raw number in words. */
 typedef struct fieldscribe_layout {
     uint8_t type;        /* a fieldscribe_type */
     uint8_t words;       /* 1, 2 or 4 */
-    uint16_t order;      /* a hexadecimal digit a word, high first: its place, 4: coded, 8: low byte first */
+    uint16_t order;      /* the position of each word, a hexadecimal digit each, the high word first */
     bool shares;         /* other points have bits in its word: these are written as they were read */
     uint8_t shift;       /* the position of its lowest bit in the word */
     uint64_t mask;       /* its bits in the words */
@@ -2026,13 +2065,7 @@ static bool fieldscribe_layout_fits(
 /* The position of a word; `significance` counts from the low word. */
 static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
 {
-    return ((size_t)layout->order >> (4U * significance)) & 3U;
-}
-
-/* A word with its bytes in the order of the layout. */
-static uint16_t fieldscribe_layout_word(const fieldscribe_layout *layout, uint16_t word)
-{
-    return ((layout->order & 8U) != 0U) ? fieldscribe_exchanged(word) : word;
+    return ((size_t)layout->order >> (4U * significance)) & 0xFU;
 }
 
 /* The low 32 bits of the words, one number. */
@@ -2041,8 +2074,7 @@ static uint32_t fieldscribe_layout_joined(const fieldscribe_layout *layout, cons
     uint32_t number = 0U;
     uint8_t left;
     for (left = layout->words; left > 0U; --left) {
-        const uint16_t word = words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
-        number = (number << 16) | fieldscribe_layout_word(layout, word);
+        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
     }
     return number;
 }
@@ -2053,27 +2085,9 @@ static uint64_t fieldscribe_layout_joined_wide(const fieldscribe_layout *layout,
     uint64_t number = 0U;
     uint8_t left;
     for (left = layout->words; left > 0U; --left) {
-        const uint16_t word = words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
-        number = (number << 16) | fieldscribe_layout_word(layout, word);
+        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
     }
     return number;
-}
-
-/* Whether the bits have a coding of their own: decimal digits, of a signed number sign and magnitude. */
-static bool fieldscribe_layout_is_coded(const fieldscribe_layout *layout)
-{
-    return (layout->order & 4U) != 0U;
-}
-
-/* How many decimal digits the point has. */
-static uint8_t fieldscribe_layout_digits(const fieldscribe_layout *layout)
-{
-    uint8_t digits = 0U;
-    uint64_t left;
-    for (left = layout->mask >> layout->shift; (left != 0U) && (digits < 16U); left >>= 4) {
-        ++digits;
-    }
-    return digits;
 }
 
 /* The bits of the point, right-aligned. */
@@ -2088,37 +2102,11 @@ static uint32_t fieldscribe_layout_most(const fieldscribe_layout *layout)
     return (uint32_t)(layout->mask & 0xFFFFFFFFU) >> layout->shift;
 }
 
-/* The number in the bits of an unsigned point. */
-static uint32_t fieldscribe_layout_number(const fieldscribe_layout *layout, const uint16_t *words)
-{
-    const uint32_t field = fieldscribe_layout_field(layout, words);
-    uint32_t number = 0U;
-    uint32_t above = 1U;
-    uint32_t left = field;
-    uint32_t most;
-    bool decimal = true;
-    if (!fieldscribe_layout_is_coded(layout)) {
-        return field;
-    }
-    for (most = fieldscribe_layout_most(layout); most != 0U; most >>= 4) { /* as fieldscribe_of_bcd, in 32 bits */
-        const uint32_t digit = left & 0xFU;
-        decimal = decimal && (digit < 10U);
-        number += digit * above;
-        above *= 10U;
-        left >>= 4;
-    }
-    return decimal ? number : ((field < above) ? above : field);
-}
-
 /* The bits of the point as a number in two's complement. */
 static int32_t fieldscribe_layout_signed_field(const fieldscribe_layout *layout, const uint16_t *words)
 {
     const uint32_t field = fieldscribe_layout_field(layout, words);
     const uint32_t most = fieldscribe_layout_most(layout) >> 1;
-    if (fieldscribe_layout_is_coded(layout)) {
-        const int32_t magnitude = (int32_t)(field & most);
-        return (field > most) ? -magnitude : magnitude;
-    }
     return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)field;
 }
 
@@ -2128,7 +2116,7 @@ static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t 
     uint64_t left = (number & ~layout->fixed_mask) | layout->fixed_bits;
     uint8_t at;
     for (at = 0U; at < layout->words; ++at) {
-        words[fieldscribe_layout_place(layout, at)] = fieldscribe_layout_word(layout, (uint16_t)(left & 0xFFFFU));
+        words[fieldscribe_layout_place(layout, at)] = (uint16_t)(left & 0xFFFFU);
         left >>= 16;
     }
 }
@@ -2139,8 +2127,7 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
     uint32_t number = bits;
     if (layout->shares) {
         const uint32_t mask = (uint32_t)(layout->mask & 0xFFFFU);
-        const uint16_t word = fieldscribe_layout_word(layout, words[0]);
-        number = (word & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
+        number = (words[0] & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
     }
     fieldscribe_layout_store(layout, number, words);
 }
@@ -2148,20 +2135,10 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
 /* Store an unsigned number; false if it has more bits than the point. */
 static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
 {
-    uint32_t bits = raw;
     if (raw > fieldscribe_layout_most(layout)) {
         return false;
     }
-    if (fieldscribe_layout_is_coded(layout) && (raw <= 99999999U)) {
-        uint32_t left;
-        bits = 0U;
-        for (left = 0x80000000U; left != 0U; left >>= 1) { /* bit by bit: a digit from 5 on, doubled, carries */
-            const uint32_t carries = (bits + 0x33333333U) & 0x88888888U;
-            bits = ((bits + ((carries >> 2) | (carries >> 3))) << 1) | (((raw & left) != 0U) ? 1U : 0U);
-        }
-        bits = (bits > fieldscribe_layout_most(layout)) ? raw : bits; /* too many digits stay as they are */
-    }
-    fieldscribe_layout_put_bits(layout, bits, words);
+    fieldscribe_layout_put_bits(layout, raw, words);
     return true;
 }
 
@@ -2169,16 +2146,10 @@ static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t ra
 static bool fieldscribe_layout_put_signed(const fieldscribe_layout *layout, int32_t raw, uint16_t *words)
 {
     const uint32_t size = (raw < 0) ? (uint32_t)(-1 - raw) : (uint32_t)raw;
-    const uint32_t most = fieldscribe_layout_most(layout) >> 1;
-    if (size > most) {
+    if (size > (fieldscribe_layout_most(layout) >> 1)) {
         return false;
     }
-    if (fieldscribe_layout_is_coded(layout)) {
-        const uint32_t magnitude = (uint32_t)(fieldscribe_magnitude(raw) & most);
-        fieldscribe_layout_put_bits(layout, (raw < 0) ? (magnitude | (most + 1U)) : magnitude, words);
-    } else {
-        fieldscribe_layout_put_bits(layout, (raw < 0) ? ~size : size, words);
-    }
+    fieldscribe_layout_put_bits(layout, (raw < 0) ? ~size : size, words);
     return true;
 }
 
@@ -2196,7 +2167,7 @@ bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U8)) {
         return false;
     }
-    *raw = (uint8_t)(fieldscribe_layout_number(layout, words) & 0xFFU);
+    *raw = (uint8_t)(fieldscribe_layout_field(layout, words) & 0xFFU);
     return true;
 }
 
@@ -2214,7 +2185,7 @@ bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *word
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U16)) {
         return false;
     }
-    *raw = (uint16_t)(fieldscribe_layout_number(layout, words) & 0xFFFFU);
+    *raw = (uint16_t)(fieldscribe_layout_field(layout, words) & 0xFFFFU);
     return true;
 }
 
@@ -2232,7 +2203,7 @@ bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *word
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U32)) {
         return false;
     }
-    *raw = fieldscribe_layout_number(layout, words);
+    *raw = fieldscribe_layout_field(layout, words);
     return true;
 }
 
@@ -2251,9 +2222,6 @@ bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *word
         return false;
     }
     *raw = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
-    if (fieldscribe_layout_is_coded(layout)) {
-        *raw = fieldscribe_of_bcd(*raw, fieldscribe_layout_digits(layout));
-    }
     return true;
 }
 
@@ -2266,11 +2234,7 @@ bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *word
     }
     most = layout->mask >> 1;
     bits = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
-    if (fieldscribe_layout_is_coded(layout)) {
-        *raw = fieldscribe_of_sign_and_magnitude(bits, most + 1U);
-    } else {
-        *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
-    }
+    *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
     return true;
 }
 
@@ -2318,11 +2282,7 @@ bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64) || (raw > layout->mask)) {
         return false;
     }
-    if (fieldscribe_layout_is_coded(layout)) {
-        fieldscribe_layout_store(layout, fieldscribe_bcd_of(raw, fieldscribe_layout_digits(layout)), words);
-    } else {
-        fieldscribe_layout_store(layout, raw, words);
-    }
+    fieldscribe_layout_store(layout, raw, words);
     return true;
 }
 
@@ -2332,11 +2292,7 @@ bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64) || (size > (layout->mask >> 1))) {
         return false;
     }
-    if (fieldscribe_layout_is_coded(layout)) {
-        fieldscribe_layout_store(layout, fieldscribe_sign_and_magnitude(raw, (layout->mask >> 1) + 1U), words);
-    } else {
-        fieldscribe_layout_store(layout, (raw < 0) ? ~size : size, words);
-    }
+    fieldscribe_layout_store(layout, (raw < 0) ? ~size : size, words);
     return true;
 }
 

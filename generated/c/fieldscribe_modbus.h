@@ -1260,7 +1260,16 @@ fieldscribe_modbus_status fieldscribe_modbus_write_word(
 static bool fieldscribe_modbus_is_signed(const fieldscribe_layout *layout)
 {
     return (layout->type == (uint8_t)FIELDSCRIBE_S8) || (layout->type == (uint8_t)FIELDSCRIBE_S16) ||
-        (layout->type == (uint8_t)FIELDSCRIBE_S32);
+        (layout->type == (uint8_t)FIELDSCRIBE_S32) || (layout->type == (uint8_t)FIELDSCRIBE_LOW_FIRST_SIGNED);
+}
+
+/* Exchange the bytes of both words if the low one comes first. */
+static void fieldscribe_modbus_in_order(const fieldscribe_layout *layout, uint16_t *words)
+{
+    if (layout->type >= (uint8_t)FIELDSCRIBE_LOW_FIRST) {
+        words[0] = fieldscribe_exchanged(words[0]);
+        words[1] = fieldscribe_exchanged(words[1]);
+    }
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_read_row(
@@ -1272,9 +1281,10 @@ fieldscribe_modbus_status fieldscribe_modbus_read_row(
         status = fieldscribe_modbus_read_words(unit, row->read, words, row->layout->words);
     }
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        const int64_t raw = fieldscribe_modbus_is_signed(row->layout)
-            ? (int64_t)fieldscribe_layout_signed_field(row->layout, words)
-            : (int64_t)fieldscribe_layout_field(row->layout, words);
+        int64_t raw;
+        fieldscribe_modbus_in_order(row->layout, words);
+        raw = fieldscribe_modbus_is_signed(row->layout) ? (int64_t)fieldscribe_layout_signed_field(row->layout, words)
+                                                        : (int64_t)fieldscribe_layout_field(row->layout, words);
         *number = fieldscribe_divide((raw * row->divisor) - row->add, row->factor);
     }
     return status;
@@ -1284,6 +1294,7 @@ fieldscribe_modbus_status fieldscribe_modbus_read_row(
 static bool fieldscribe_modbus_put_raw(const fieldscribe_layout *layout, int64_t raw, uint16_t *words)
 {
     bool fits = false;
+    fieldscribe_modbus_in_order(layout, words);
     if (fieldscribe_modbus_is_signed(layout)) {
         if ((raw >= INT32_MIN) && (raw <= INT32_MAX)) {
             fits = fieldscribe_layout_put_signed(layout, (int32_t)raw, words);
@@ -1293,6 +1304,7 @@ static bool fieldscribe_modbus_put_raw(const fieldscribe_layout *layout, int64_t
     } else {
         fits = false;
     }
+    fieldscribe_modbus_in_order(layout, words);
     return fits;
 }
 

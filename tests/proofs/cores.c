@@ -224,10 +224,12 @@ void prove_bits(void)
     (void)fieldscribe_fix64(big, big, big);
 }
 
-void prove_codings(uint64_t bits, uint8_t digits_of_it, uint8_t sign)
+void prove_codings(uint64_t bits, uint64_t most, uint8_t sign)
 {
-    (void)fieldscribe_of_bcd(bits, digits_of_it);
-    (void)fieldscribe_bcd_of(bits, digits_of_it);
+    (void)fieldscribe_of_bcd((uint32_t)(bits & 0xFFFFFFFFU), (uint32_t)(most & 0xFFFFFFFFU));
+    (void)fieldscribe_bcd_of((uint32_t)(bits & 0xFFFFFFFFU), (uint32_t)(most & 0xFFFFFFFFU));
+    (void)fieldscribe_of_bcd_wide(bits, most);
+    (void)fieldscribe_bcd_of_wide(bits, most);
     if ((sign > 0U) && (sign < 64U)) {
         (void)fieldscribe_of_sign_and_magnitude(bits, (uint64_t)1U << sign);
         (void)fieldscribe_sign_and_magnitude(an_s64, (uint64_t)1U << sign);

@@ -810,6 +810,11 @@ void prove_read_row(void)
     (void)fieldscribe_modbus_read_row(&unit, &row, &got);
 }
 
+void prove_in_order(void)
+{
+    fieldscribe_modbus_in_order(&layout, EXACTLY(2U, items));
+}
+
 void prove_put_raw(int64_t raw)
 {
     of_row();

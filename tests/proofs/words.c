@@ -24,7 +24,6 @@ static void lay(uint8_t type, uint8_t count)
     layout.words = count;
     layout.shares = number % 2U != 0U;
     layout.order = count == 4U ? 0x0123U : count == 2U ? (number % 2U != 0U ? 0x01U : 0x10U) : 0x00U;
-    layout.order = (uint16_t)(layout.order | (number > 99U ? 12U : 0U));
     layout.shift = (uint8_t)(layout.shift & 0xFU);
 }
 
@@ -65,32 +64,6 @@ void prove_layout_place(uint8_t significance)
     if (significance < 4U) {
         (void)fieldscribe_layout_place(&layout, significance);
     }
-}
-
-void prove_layout_word(uint16_t word)
-{
-    lay(layout.type, 1U);
-    (void)fieldscribe_layout_word(&layout, word);
-}
-
-void prove_layout_is_coded(void)
-{
-    lay(layout.type, 2U);
-    (void)fieldscribe_layout_is_coded(&layout);
-}
-
-void prove_layout_digits(void)
-{
-    lay(layout.type, 4U);
-    (void)fieldscribe_layout_digits(&layout);
-}
-
-void prove_layout_number(void)
-{
-    lay(layout.type, 1U);
-    (void)fieldscribe_layout_number(&layout, own(1U));
-    lay(layout.type, 2U);
-    (void)fieldscribe_layout_number(&layout, own(2U));
 }
 
 void prove_layout_joined(void)

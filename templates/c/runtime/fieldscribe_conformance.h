@@ -959,6 +959,22 @@ FIELDSCRIBE_ONCE bool fieldscribe_fills(const fieldscribe_layout *layout, size_t
         fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, into, how->words));                \
     }
 
+/* The same of a point with functions of its own, which its word, or words, come from and go into. */
+#define FIELDSCRIBE_FORM(item, raw_type, taken, put)                                             \
+    FIELDSCRIBE_ONCE void fieldscribe_taken_of_##item(                                           \
+        fieldscribe_vector *v, const fieldscribe_layout *how, const uint16_t *words)             \
+    {                                                                                            \
+        fieldscribe_agree(v, how->type >= (uint8_t)FIELDSCRIBE_LOW_FIRST);                       \
+        fieldscribe_is_number(v, "raw", (uint64_t)taken);                                        \
+    }                                                                                            \
+    FIELDSCRIBE_ONCE void fieldscribe_put_field_of_##item(                                       \
+        fieldscribe_vector *v, const fieldscribe_layout *how, const char *field, uint16_t *words) \
+    {                                                                                            \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
+        fieldscribe_agree(v, how->type >= (uint8_t)FIELDSCRIBE_LOW_FIRST);                       \
+        put;                                                                                     \
+    }
+
 FIELDSCRIBE_KIND(bit, bool)
 FIELDSCRIBE_KIND(u8, uint8_t)
 FIELDSCRIBE_KIND(s8, int8_t)

@@ -28,6 +28,9 @@ KINDS = device_of(
         point("part", 0x1C, "s8", bits=(13, 6), allowed=allowed((-9, 9))),
         point("scaled_part", 0x1C, "u8", bits=(5, 0), scale=scaled("1/5"), decimals=0),
         point("coil", 3, "bit", space="coil"),
+        point("low_first", 0x1D, "s32", swapped=True, scale=scaled("1/10"), decimals=1, allowed=allowed((-900, 70000))),
+        point("low_part", 0x1F, "s8", bits=(11, 5), swapped=True, allowed=allowed((-9, 9))),
+        point("decimal", 0x26, coding="bcd"),
         point("huge", 0x20, "u64"),
         point("real", 0x24, "f32"),
         *(point(f"more_{number}", 0x30 + number, access="r") for number in range(3)),
@@ -76,7 +79,7 @@ def test_rows_of_all_kinds(way: str, tmp_path: Path) -> None:
     assert facts["shifted"][6:10] == ["1", "-273", "1", "1"]
     assert [name for name, row in facts.items() if row[9] == "FIELDSCRIBE_MODBUS_RAW"] == ["falling", "real"]
     assert [name for name, row in facts.items() if row[3] == "NULL"] == ["gaps", "real", "more_0", "more_1", "more_2"]
-    assert "huge" not in facts
+    assert not {"huge", "decimal"} & facts.keys()
 
 
 @pytest.mark.full(seconds=4)

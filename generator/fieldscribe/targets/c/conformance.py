@@ -11,7 +11,7 @@ from fieldscribe.resources import Render
 from fieldscribe.targets.c.calls import call_cases
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
-from fieldscribe.targets.c.frames import Frames, frames_of
+from fieldscribe.targets.c.frames import Frames, frames_of, kind_of
 from fieldscribe.targets.c.header import STATUSES
 from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import raw_type
@@ -20,7 +20,7 @@ from fieldscribe.targets.c.point_views import names_of
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import special_defines
 from fieldscribe.targets.c.views import PointView
-from fieldscribe.targets.c.word_functions import has_words
+from fieldscribe.targets.c.word_functions import has_form, has_words
 from fieldscribe.text import upper
 
 
@@ -67,7 +67,17 @@ def adapters_text(
 def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:
     of_family = [case for frames in sections for case in _exchanges(view, frames, scope)]
     cases = [*_cases(view, scope), *of_family, *_flag_cases(view, scope), *_special_code_cases(view, scope)]
-    return folded(render("c/adapter.c.j2", {"item": view.fields.item, "cases": cases}))
+    form = _form(view) if has_form(view.point) and any(kind_of(view) in case for case in of_family) else ""
+    return folded(render("c/adapter.c.j2", {"item": view.fields.item, "form": form, "cases": cases}))
+
+
+def _form(view: PointView) -> str:
+    """Return the macro of the functions that take and put the raw number of a point in a form of its own."""
+    name = view.function
+    ways = f"{name}_from_words(words)", f"{name}_to_words(raw, words)"
+    if view.point.bits is not None:
+        ways = f"{name}_extract(words[0])", f"words[0] = {name}_insert(words[0], raw)"
+    return f"FIELDSCRIBE_FORM({view.fields.item}, {view.raw_type}, {', '.join(ways)})"
 
 
 def _exchanges(view: PointView, frames: Frames, scope: HeaderScope) -> Iterator[str]:

@@ -16,7 +16,7 @@ from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import AliasView, Define, PointView
-from fieldscribe.targets.c.word_functions import constant_bits
+from fieldscribe.targets.c.word_functions import constant_bits, has_form
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
@@ -176,6 +176,11 @@ def lies(point: Point) -> str:
     return f"{'false' if point.bits is None else 'true'}, {constant_bits(point)}"
 
 
+def kind_of(view: PointView) -> str:
+    """Return the end of the names of the functions by which conformance takes and puts raw numbers."""
+    return f"of_{view.fields.item}" if has_form(view.point) else wire_kind(view.point)
+
+
 class Layouts:
     """Collects the layouts of a device, each once, by name."""
 
@@ -186,9 +191,10 @@ class Layouts:
     def of(self, point: Point, high_first: Sequence[int]) -> str:
         """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
         kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
-        places = [place | 8 * point.swapped | 4 * bool(point.coding) for place in reversed(high_first)]
-        order = f"{sum(place << 4 * at for at, place in enumerate(places)):0{max(2, len(high_first))}X}"
-        name = f"{self.scope.prefix}_layout_{kind}{_tail(point, order, mask)}"
+        order = "".join(map(str, high_first)).rjust(2, "0")
+        form = "coded" if point.coding else "low_first" if point.swapped else ""
+        name = f"{self.scope.prefix}_layout_{form and f'{form}_'}{kind}{_tail(point, order, mask)}"
+        kind = f"{form}_signed" if form == "low_first" and point.info.signed else form or kind
         shared = "false" if point.bits is None else "true"
         shape = f"{len(high_first)}U, 0x{order}U, {shared}, {low}U"
         value = f"FIELDSCRIBE_{kind.upper()}, {shape}, {hexadecimal(mask)}, {constant_bits(point)}"
@@ -219,7 +225,7 @@ def _mask(point: Point) -> int:
 def _tail(point: Point, order: str, mask: int) -> str:
     """Return the part of a layout's name that tells it from others of its type."""
     parts = [f"{point.width}_bits"] if point.shape.narrow else []
-    parts += [f"order_{order.lower()}"] if point.words > 1 or point.swapped or point.coding else []
+    parts += [f"order_{order}"] if point.words > 1 else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
     elif point.info.bits == 1 and mask > 1:

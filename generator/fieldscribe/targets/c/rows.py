@@ -14,8 +14,8 @@ _ITSELF = Line(1, 0, 1)
 
 
 def has_row(view: PointView) -> bool:
-    """Return True if 32 bits hold the raw number."""
-    return view.point.text is None and view.point.info.bits <= 32
+    """Return True if 32 bits hold the raw number, as it is."""
+    return view.point.text is None and view.point.info.bits <= 32 and not view.point.coding
 
 
 def is_written_by_row(view: PointView) -> bool:

@@ -73,7 +73,12 @@ def has_words(point: Point) -> bool:
     """Return True if the point has word functions: a text, a bit group and a word that is the raw number have none."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
-    return point.text is None and point.bits is None and (not plain or point.swapped or bool(point.coding))
+    return point.text is None and point.bits is None and (not plain or has_form(point))
+
+
+def has_form(point: Point) -> bool:
+    """Return True if the low byte of each word comes first, or the bits have a coding of their own."""
+    return point.swapped or bool(point.coding)
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
@@ -118,14 +123,18 @@ def coded_bits(point: Point) -> str:
         return "raw"
     if point.info.signed:
         return f"fieldscribe_sign_and_magnitude(raw, {hexadecimal(1 << point.width - 1)})"
-    return f"fieldscribe_bcd_of(raw, {point.width // 4}U)"
+    return f"fieldscribe_bcd_of{_wide(point)}(raw, {hexadecimal(mask_of(point.width))})"
 
 
 def decoded_bits(point: Point, bits: str) -> str:
     """Return the expression for the raw number in bits of a coding of their own."""
     if point.info.signed:
         return f"({raw_type(point)})fieldscribe_of_sign_and_magnitude({bits}, {hexadecimal(1 << point.width - 1)})"
-    return f"({raw_type(point)})fieldscribe_of_bcd({bits}, {point.width // 4}U)"
+    return f"({raw_type(point)})fieldscribe_of_bcd{_wide(point)}({bits}, {hexadecimal(mask_of(point.width))})"
+
+
+def _wide(point: Point) -> str:
+    return "_wide" if point.width > 32 else ""
 
 
 def places_of(point: Point) -> list[int]:

@@ -10,7 +10,7 @@ from fieldscribe.families.can.frames import carriers, frame_count, request_and_a
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.groups import Members, Part, StructView
-from fieldscribe.targets.c.literals import hexadecimal, wire_kind
+from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
@@ -263,7 +263,7 @@ def _parameter(point: Point, view: PointView, layouts: frames.Layouts, arrays: S
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
     ways = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     name = f"{view.function}_frame"
-    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{wire_kind(point)}, {view.raw_type}")
+    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{frames.kind_of(view)}, {view.raw_type}")
     cases = []
     if read and read_answer:
         cases.append(f"READ{'_TEXT' if text else ''}({what})")
@@ -280,7 +280,7 @@ def _cyclic(point: Point, view: PointView, layouts: frames.Layouts) -> frames.Fr
     else:
         parts = [layouts.of(point, range(point.words)), f"{{{view.fields.start}, {view.fields.end}}}"]
         what = "RECEIVED" if point.place.bit is None else "SIGNAL"
-        case = f"{what}({name}, {wire_kind(point)}, {view.raw_type})"
+        case = f"{what}({name}, {frames.kind_of(view)}, {view.raw_type})"
     return _frame(point, view, "h", parts, [case])
 
 

@@ -18,11 +18,12 @@ from fieldscribe.targets.c.frames import (
     Layouts,
     exceptions_of,
     frames_header,
+    kind_of,
     lies,
 )
 from fieldscribe.targets.c.groups import Members, Part, StructView, member_cases
 from fieldscribe.targets.c.layout import called
-from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
+from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.rows import facts_of, has_row, is_written_by_row
 from fieldscribe.targets.c.scope import HeaderScope
@@ -237,7 +238,7 @@ def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
         yield f'AT_BASE(fieldscribe_modbus_{"text_" if text else ""}{access}, {name}, "{point.base}")'
         yield from (f"{word}_AT_BASE" for letter, word in _MOVED.items() if letter in access)
         name = "moved"
-    what = f"{name}, {point.words}U" if text else f"{name}, {wire_kind(point)}, {view.raw_type}"
+    what = f"{name}, {point.words}U" if text else f"{name}, {kind_of(view)}, {view.raw_type}"
     if not text:
         yield f"LIES({name}, {lies(point)})"
     for letter, way in (("r", "READ"), ("w", "WRITE"), ("u", "UPDATE")):

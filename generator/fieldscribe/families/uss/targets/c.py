@@ -9,8 +9,8 @@ from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
 from fieldscribe.targets.c.calls import Transfer
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies
-from fieldscribe.targets.c.literals import hexadecimal, wire_kind
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, kind_of, lies
+from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
@@ -103,7 +103,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     descriptors = [descriptor("_frame", ways)] if ways else []
     descriptors += [descriptor("_eeprom_frame", [(task, changes) for task in storing])] if storing else []
     cases = [f"LIES({descriptor.name}, {lies(point)})" for descriptor in descriptors]
-    name, what = f"{view.function}_frame", f"{wire_kind(point)}, {view.raw_type}"
+    name, what = f"{view.function}_frame", f"{kind_of(view)}, {view.raw_type}"
     if reading:
         cases.append(f"READ({name}, {what})")
     for kind, tail in [*(("write", "_frame") for _ in writing), *(("store", "_eeprom_frame") for _ in storing)]:
@@ -119,7 +119,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
 
 def _word(point: Point, view: PointView, layouts: Layouts, scope: HeaderScope) -> Frame:
     """Return the place of a point in the words of process data."""
-    name, what = f"{view.function}_frame", f"{wire_kind(point)}, {view.raw_type}"
+    name, what = f"{view.function}_frame", f"{kind_of(view)}, {view.raw_type}"
     position = f"{{{view.fields.number}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
