@@ -16,7 +16,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.language.key_tables import json_schema, keys_markdown, schema_text
 from fieldscribe.language.keys import TABLE, keys_of
-from fieldscribe.language.keys.places import DEVICE, PART
+from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
 from fieldscribe.language.shape import check_shape
@@ -72,7 +72,8 @@ def agree(root: Map) -> bool:
     validator = STRICT(SCHEMA)
     errors = [error.message for error in validator.iter_errors(document)]
     report = Report()
-    check_shape(root, DEVICE if "device" in root else PART, report)
+    place = DEVICE if "device" in root else BEHAVIOUR if "behaviour" in root else PART
+    check_shape(root, place, report)
     assert bool(report.findings) == bool(errors), (errors[:3], report.findings[:3])
     return not errors
 

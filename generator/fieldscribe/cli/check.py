@@ -38,6 +38,7 @@ def run(arguments: Namespace) -> int:
         analysis = load_analysis(device_file, report)
         if analysis is not None and is_new(analysis.device, device_file, known, report):
             checked.append(_counts(analysis.device))
+            _check_behaviour(device_file, analysis.device, report)
             if as_text:
                 print(_line(checked[-1]), flush=True)
     if as_text:
@@ -45,6 +46,15 @@ def run(arguments: Namespace) -> int:
     else:
         print_json({"devices": checked, "findings": as_data(report.findings)})
     return FINDINGS if report.has_errors else FINE
+
+
+def _check_behaviour(device_file: Path, device: Device, report: Report) -> None:
+    """Check the behaviour beside a description, if there is one."""
+    from fieldscribe.simulation.behaviour_file import find_behaviour, read_behaviour
+
+    path = find_behaviour(device_file)
+    if path is not None:
+        read_behaviour(path, device, report)
 
 
 def _counts(device: Device) -> dict[str, Any]:

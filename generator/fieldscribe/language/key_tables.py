@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fieldscribe.language.keys import forms, keys_of, needs, required
-from fieldscribe.language.keys.places import DEVICE, PART, PLACES
+from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, PART, PLACES
 from fieldscribe.language.load import flow_text
 from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Key, Kind, Place, Shape, Text, Whole, says_yes_or_no
 
@@ -18,9 +18,9 @@ _REFERENCE = "#/definitions/"
 
 
 def json_schema() -> dict[str, Any]:
-    """Return the schema of a file: of device.yaml, or of a part."""
+    """Return the schema of a file: of device.yaml, of a part, or of a behaviour."""
     definitions = _Definitions()
-    device, part = (definitions.shape(place.shape) for place in (DEVICE, PART))
+    device, part, behaviour = (definitions.shape(place.shape) for place in (DEVICE, PART, BEHAVIOUR))
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "$id": SCHEMA_ID,
@@ -28,7 +28,7 @@ def json_schema() -> dict[str, Any]:
         "type": "object",
         "if": {"required": ["device"]},
         "then": device,
-        "else": part,
+        "else": {"if": {"required": ["behaviour"]}, "then": behaviour, "else": part},
         "definitions": definitions.by_name,
     }
 

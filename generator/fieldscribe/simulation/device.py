@@ -13,7 +13,7 @@ from fieldscribe.model import Command, Point, Source
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.layout import Area, Cells, Layout
 from fieldscribe.simulation.memory import Memory, joined_cells
-from fieldscribe.simulation.values import Values
+from fieldscribe.simulation.values import Plant, Values
 from fieldscribe.wording import label
 
 BUSY_FOR = 0.05
@@ -52,7 +52,7 @@ class Complaint:
         return f"{self.rule}: {self.what}{where}"
 
 
-class Behaviour(Protocol):
+class Behaviour(Plant, Protocol):
     """What moves the numbers of a device; `simulation.behaviour` makes it from a behaviour file."""
 
     def advance(self, device: SimulatedDevice, now: float) -> None:
@@ -91,7 +91,7 @@ class SimulatedDevice:
         self.strict = strict
         self.behaviour = behaviour
         self.memory = Memory.started(layout, seed)
-        self.values = Values(self.memory, self.advance)
+        self.values = Values(self.memory, self.advance, behaviour)
         self.conditions = dict.fromkeys((name for point in layout.points.values() for name in point.conditions), True)
         self.refusals: dict[str, int] = {}
         self.complaints: list[Complaint] = []

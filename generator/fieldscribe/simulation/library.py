@@ -8,12 +8,17 @@ from collections.abc import Coroutine, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families import family
+from fieldscribe.model import Device
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 from fieldscribe.resources import descriptions_dir
+from fieldscribe.simulation.behaviour import Behaviour
+from fieldscribe.simulation.behaviour_file import FILE as BEHAVIOUR_FILE
+from fieldscribe.simulation.behaviour_file import find_behaviour, read_behaviour
+from fieldscribe.simulation.behaviour_rules import Rules
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.core import Core
 from fieldscribe.simulation.device import Complaint, SimulatedDevice
@@ -78,18 +83,21 @@ def simulated(  # noqa: PLR0913  # each is given by name
     given: Mapping[str, int] | None = None,
     seed: int = 0,
     strict: bool = False,
+    behaviour: bool = False,
     time_scale: float = 1.0,
     trace: Trace | None = None,
 ) -> Iterator[Simulated]:
     """Run a device, by its id or the path of its folder, as long as the context lasts.
 
     `on` is the line: `tcp`, `serial` (a new pseudo terminal) or `can` (a virtual bus of python-can named after the
-    device). A strict device raises AssertionError at the end, with all that clients did against the manual. With a
-    `time_scale` of 0 the time stands, but for `advance`. Raises UnclearError.
+    device). With its `behaviour`, the numbers move as the file beside the description says. A strict device raises
+    AssertionError at the end, with all that clients did against the manual. With a `time_scale` of 0 the time stands,
+    but for `advance`. Raises UnclearError.
     """
     layout = layout_of(str(device), tuple(variants), tuple(sorted((given or {}).items())))
     clock = Clock(time_scale)
-    simulated_device = SimulatedDevice(layout, unit, seed=seed, clock=clock, strict=strict)
+    moves = Behaviour(rules_of(str(device))) if behaviour else None
+    simulated_device = SimulatedDevice(layout, unit, seed=seed, clock=clock, strict=strict, behaviour=moves)
     simulated_device.values.update(values or {})
     on, core = core_for([simulated_device], on, framing)
     line = Line(core, clock, name=simulated_device.device.id, seed=seed, trace=trace)
@@ -133,20 +141,35 @@ def layout_of(name: str, variants: tuple[str, ...] = (), given: tuple[tuple[str,
 
 
 @lru_cache(maxsize=16)
-def _model(name: str) -> Any:
+def rules_of(name: str) -> Rules:
+    """Return the rules of the behaviour beside a description. Raises UnclearError."""
+    file, report = _file(name), Report()
+    path = find_behaviour(file)
+    if path is None:
+        raise UnclearError(f"`{name}` has no behaviour", f"write a {BEHAVIOUR_FILE} beside {file}")
+    rules = read_behaviour(path, _model(name), report)
+    return rules if rules is not None else _refuse(f"the behaviour of `{name}`", file, report)
+
+
+@lru_cache(maxsize=16)
+def _model(name: str) -> Device:
+    file, report = _file(name), Report()
+    device = load_device(file, report)
+    return device if device is not None else _refuse(f"`{name}`", file, report)
+
+
+def _file(name: str) -> Path:
     folders = [Path(name), _LOCAL / name, descriptions_dir() / name]
     files = (path if path.is_file() else path / DEVICE_FILE for path in folders)
     file = next((file for file in files if file.is_file()), None)
     if file is None:
         raise UnclearError(f"there is no device `{name}`", f"give an id, or a folder with a {DEVICE_FILE}")
-    report = Report()
-    device = load_device(file, report)
-    if device is None:
-        first = report.findings[0]
-        raise UnclearError(
-            f"`{name}` has errors: {first.message}", f"`fieldscribe check {file.parent}` prints them all"
-        )
-    return device
+    return file
+
+
+def _refuse(what: str, file: Path, report: Report) -> NoReturn:
+    first = report.findings[0].message
+    raise UnclearError(f"{what} has errors: {first}", f"`fieldscribe check {file.parent}` prints them all")
 
 
 async def _serve(line: Line, on: str, channel: str) -> Server:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from decimal import Decimal
 from fractions import Fraction
+from typing import Protocol
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
@@ -19,23 +20,46 @@ Value = str | int | float
 """A name of an enum or of a special code, a text, a whole number, or a number in the unit."""
 
 
-class Values(MutableMapping[str, Value]):
-    """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse."""
+class Plant(Protocol):
+    """The quantities of a behaviour, which no point holds."""
 
-    def __init__(self, memory: Memory, advance: Callable[[], None]) -> None:
-        self._memory, self._advance = memory, advance
+    @property
+    def plant(self) -> Mapping[str, Fraction]:
+        """The quantities by name."""
+
+    def set(self, name: str, number: Fraction) -> None:
+        """Let a quantity be a number from now on."""
+
+    def touch(self) -> None:
+        """Take notice that points were written."""
+
+
+class Values(MutableMapping[str, Value]):
+    """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse.
+
+    The quantities of a behaviour are values, too.
+    """
+
+    def __init__(self, memory: Memory, advance: Callable[[], None], plant: Plant | None = None) -> None:
+        self._memory, self._advance, self._plant = memory, advance, plant
 
     def __getitem__(self, name: str) -> Value:
-        point = self._point(name)
         with LOCK:
-            self._advance()
+            self._go_on()
+            if self._plant is not None and name in self._plant.plant:
+                return _plain(self._plant.plant[name])
+            point = self._point(name)
             return value_of(point, self._memory.raw(point.name), self._memory.settings)
 
     def __setitem__(self, name: str, value: Value | Fraction | Decimal) -> None:
-        point = self._point(name)
         with LOCK:
-            self._advance()
-            self._memory.put(point.name, raw_for(point, value, self._memory.settings))
+            self._go_on()
+            if self._plant is not None and name in self._plant.plant:
+                self._plant.set(name, Fraction(value))
+            else:
+                point = self._point(name)
+                self._memory.put(point.name, raw_for(point, value, self._memory.settings))
+            self._go_on()
 
     def __delitem__(self, name: str) -> None:
         raise TypeError("a device has all of its points")
@@ -45,6 +69,12 @@ class Values(MutableMapping[str, Value]):
 
     def __len__(self) -> int:
         return len(self._memory.layout.points)
+
+    def _go_on(self) -> None:
+        """Bring the memory to the present, and let what is written now have its effect."""
+        if self._plant is not None:
+            self._plant.touch()
+        self._advance()
 
     def _point(self, name: str) -> Point:
         points = self._memory.layout.points
@@ -70,7 +100,11 @@ def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
         value = codec.decode(point, raw, settings)
     except CodecError:
         return codec.float_of(point, raw) if point.info.floating else raw
-    return int(value) if value.denominator == 1 and not point.info.floating else float(value)
+    return float(value) if point.info.floating else _plain(value)
+
+
+def _plain(value: Fraction) -> int | float:
+    return int(value) if value.denominator == 1 else float(value)
 
 
 def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Settings) -> int:

@@ -278,6 +278,13 @@ ERRATUM = Place(
     ],
     by_form=_PRIVATE,
 )
+BEHAVIOUR = Place(
+    "behaviour_file",
+    "The behaviour of a simulated device, behaviour.yaml",
+    "What a simulated device does, in a file beside device.yaml; it is no part of the description.",
+    [{"behaviour": "hitachi_l200", "moves": {"output_frequency": "ramp to A020 at 10 Hz/s while run_command == run"}}],
+    by_form=_PRIVATE,
+)
 
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
@@ -306,6 +313,6 @@ PLACES = (
         TELEGRAM,
         MESSAGE,
     ),
-    *(COMMAND, STEP, FRAME, ERRATUM),
+    *(COMMAND, STEP, FRAME, ERRATUM, BEHAVIOUR),
 )
 """The places that have a table in KEYS.md, in its order."""

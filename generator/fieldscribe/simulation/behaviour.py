@@ -1,0 +1,307 @@
+"""Lets a simulated device behave: evaluates the rules of a behaviour in exact rationals, by the simulator's clock.
+
+Numbers move in straight lines between events, so that the times of the next events are computed: a ramp that arrives,
+a number that reaches what a condition compares it with, a delay that ends. Time counts in whole milliseconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import floor
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.codec import CodecError, encode, float_of, rule_in_force
+from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.model import Point
+from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Pair, Ref, Rule, Rules, Step
+
+if TYPE_CHECKING:
+    from fieldscribe.simulation.device import SimulatedDevice
+    from fieldscribe.simulation.memory import Memory
+
+SAMPLE = 10
+"""How many milliseconds a moving number may be old when a request reads it."""
+
+_MOST_PASSES = 8
+_MOST_EVENTS = 100_000
+_DECIMALS = 10**9
+"""Numbers between the raw numbers are kept to 10^-9, so that they do not grow."""
+
+
+class Behaviour:
+    """The rules of a behaviour at work on the memory of one device."""
+
+    def __init__(self, rules: Rules) -> None:
+        self.rules = rules
+        self._memory: Memory
+        self._rules: list[Rule] = []
+        self._readers: dict[str, frozenset[int]] = {}
+        self._started = False
+        self._plant: dict[str, Fraction] = {}
+        self._begin(0)
+
+    @property
+    def plant(self) -> Mapping[str, Fraction]:
+        """The quantities that no point holds, by name."""
+        return self._plant
+
+    def set(self, name: str, number: Fraction) -> None:
+        """Let a quantity be a number from now on."""
+        self._numbers.pop(Ref(name, "plant"), None)
+        self._plant[name] = number
+        self.touch()
+
+    def touch(self) -> None:
+        """Take notice that anything may have changed, and be exact with the next step in time."""
+        self._exact = True
+        self._stale.update(range(len(self._rules)))
+
+    def advance(self, device: SimulatedDevice, now: float) -> None:
+        """Bring the memory to the time `now`, in seconds of the clock."""
+        if not self._started:
+            self._started, self._memory = True, device.memory
+            self._rules = _existing(self.rules.rules, device.memory.layout.points)
+            self._readers = _readers(self._rules, device.memory.layout.points)
+            self.touch()
+            for name, value in self.rules.start.items():
+                if name in device.memory.layout.points:
+                    self._put(Ref(name, "value"), value)
+        self._advance(_milliseconds(now) - self._origin)
+
+    def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
+        """Take notice of a write: the rules see it at once."""
+        for point in points:
+            self._stale |= self._readers.get(point.name, frozenset())
+        self.advance(device, now)
+
+    def restarted(self, device: SimulatedDevice, now: float) -> None:
+        """Begin anew: what moves starts as before, all else holds what the memory kept."""
+        self._begin(_milliseconds(now))
+        for rule in self._rules:
+            if rule.ref.kind == "value" and rule.ref.name in self.rules.start:
+                self._put(rule.ref, self.rules.start[rule.ref.name])
+        self.advance(device, now)
+
+    def _begin(self, origin: int) -> None:
+        self._origin, self._now = origin, 0
+        self._numbers: dict[Ref, Fraction] = {}
+        self._before: dict[Ref, Fraction] = {}
+        self._slopes: dict[Ref, Fraction] = {}
+        self._held: dict[Ref, int] = {}
+        self._since: dict[Step, int] = {}
+        self._done: set[Step] = set()
+        self._next: int | None = None
+        self._exact = False
+        self._stale: set[int] = set(range(len(self._rules)))
+        """The rules that may have something to do, by their place."""
+        self._waiting: set[int] = set()
+        """The rules that wait for the end of a delay."""
+        self._plant.update((name, quantity.start) for name, quantity in self.rules.plant.items())
+
+    def _advance(self, now: int) -> None:
+        if self._stale:
+            self._settle()
+        for _ in range(_MOST_EVENTS):
+            if self._next is None or self._next > now:
+                break
+            self._go(self._next)
+            self._settle()
+        if not self._slopes and TIME not in self._readers:
+            self._now = max(self._now, now)
+        elif now - self._now >= (1 if self._exact else SAMPLE):
+            self._go(now)
+            self._settle()
+        self._exact = False
+
+    def _go(self, now: int) -> None:
+        """Move all numbers along their lines."""
+        elapsed = Fraction(now - self._now, 1000)
+        self._now = now
+        self._stale |= self._waiting | self._readers.get(TIME, frozenset())
+        for ref, slope in self._slopes.items():
+            self._before[ref] = number = self._read(ref)[0]
+            self._put(ref, number + slope * elapsed)
+
+    def _settle(self) -> None:
+        """Apply the rules until nothing changes any more at this time, and plan the next event."""
+        for _ in range(_MOST_PASSES):
+            for place, rule in enumerate(self._rules):
+                if place in self._stale:
+                    self._stale.discard(place)
+                    self._apply(rule)
+            if not self._stale:
+                break
+        self._stale.clear()
+        self._before.clear()
+        self._next = min(self._events(), default=None)
+
+    def _apply(self, rule: Rule) -> None:
+        """Apply the move of a rule that counts."""
+        ready = [step for step in rule.steps if self._is_ready(step)]
+        step = next((step for step in ready if not (step.once and step in self._done)), None)
+        number = self._read(rule.ref)[0]
+        aim: Pair = number, ZERO
+        if step is not None:
+            aim = self._aim(rule.ref, step, number)
+        self._done.update(step for step in ready if step.once)
+        if aim != (number, self._slopes.get(rule.ref, ZERO)):
+            if aim[1]:
+                self._slopes[rule.ref] = aim[1]
+            else:
+                self._slopes.pop(rule.ref, None)
+            self._put(rule.ref, aim[0])
+
+    def _aim(self, ref: Ref, step: Step, number: Fraction) -> Pair:
+        """Return what a number is now by a move, and its slope; it keeps still where there is no result."""
+        try:
+            target, slope = step.target.at(self._read)
+        except ZeroDivisionError:
+            return number, ZERO
+        if not step.rates:
+            return _rounded(target), ZERO if step.once else slope
+        target = _rounded(target)
+        arrived = (self._before.get(ref, number) - target) * (number - target) <= 0
+        rate = self._rate(step, up=target > number)
+        if rate is None or (arrived and abs(slope) <= rate):
+            return target, slope
+        return number, rate if target > number or (arrived and slope > 0) else -rate
+
+    def _rate(self, step: Step, *, up: bool) -> Fraction | None:
+        """Return how fast a number moves; None if at once."""
+        try:
+            return abs(step.rates[0 if up else -1].at(self._read)[0])
+        except ZeroDivisionError:
+            return None
+
+    def _is_ready(self, step: Step) -> bool:
+        """Return True if a move's condition has held for long enough."""
+        if step.clauses and not any(
+            all(test.holds(self._read(test.ref)[0]) for test in clause) for clause in step.clauses
+        ):
+            self._since.pop(step, None)
+            self._done.discard(step)
+            return False
+        return self._due(step, self._since.setdefault(step, self._now)) <= self._now
+
+    def _due(self, step: Step, since: int) -> int:
+        """Return the time at which a move is ready whose condition has held since then."""
+        try:
+            delay = ZERO if step.delay is None else step.delay.at(self._read)[0]
+        except ZeroDivisionError:
+            delay = ZERO
+        return since - floor(-delay * 1000)
+
+    def _events(self) -> Iterator[int]:
+        """Yield the times, later than now, at which a rule may find something else."""
+        self._waiting.clear()
+        moving = set(self._readers.get(TIME, ()))
+        moving.update(*(self._readers.get(ref.name, ()) for ref in self._slopes))
+        for place, rule in enumerate(self._rules):
+            for step in rule.steps if place in moving or rule.delays else ():
+                since = self._since.get(step)
+                if step.delay is not None and since is not None and (due := self._due(step, since)) > self._now:
+                    self._waiting.add(place)
+                    yield due
+                for test in {test for clause in step.clauses for test in clause}:
+                    for constant in test.constants:
+                        yield from self._meeting(self._read(test.ref), (constant, ZERO))
+                if step.rates and since is not None and rule.ref in self._slopes:
+                    yield from self._meeting(self._read(rule.ref), step.target.at(self._read))
+
+    def _meeting(self, first: Pair, second: Pair) -> Iterator[int]:
+        """Yield the first millisecond behind the time at which two numbers meet, if they do."""
+        approach = second[1] - first[1]
+        if approach and (wait := (first[0] - second[0]) / approach) >= 0:
+            yield self._now + floor(wait * 1000) + 1
+
+    def _read(self, ref: Ref) -> Pair:
+        """Return a number and its slope; what was written over a moving number counts."""
+        if ref.kind == "time":
+            return Fraction(self._now, 1000), Fraction(1)
+        if ref.kind == "plant":
+            return self._numbers.get(ref, self._plant[ref.name]), self._slopes.get(ref, ZERO)
+        held = self._raw(ref)
+        if self._held.get(ref) == held:
+            return self._numbers[ref], self._slopes.get(ref, ZERO)
+        return self._decoded(ref, held), ZERO
+
+    def _raw(self, ref: Ref) -> int:
+        """Return the number that a point or a flag holds."""
+        raw = self._memory.raw(ref.name)
+        flag = ref.flag
+        if flag is None:
+            return raw
+        bits = raw >> flag.low & mask_of(flag.width)
+        return bits if flag.active or flag.width > 1 else 1 - bits
+
+    def _decoded(self, ref: Ref, held: int) -> Fraction:
+        """Return the value of a raw number; a special code counts as a number."""
+        point = self._memory.layout.points[ref.name]
+        if ref.kind != "value":
+            return Fraction(held)
+        if point.info.floating:
+            return Fraction(float_of(point, held))
+        try:
+            ratio, offset = rule_in_force(point, self._memory.settings)
+        except CodecError:
+            return Fraction(held)
+        return (held - offset) / ratio
+
+    def _put(self, ref: Ref, number: Fraction) -> None:
+        """Let a point or a quantity be a number, as near as its bits allow."""
+        number = _rounded(number)
+        self._numbers[ref] = number
+        self._stale |= self._readers.get(ref.name, frozenset())
+        if ref.kind == "plant":
+            self._plant[ref.name] = number
+            return
+        point = self._memory.layout.points[ref.name]
+        raw, flag = self._encoded(ref, point, number), ref.flag
+        self._held[ref] = raw
+        if flag is not None:
+            bits = raw if flag.active or flag.width > 1 else 1 - raw
+            raw = self._memory.raw(ref.name) & ~mask_of(flag.width, flag.low) | bits << flag.low
+        self._memory.put(ref.name, raw)
+
+    def _encoded(self, ref: Ref, point: Point, number: Fraction) -> int:
+        flag = ref.flag
+        low, high = (point.least, point.greatest) if flag is None else (0, mask_of(flag.width))
+        try:
+            raw = encode(point, number, self._memory.settings) if ref.kind == "value" else round(number)
+        except CodecError:
+            raw = round(number)
+        return raw if point.info.floating else min(max(raw, low), high)
+
+
+def _readers(rules: Sequence[Rule], points: Mapping[str, Point]) -> dict[str, frozenset[int]]:
+    """Return the places of the rules that read a point or a quantity, or whose point needs it for its scale."""
+    readers: dict[str, set[int]] = {}
+    for place, rule in enumerate(rules):
+        for ref in (rule.ref, *(ref for step in rule.steps for ref in step.refs)):
+            needed = points[ref.name].scale_arguments if ref.name in points else ()
+            for name in (ref.name, *needed):
+                readers.setdefault(name, set()).add(place)
+    return {name: frozenset(places) for name, places in readers.items()}
+
+
+def _existing(rules: Iterable[Rule], points: Container[str]) -> list[Rule]:
+    """Return the rules about what this variant of the device has."""
+    return [
+        Rule(rule.ref, tuple([step for step in rule.steps if all(_exists(ref, points) for ref in step.refs)]))
+        for rule in rules
+        if _exists(rule.ref, points)
+    ]
+
+
+def _exists(ref: Ref, points: Container[str]) -> bool:
+    return ref.kind in ("plant", "time") or ref.name in points
+
+
+def _milliseconds(seconds: float) -> int:
+    """Return the whole milliseconds; sums of fractions may be a little short of one."""
+    return round(seconds * 1_000_000) // 1000
+
+
+def _rounded(number: Fraction) -> Fraction:
+    return number if _DECIMALS % number.denominator == 0 else Fraction(round(number * _DECIMALS), _DECIMALS)

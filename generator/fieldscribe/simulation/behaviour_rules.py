@@ -1,0 +1,150 @@
+"""The rules of a behaviour as data: what moves, what conditions compare, and how fast and when."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
+
+from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
+from fieldscribe.model import Flag, Titles
+
+ZERO = Fraction(0)
+TIME = "time"
+"""The name of the seconds since the start of the simulation."""
+
+Pair = tuple[Fraction, Fraction]
+"""A number, and how fast it changes in a second."""
+
+_TESTS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Ref:
+    """What a name stands for: the value of a point in its unit, its raw number, a flag of it, a quantity, or the time.
+
+    `unit` is its symbol, an empty text for plain numbers.
+    """
+
+    name: str
+    kind: Literal["value", "raw", "flag", "plant", "time"]
+    flag: Flag | None = field(default=None, compare=False)
+    unit: str = field(default="", compare=False)
+    flag_name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Test:
+    """Compares a number with constants; the test `in` takes several."""
+
+    ref: Ref
+    op: str
+    constants: tuple[Fraction, ...]
+
+    def holds(self, number: Fraction) -> bool:
+        """Return True if the comparison is true of a number."""
+        return number in self.constants if self.op == "in" else _TESTS[self.op](number, self.constants[0])
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """An expression, and the factor that turns it into the unit of the point, or into seconds."""
+
+    expression: Expression
+    refs: Mapping[Name, Ref]
+    factor: Fraction = Fraction(1)
+
+    def at(self, read: Callable[[Ref], Pair]) -> Pair:
+        """Return the number and its slope. Raises ZeroDivisionError."""
+        number, slope = _evaluated(self.expression, lambda name: read(self.refs[name]))
+        return number * self.factor, slope * self.factor
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Step:
+    """One move: to a target, at once or at a rate (up, down), while one of the clauses holds.
+
+    With `once` it happens when they come true. `delay` is how long they must hold before, in seconds.
+    """
+
+    target: Amount
+    rates: tuple[Amount, ...]
+    clauses: tuple[tuple[Test, ...], ...]
+    once: bool
+    delay: Amount | None
+
+    @property
+    def refs(self) -> list[Ref]:
+        """Return everything that it reads."""
+        amounts = [self.target, *self.rates, *([] if self.delay is None else [self.delay])]
+        compared = [test.ref for clause in self.clauses for test in clause]
+        return [*(ref for amount in amounts for ref in amount.refs.values()), *compared]
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """The moves of one number; the first that applies counts."""
+
+    ref: Ref
+    steps: tuple[Step, ...]
+
+    @property
+    def delays(self) -> bool:
+        """Return True if a move waits for a while."""
+        return any(step.delay is not None for step in self.steps)
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A quantity that no point holds."""
+
+    name: str
+    start: Fraction
+    unit: str
+    title: Titles
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What a simulated device does. `start` has values in the unit, or raw numbers of names, by point."""
+
+    plant: Mapping[str, Quantity]
+    start: Mapping[str, Fraction]
+    rules: tuple[Rule, ...]
+
+
+def _evaluated(expression: Expression, read: Callable[[Name], Pair]) -> Pair:
+    """Return the number of an expression and its slope."""
+    match expression:
+        case Number(value):
+            return value, ZERO
+        case Name():
+            return read(expression)
+        case Negate(operand):
+            number, slope = _evaluated(operand, read)
+            return -number, -slope
+        case Power10(exponent, negative):
+            number, _ = _evaluated(exponent, read)
+            return Fraction(10) ** (-int(number) if negative else int(number)), ZERO
+        case Binary(op, left, right):
+            return _joined(op, _evaluated(left, read), _evaluated(right, read))
+
+
+def _joined(op: str, left: Pair, right: Pair) -> Pair:
+    (first, first_slope), (second, second_slope) = left, right
+    if op == "+":
+        return first + second, first_slope + second_slope
+    if op == "-":
+        return first - second, first_slope - second_slope
+    if op == "*":
+        return first * second, first_slope * second + first * second_slope
+    return first / second, (first_slope * second - first * second_slope) / (second * second)
