@@ -50,10 +50,17 @@ def runtime_files(folder: str) -> tuple[str, ...]:
 
 
 def use_python_runtime() -> None:
-    """Let `fieldscribe_runtime` be imported from the templates, which is the one that generated packages get."""
-    folder = str(templates_dir() / "python/runtime")
-    if folder not in sys.path:
-        sys.path.insert(0, folder)
+    """Let `fieldscribe_runtime` be imported from the templates, which is the one that generated packages get.
+
+    Raises ImportError if the program has imported one from elsewhere: objects of two runtimes do not fit together.
+    """
+    folder = templates_dir() / "python/runtime"
+    loaded = getattr(sys.modules.get("fieldscribe_runtime"), "__file__", None)
+    if loaded is not None and Path(loaded).resolve().parents[1] != folder:
+        here = Path(loaded).parent
+        raise ImportError(f"fieldscribe_runtime was imported from {here}, and fieldscribe needs the one in {folder}")
+    if str(folder) not in sys.path:
+        sys.path.insert(0, str(folder))
 
 
 def _shipped(name: str) -> Path:

@@ -49,6 +49,8 @@ ROOMS = (
     ("what a family exports alone", "families.*.dbc families.*.dbc_signals"),
     ("a simulated device", "simulation"),
     ("what a family knows of simulated devices", "families.*.simulation"),
+    ("a real device", "live"),
+    ("the lines of a family", "families.*.lines"),
     ("output", "output"),
     ("what a project takes", "vendoring"),
     ("a person who writes a description", "authoring"),

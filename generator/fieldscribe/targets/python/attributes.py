@@ -8,10 +8,19 @@ from typing import NamedTuple
 from fieldscribe.model import Point, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.targets.python.expressions import Call, Name, call
+from fieldscribe.targets.python.expressions import Call, Name
 from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import arguments, docstring, leaf, wrapped
-from fieldscribe.targets.python.point_call import PointFields, call_of, keeps, numbers_of
+from fieldscribe.targets.python.point_call import (
+    PointFields,
+    attribute_of,
+    call_of,
+    keeps,
+    numbers_of,
+    old_attributes,
+    old_names_of,
+    variants_call,
+)
 from fieldscribe.targets.python.point_expressions import addresses_of, is_limited, number
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, open_text, overflow_texts, range_text, write_texts
@@ -65,6 +74,10 @@ class Attributes:
         self._limits: dict[tuple[int, int], LimitTexts] = {}
         self._remarks: dict[int, tuple[str, list[str]]] = {}
 
+    def of(self, member: Point | dict[Variant, Point]) -> str:
+        """Return the attribute of a point, or of points that have one name in different variants."""
+        return self.of_point(member) if isinstance(member, Point) else self.by_variant(member)
+
     def of_point(self, point: Point) -> str:
         """Return the attribute of a point."""
         key, scope = self._keys[id(point)], self._scope
@@ -82,11 +95,9 @@ class Attributes:
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
         """Return the attribute of points that have one name in different variants."""
         variant, first = next(iter(points.items()))
-        chosen = {variant.value: Name(attribute(point.item)) for variant, point in points.items()}
         doc = docstring(wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it.")))
-        old_names = tuple(dict.fromkeys(name for point in points.values() for name in point.was))
-        made = call(self._scope.runtime("ByVariant"), variant.axis, chosen)
-        return self.text(attribute_view(attribute(first.name), made, doc, old_names))
+        made = variants_call(points, self._scope)
+        return self.text(attribute_view(attribute(first.name), made, doc, old_names_of(points)))
 
     def text(self, view: AttributeView) -> str:
         """Return the text of an attribute."""
@@ -98,7 +109,7 @@ class Attributes:
         """Return the texts that only this point has: attribute, docstring, then those of `PointFields`."""
         code = point.code
         return (
-            attribute(point.name if point.variant is None else point.item),
+            attribute_of(point),
             _docstring(point.title["en"], limits[0], *remarks),
             python_string(point.terms.group),
             python_string(code) if code else "",
@@ -110,8 +121,8 @@ class Attributes:
         )
 
     def _view(self, point: Point, texts: tuple[str, ...]) -> AttributeView:
-        old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
-        return attribute_view(texts[0], call_of(point, _named(texts, point), self._scope), texts[1], old_names)
+        made = call_of(point, _named(texts, point), self._scope)
+        return attribute_view(texts[0], made, texts[1], old_attributes(point))
 
 
 def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> AttributeView:

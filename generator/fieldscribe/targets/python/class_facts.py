@@ -5,12 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
-from fieldscribe.model import Command, Device, Point, SteppedCommand
+from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
 from fieldscribe.targets.python.device import in_python
 from fieldscribe.targets.python.expressions import Call, Node, call
 from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.point_call import places
 from fieldscribe.targets.python.point_expressions import addresses_of, number, place_of_command, step_of
+
+
+def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:
+    """Return the points that have attributes, group by group; behind them those that have one name in variants."""
+    groups: dict[str, list[Point | dict[Variant, Point]]] = {group.name: [] for group in device.groups}
+    by_name: dict[str, dict[Variant, Point]] = {}
+    for point in device.points:
+        group = groups.setdefault(point.terms.group, [])
+        if not point.terms.generated:
+            continue
+        group.append(point)
+        if point.variant is not None:
+            by_name.setdefault(point.name, {})[point.variant] = point
+    for same in by_name.values():
+        groups[next(iter(same.values())).group].append(same)
+    return groups
 
 
 def class_facts(scope: PackageScope) -> Mapping[str, Node]:

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from fieldscribe.conditions import absent
-from fieldscribe.model import Point
+from fieldscribe.model import Point, Variant
 from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.expressions import Call, Hex, Node, call
-from fieldscribe.targets.python.identifiers import PackageScope
-from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, place
+from fieldscribe.targets.python.expressions import Call, Hex, Name, Node, call
+from fieldscribe.targets.python.identifiers import PackageScope, attribute
+from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 
 _Facts = Iterator[tuple[str, Node]]
 
@@ -28,6 +28,37 @@ class PointFields(NamedTuple):
     addresses: tuple[Node, ...]
     references: tuple[Node, ...]
     ends: tuple[Node, ...]
+
+
+def fields_of(point: Point, scope: PackageScope) -> PointFields:
+    """Return the fields of a point as values."""
+    default = None if point.default is None else number(point.default)
+    references = tuple(point.place.references.values())
+    return PointFields(
+        point.group, point.code or None, default, numbers_of(point, scope), point.addresses, references, ()
+    )
+
+
+def attribute_of(point: Point) -> str:
+    """Return the attribute of a point; one that only a variant has is called after its item."""
+    return attribute(point.name if point.variant is None else point.item)
+
+
+def old_attributes(point: Point) -> tuple[str, ...]:
+    """Return the old attributes of a point; those of one that only a variant has belong to all of its name."""
+    return () if point.variant is not None else tuple(map(attribute, point.was))
+
+
+def variants_call(points: Mapping[Variant, Point], scope: PackageScope) -> Call:
+    """Return the call that makes the attribute of points that have one name in different variants."""
+    axis = next(iter(points)).axis
+    chosen = {variant.value: Name(attribute_of(point)) for variant, point in points.items()}
+    return call(scope.runtime("ByVariant"), axis, chosen)
+
+
+def old_names_of(points: Mapping[Variant, Point]) -> tuple[str, ...]:
+    """Return the old attributes of points that have one name in different variants."""
+    return tuple(dict.fromkeys(name for point in points.values() for name in point.was))
 
 
 def call_of(point: Point, fields: PointFields, scope: PackageScope) -> Call:

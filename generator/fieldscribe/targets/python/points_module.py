@@ -5,10 +5,10 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable
 
-from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
+from fieldscribe.model import Command, Device, SteppedCommand
 from fieldscribe.resources import Render
 from fieldscribe.targets.python.attributes import Attributes, AttributeView, attribute_view
-from fieldscribe.targets.python.class_facts import class_facts, commands_of, readable_groups
+from fieldscribe.targets.python.class_facts import class_facts, commands_of, members, readable_groups
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.expressions import Call
 from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, sorted_imports
@@ -29,17 +29,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     scope.runtime("PointTable")
     attributes = Attributes(scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
-    groups: dict[str, list[str]] = {group: [] for group in titles}
-    by_name: dict[str, dict[Variant, Point]] = {}
-    for point in device.points:
-        texts = groups.setdefault(point.terms.group, [])
-        if not point.terms.generated:
-            continue
-        texts.append(attributes.of_point(point))
-        if point.variant is not None:
-            by_name.setdefault(point.name, {})[point.variant] = point
-    for same in by_name.values():
-        groups[next(iter(same.values())).group].append(attributes.by_variant(same))
+    groups = {group: list(map(attributes.of, found)) for group, found in members(device).items()}
     commands = "".join([attributes.text(_command(*command, scope)) for command in commands_of(scope)])
     profile, *facts = [laid_out(node, 4, f"{name}: ClassVar = ") for name, node in class_facts(scope).items()]
     return {
