@@ -115,5 +115,5 @@ def test_another_runtime_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     other = ModuleType("fieldscribe_runtime")
     other.__file__ = str(PACKAGES / "fieldscribe_runtime/__init__.py")
     monkeypatch.setitem(sys.modules, "fieldscribe_runtime", other)
-    with pytest.raises(ImportError, match="was imported from .*generated/python/fieldscribe_runtime"):
+    with pytest.raises(ImportError, match=r"was imported from .*generated/python/fieldscribe_runtime"):
         use_python_runtime()
