@@ -328,6 +328,13 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row(
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_row(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t number);
 
+/* The same of a row that counts from a base. BAD_COUNT says that nothing was sent, because the base ends before it. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row_at(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_based_row *row, fieldscribe_modbus_base base, int64_t *number);
+
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_row_at(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_based_row *row, fieldscribe_modbus_base base, int64_t number);
+
 /* Start of a function that reads or writes a point. */
 #define FIELDSCRIBE_MODBUS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status
 
@@ -1329,6 +1336,35 @@ fieldscribe_modbus_status fieldscribe_modbus_write_row(
         }
     }
     return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_read_row_at(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_based_row *row, fieldscribe_modbus_base base, int64_t *number)
+{
+    fieldscribe_modbus_row moved = row->row;
+    fieldscribe_modbus_reading read = {0U, 0U, 0U};
+    if (moved.read != NULL) {
+        read = fieldscribe_modbus_reading_at(base, moved.read);
+        moved.read = &read;
+    }
+    return fieldscribe_modbus_read_row(unit, &moved, number);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_write_row_at(fieldscribe_modbus_unit *unit,
+    const fieldscribe_modbus_based_row *row, fieldscribe_modbus_base base, int64_t number)
+{
+    fieldscribe_modbus_row moved = row->row;
+    fieldscribe_modbus_reading read = {0U, 0U, 0U};
+    fieldscribe_modbus_writing write = {0U, 0U, 0U};
+    if (moved.read != NULL) {
+        read = fieldscribe_modbus_reading_at(base, moved.read);
+        moved.read = &read;
+    }
+    if (moved.write != NULL) {
+        write = fieldscribe_modbus_writing_at(base, moved.write);
+        moved.write = &write;
+    }
+    return fieldscribe_modbus_write_row(unit, &moved, number);
 }
 
 /* The most blocks that are looked at: a broken device must not keep the line busy. */

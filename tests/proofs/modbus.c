@@ -829,6 +829,26 @@ void prove_write_row(int64_t wanted)
     (void)fieldscribe_modbus_write_row(&unit, &row, wanted);
 }
 
+/* Rows at any base; its words are as many as the layout has, or none. */
+void prove_read_row_at(fieldscribe_modbus_base at)
+{
+    static fieldscribe_modbus_based_row based;
+    int64_t got;
+    of_row();
+    based.row = row;
+    (void)fieldscribe_modbus_read_row_at(&unit, &based, at, &got);
+}
+
+void prove_write_row_at(fieldscribe_modbus_base at, int64_t wanted)
+{
+    static fieldscribe_modbus_based_row based;
+    of_row();
+    row.read = &reading;
+    writing.count = layout.words;
+    based.row = row;
+    (void)fieldscribe_modbus_write_row_at(&unit, &based, at, wanted);
+}
+
 void prove_status_name(unsigned status)
 {
     (void)fieldscribe_modbus_status_name((fieldscribe_modbus_status)status);

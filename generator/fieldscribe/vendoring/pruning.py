@@ -64,15 +64,16 @@ def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
         return whole
     texts[-1] = texts[-1].rstrip()
     for at in reversed(range(len(texts))):
-        if _is_empty(texts[at], texts[at + 1] if at + 1 < len(texts) else _CLOSES):
+        if _is_empty(texts[at], *texts[at + 1 : at + 3]):
             del texts[at : at + 2 - _is_comment(texts[at])]
     return _NOTICE + whole[: len(whole) - len(_HEAD.sub("", whole))] + "\n\n".join(texts) + "\n"
 
 
-def _is_empty(part: str, following: str) -> bool:
-    """Return True for a comment with nothing below it, and for a condition with nothing in it."""
+def _is_empty(part: str, following: str = _CLOSES, second: str = "") -> bool:
+    """Return True for a comment with nothing below it, if need be in a condition, and for an empty condition."""
     if _is_comment(part):
-        ends = _is_comment(following) or following.startswith((_CLOSES, _CLOSES_C))
+        below = second if following.startswith("#if ") and second else following
+        ends = _is_comment(below) or following.startswith((_CLOSES, _CLOSES_C))
         return ends or ("/* ----" not in part and following.startswith("/*"))
     return (part, following) == (_OPENS_C, _CLOSES_C) or (following == _CLOSES and part.startswith("#if "))
 

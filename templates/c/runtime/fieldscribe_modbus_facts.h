@@ -137,6 +137,11 @@ typedef struct fieldscribe_modbus_row {
 #endif
 } fieldscribe_modbus_row;
 
+/* The same of a point whose addresses count from a base, for fieldscribe_modbus_read_row_at and ..._write_row_at. */
+typedef struct fieldscribe_modbus_based_row {
+    fieldscribe_modbus_row row;
+} fieldscribe_modbus_based_row;
+
 #define FIELDSCRIBE_MODBUS_RAW (-1)
 
 #ifdef FIELDSCRIBE_NAMES
@@ -146,6 +151,9 @@ typedef struct fieldscribe_modbus_row {
 #define FIELDSCRIBE_MODBUS_ROW(profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit) \
     {profile, layout, read, write, low, high, factor, add, divisor, decimals}
 #endif
+#define FIELDSCRIBE_MODBUS_BASED_ROW( \
+    profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit) \
+    {FIELDSCRIBE_MODBUS_ROW(profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit)}
 
 /* A named constant that is written. */
 typedef struct fieldscribe_modbus_command {

@@ -1,6 +1,6 @@
 /* Bases of addresses: given and found, in a unit whose registers are `held` from `first` on; the rest is refused. */
 #define FIELDSCRIBE_IMPLEMENTATION
-#include "kitchen_blocks_modbus.h"
+#include "kitchen_blocks_rows.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +57,37 @@ static fieldscribe_modbus_status find(uint16_t block, fieldscribe_modbus_base *b
     return fieldscribe_modbus_find(&unit, &kitchen_blocks_models, block, base);
 }
 
+/* Rows: plain, of an array, of bits, behind a found block; each does what the functions of its point do. */
+static const fieldscribe_modbus_based_row level = KITCHEN_BLOCKS_LEVEL_ROW;
+static const fieldscribe_modbus_based_row mode = KITCHEN_BLOCKS_MODE_ROW;
+static const fieldscribe_modbus_based_row energy = KITCHEN_BLOCKS_ENERGY_ROW;
+static const fieldscribe_modbus_row firmware = KITCHEN_BLOCKS_FIRMWARE_ROW;
+
+static void rows(void)
+{
+    fieldscribe_modbus_line line = {&kitchen_blocks_modbus_profile, NULL, 0U, NULL, NULL, NULL, 0U, 0U};
+    kitchen_blocks_device device = {{&line, &ask, 1U, 0U, 0U, false}};
+    const fieldscribe_modbus_base base = kitchen_blocks_slot_half_base(3U, 1U);
+    const fieldscribe_modbus_base early = {3016U, 4U}; /* level is behind its end */
+    int64_t number = 0;
+    PUT(3021U, 405U, 1U, 2U, 0xFFF1U);
+    CHECK(fieldscribe_modbus_read_row_at(&device.unit, &level, base, &number) == FIELDSCRIBE_MODBUS_OK && number == 405);
+    CHECK(fieldscribe_modbus_read_row_at(&device.unit, &energy, base, &number) == FIELDSCRIBE_MODBUS_OK);
+    CHECK(number == 0x10002);
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &level, base, 1000) == FIELDSCRIBE_MODBUS_OK);
+    CHECK(held[3021] == 1000U);
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &mode, base, 5) == FIELDSCRIBE_MODBUS_OK && held[3024] == 0xFFFBU);
+    asked = 0U;
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &level, base, 1001) == FIELDSCRIBE_MODBUS_OUT_OF_RANGE);
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &energy, base, 1) == FIELDSCRIBE_MODBUS_BAD_FUNCTION);
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &level, early, 1) == FIELDSCRIBE_MODBUS_BAD_COUNT);
+    CHECK(fieldscribe_modbus_write_row_at(&device.unit, &mode, early, 1) == FIELDSCRIBE_MODBUS_BAD_COUNT);
+    CHECK(fieldscribe_modbus_read_row_at(&device.unit, &level, early, &number) == FIELDSCRIBE_MODBUS_BAD_COUNT);
+    CHECK(asked == 0U && number == 0x10002 && held[3021] == 1000U);
+    PUT(5U, 17U);
+    CHECK(fieldscribe_modbus_read_row(&device.unit, &firmware, &number) == FIELDSCRIBE_MODBUS_OK && number == 17);
+}
+
 int main(void)
 {
     kitchen_blocks_device device = {{NULL, &ask, 1U, 0U, 0U, false}};
@@ -98,6 +129,7 @@ int main(void)
     CHECK(find(8U, &base) == FIELDSCRIBE_MODBUS_OVERFLOW);
     PUT(0U, 1U);
     CHECK(find(7U, &base) == FIELDSCRIBE_MODBUS_UNKNOWN_VALUE && asked == 3U);
+    rows();
     memset(there, 1, sizeof there);
     memset(held, 0, sizeof held);
     held[0] = 0x5375U;

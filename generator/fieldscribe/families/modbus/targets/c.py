@@ -211,7 +211,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) and not point.base else None
+    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) else None
     return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
 
 
@@ -221,7 +221,7 @@ def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
     ways = {way: f"&{view.function}_frame.{names[way]}" for way in access if way == "r" or is_written_by_row(view)}
     read, write = ways.get("r", "NULL"), ways.get("w", ways.get("u", "NULL"))
     facts = f"&{scope.prefix}_modbus_profile", layout, read, write, *facts_of(view, "FIELDSCRIBE_MODBUS_RAW")
-    return called("FIELDSCRIBE_MODBUS_ROW", *facts)
+    return called(f"FIELDSCRIBE_MODBUS_{'BASED_' if view.point.base else ''}ROW", *facts)
 
 
 def _transfer(function: int | None, address: str, words: int) -> str:
