@@ -170,6 +170,16 @@ CLAIMS = {
         "heat_pump --out bindings": Claim(0, r"^\d\d:\d\d:\d\d heat_pump: \d+ written", made="bindings/c/heat_pump.h"),
         "--target c,docs": Claim(0, r"^\d\d:\d\d:\d\d 7 devices: \d+ written", made="generated/docs/hitachi_l200.md"),
     },
+    "simulate": {
+        "hitachi_l200 --tcp 5020": Claim(0, r"^hitachi_l200 answers as unit 1 on tcp://127\.0\.0\.1:\d+\n0 requests$"),
+        "hitachi_l200 eastron_sdm630@2 --serial": Claim(0, r"^eastron_sdm630 answers as unit 2 on /dev/"),
+        'hitachi_l200 --set A020=60 --fault "late 0.5 x3" --strict --for 10': Claim(
+            0, "^0 requests, 0 against the manual$"
+        ),
+        "--bench bench.yaml --trace trace.jsonl": Claim(
+            0, r"unit 12 on tcp://(.|\n)*unit 1 on /dev/", made="trace.jsonl"
+        ),
+    },
     "vendor": {
         "c hitachi_l200 --out firmware/drivers": Claim(0, "", made="firmware/drivers/hitachi_l200.h"),
         "c hitachi_l200 --out firmware/drivers --points A001,D001,run_command": Claim(
@@ -229,7 +239,7 @@ def test_examples_do_what_they_show(
         drafted(folder, capsys)
     if command == "vendor":
         asked_for(folder)
-    if command == "watch":
+    if command in ("simulate", "watch"):
         stops_at_once(monkeypatch)
     if command in ("decode", "docs", "encode", "explain", "export", "list", "search"):
         monkeypatch.setattr(pipeline, "load_device", _load_once)

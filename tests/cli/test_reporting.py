@@ -52,6 +52,7 @@ ENDS: dict[str, dict[int, list[str]]] = {
     "import": {2: ["table", "no.csv"]},
     "fmt": {0: ["--check", "small_drive"], 1: ["--check", "untidy"], 2: ["--check", "nowhere"]},
     "watch": {2: ["nowhere"]},
+    "simulate": {0: ["small_drive", "--for", "0"], 1: ["broken", "--for", "0"], 2: ["nowhere"]},
     "units": {0: ["Hz"], 1: ["furlong"], 2: ["--format", "csv"]},
     "schema": {0: [], 2: ["--colour"]},
 }

@@ -112,7 +112,7 @@ NO_FACTS = (
             "Block.points",
             "Block.base",
         ),
-        *("Code.most", "Frame.family_facts", "Message.length"),
+        *("Code.most", "Code.line", "Frame.family_facts", "Message.length"),
     ),
     *("Field.start", "Field.width", "Field.low_first", "Field.word", "Field.when"),
     *("Point.errata", "Frame.errata", "Enum.title", "Enum.was", "Erratum.where", "ScaleCase.written"),

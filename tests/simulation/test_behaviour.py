@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.device import SimulatedDevice
-from fieldscribe.simulation.library import layout_of, rules_of
+from fieldscribe.simulation.making import layout_of, rules_of
 
 
 def running(name: str) -> SimulatedDevice:

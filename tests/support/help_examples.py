@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import io
 import re
 import shlex
@@ -9,12 +10,15 @@ import shutil
 import subprocess
 import sys
 import threading
+from collections.abc import Coroutine
 from contextlib import chdir
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.simulation import making
+from fieldscribe.simulation.servers import serve_tcp
 
 from support.places import ROOT, TESTS
 
@@ -32,6 +36,14 @@ _TEXT = """\
 | A002 | 2 | Torque | u16 | 0..100 |
 """
 _STATUS = "group: status\ntitle: Status\npoints:\n- { name: speed,   at: 1 }\n"
+
+_BENCH = """\
+lines:
+- tcp: 5020
+  devices: [{device: hitachi_l200, units: 10..12}]
+- serial:
+  devices: [{device: eastron_sdm630, values: {phase_1_voltage: 231.5}}]
+"""
 
 
 class Example(NamedTuple):
@@ -85,6 +97,7 @@ def workplace(folder: Path) -> Path:
         "list.csv": "1;x;Speed;y;z;0..400\nA001;x;1;y;z;0..400\n",
         "manual.txt": "\n" * 700 + _TEXT,
         "status.yaml": _STATUS,
+        "bench.yaml": _BENCH,
         "points.txt": "A020\nd001\n",
     }.items():
         (folder / name).write_text(text, "utf-8")
@@ -134,3 +147,10 @@ def asked_for(folder: Path) -> None:
 def stops_at_once(patch: pytest.MonkeyPatch) -> None:
     """Let commands that run for ever end after their first round."""
     patch.setattr(threading.Event, "wait", lambda _event, _seconds=None: True)
+
+    async def wait_for(work: Coroutine[Any, Any, Any], _seconds: float | None) -> None:
+        work.close()
+        raise TimeoutError
+
+    patch.setattr(asyncio, "wait_for", wait_for)
+    patch.setattr(making, "serve_tcp", lambda line, host, _port: serve_tcp(line, host))  # 5020 may be taken

@@ -51,6 +51,7 @@ COMMANDS = {
     "explain": "show everything about one address, code or name",
     "decode": "decode frames from the line into points and values",
     "encode": "turn a value into its raw number, or into the whole request frame",
+    "simulate": "let devices answer on a line, as their descriptions say: TCP, serial ports, CAN",
     "audit": "compare everything that a description cites with the text of its manual",
     "diff": "show what changed between two descriptions, whom it breaks, and which step the version must take",
     "list": "list the known devices, or the points of one",

@@ -259,7 +259,8 @@ class Code:
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
     once; None means that the protocol decides. `answers` has the positive responses of a request, or the requests that
-    a response or an error may answer; `refusals` has the negative responses of a request.
+    a response or an error may answer; `refusals` has the negative responses of a request. `line` is where the manual
+    has it.
     """
 
     number: int
@@ -269,6 +270,7 @@ class Code:
     broadcast: bool | None = None
     answers: tuple[int, ...] = ()
     refusals: tuple[int, ...] = ()
+    line: int | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

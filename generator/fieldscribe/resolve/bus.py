@@ -11,7 +11,7 @@ from fieldscribe.language.keys import keys_of_family
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Block, Bus, Code, FamilyFacts, Message, Point, Telegram
-from fieldscribe.resolve.scope import Scope, titles
+from fieldscribe.resolve.scope import Scope, first_line, titles
 from fieldscribe.resolve.values import integer, interval
 from fieldscribe.resolve.word_contents import Taken, entry_titles, name_of
 
@@ -203,7 +203,8 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
     if isinstance(value, str):
         return Code(number, name, text, None)
     answers, refusals = (code_list(scope, value, key) for key in ("answers", "refusals"))
-    return Code(number, name, text, value.get("max"), value.get("broadcast"), answers, refusals)
+    line = first_line(value.get("line"))
+    return Code(number, name, text, value.get("max"), value.get("broadcast"), answers, refusals, line)
 
 
 def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -18,6 +19,9 @@ from fieldscribe.wording import label
 
 BUSY_FOR = 0.05
 """The seconds for which a point says that a command is at work; no manual gives them."""
+
+CYCLIC = 10, 60.0
+"""So many writes to memory that wears, within so many seconds, are cyclic ones to a strict device."""
 
 
 class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
@@ -95,8 +99,9 @@ class SimulatedDevice:
         self.conditions = dict.fromkeys((name for point in layout.points.values() for name in point.conditions), True)
         self.refusals: dict[str, int] = {}
         self.complaints: list[Complaint] = []
+        self.on_complaint: Callable[[Complaint], object] = lambda _complaint: None
         self.wear: dict[str, int] = {}
-        self._kept: dict[str, int] = {}
+        self._stored_at: dict[str, deque[float]] = {}
         self._lost: dict[str, int] = {}
         self._busy: dict[str, float] = {}
 
@@ -152,7 +157,7 @@ class SimulatedDevice:
     def perform(self, command: Command) -> None:
         """Carry out a command that is one write: it stores what waits for it, and takes its time."""
         if command.wears is not None:
-            self._wears(command.name, command.wears, command.source)
+            self._wears(command.name, command.source)
         stored = [name for name in self._lost if self.layout.points[name].keeps == command.name]
         for name in stored:
             del self._lost[name]
@@ -172,6 +177,7 @@ class SimulatedDevice:
         """Take down what a client did against the manual, if the device is strict."""
         if self.strict:
             self.complaints.append(Complaint(rule, what, source))
+            self.on_complaint(self.complaints[-1])
 
     def _command(self, area: Area, cells: Mapping[int, int]) -> Command | None:
         if len(cells) != 1:
@@ -224,12 +230,19 @@ class SimulatedDevice:
         """Note what a point held before the first write that no restart survives, and what wears the memory."""
         if point.keeps == "yes" or (point.keeps == "choice" and keep):
             self._lost.pop(point.name, None)
-            self._wears(point.name, None, point.source)
+            self._wears(point.name, point.source)
         elif point.keeps is not None:
             self._lost.setdefault(point.name, self.memory.raw(point.name))
 
-    def _wears(self, name: str, most: int | None, source: Source) -> None:
+    def _wears(self, name: str, source: Source) -> None:
+        """Count a write that wears the memory; complain of those that go on and on."""
         self.wear[name] = self.wear.get(name, 0) + 1
+        times = self._stored_at.setdefault(name, deque(maxlen=CYCLIC[0]))
+        times.append(self.clock.now())
+        if len(times) == CYCLIC[0] and times[-1] - times[0] < CYCLIC[1]:
+            what = f"{name} wrote the memory {CYCLIC[0]} times within {times[-1] - times[0]:.0f} s"
+            self.complain("cyclic writes", f"{what}, and each write wears it", source)
+            times.clear()
 
     def _look_at_parts(self, area: Area, addresses: Sequence[int]) -> None:
         inside = set(addresses)

@@ -24,14 +24,10 @@ _EXTENDED = 1 << 31
 
 
 class Server:
-    """A line that is served at `url`; `close` ends that. `ended` is set when the line ends by itself."""
+    """A line that is served at `url`: at a TCP port, or at the path of a serial port. `close` ends that."""
 
-    def __init__(self, url: str, close: Callable[[], None], ended: asyncio.Event | None = None) -> None:
-        self.url = url
-        self.port = 0
-        self.path = ""
-        self.close = close
-        self.ended = ended or asyncio.Event()
+    def __init__(self, url: str, close: Callable[[], None], *, port: int = 0, path: str = "") -> None:
+        self.url, self.close, self.port, self.path = url, close, port, path
 
 
 class _End(asyncio.Protocol):
@@ -39,52 +35,53 @@ class _End(asyncio.Protocol):
 
     def __init__(self, line: Line, ends: set[_End]) -> None:
         self._loop = asyncio.get_running_loop()
-        self._stream = Stream(line)
-        self._ends = ends
-        self._transport: Any = None
+        self._stream, self._ends = Stream(line), ends
+        self._reader: asyncio.ReadTransport | None = None
+        self._writer: asyncio.WriteTransport | None = None
         self._timer: asyncio.TimerHandle | None = None
-        self._free = 0.0
-        self._pending = 0
+        self._free, self._pending = 0.0, 0
 
-    def connection_made(self, transport: Any) -> None:
-        """Begin."""
-        self._transport = transport
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Begin; the two directions of a serial port come one by one."""
         self._ends.add(self)
+        if isinstance(transport, asyncio.ReadTransport):
+            self._reader = transport
+        if isinstance(transport, asyncio.WriteTransport):
+            self._writer = transport
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End: what waits is dropped."""
-        self._transport = None
+        self.close()
+        self._reader = self._writer = None
         self._ends.discard(self)
         if self._timer is not None:
             self._timer.cancel()
 
-    def data_received(self, data: bytes) -> None:
+    def data_received(self, data: bytes, *, quiet: bool = False) -> None:
         """Answer what has come."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
-        for outcome in self._stream.received(data):
+        for outcome in self._stream.received(data, quiet=quiet):
             self._send(outcome)
         if self._stream.waiting:
-            self._timer = self._loop.call_later(_QUIET, self._quiet)
+            self._timer = self._loop.call_later(_QUIET, lambda: self.data_received(b"", quiet=True))
 
     def pause_writing(self) -> None:
         """Read no more while the other end does not take its answers."""
-        self._transport.pause_reading()
+        if self._reader is not None:
+            self._reader.pause_reading()
 
     def resume_writing(self) -> None:
         """Read again."""
-        self._transport.resume_reading()
+        if self._reader is not None:
+            self._reader.resume_reading()
 
     def close(self) -> None:
         """Break the connection."""
-        if self._transport is not None:
-            self._transport.close()
-
-    def _quiet(self) -> None:
-        self._timer = None
-        for outcome in self._stream.received(b"", quiet=True):
-            self._send(outcome)
+        for transport in (self._reader, self._writer):
+            if transport is not None:
+                transport.close()
 
     def _send(self, outcome: Outcome) -> None:
         delay = self._stream.line.clock.real(outcome.delay) if outcome.delay else 0.0
@@ -94,22 +91,20 @@ class _End(asyncio.Protocol):
         self._free = max(self._free, self._loop.time() + delay)
         self._pending += 1
         self._loop.call_at(self._free, self._write_pending, outcome)
-        if self._pending == _MOST_PENDING and self._transport is not None:
-            self._transport.pause_reading()
+        if self._pending == _MOST_PENDING:
+            self.pause_writing()
 
     def _write_pending(self, outcome: Outcome) -> None:
-        if self._pending == _MOST_PENDING and self._transport is not None:
-            self._transport.resume_reading()
+        if self._pending == _MOST_PENDING:
+            self.resume_writing()
         self._pending -= 1
         self._write(outcome)
 
     def _write(self, outcome: Outcome) -> None:
-        if self._transport is None:
-            return
-        if outcome.data:
-            self._transport.write(outcome.data)
-        if outcome.drop:
-            self._transport.close()
+        if self._writer is not None and outcome.data:
+            self._writer.write(outcome.data)
+        if outcome.drop and isinstance(self._writer, asyncio.Transport):  # a serial port stays
+            self.close()
 
 
 async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
@@ -117,10 +112,10 @@ async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
     ends: set[_End] = set()
     try:
         listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
-    except OSError as error:
-        taken = error.errno == errno.EADDRINUSE
-        reason = "it is taken" if taken else error.strerror or str(error)
-        hint = "give another port, or 0 for any free one" if taken else "give an address of this machine and a port"
+    except (OSError, OverflowError) as error:
+        taken = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
+        hint = "give another port, or 0 for any free one" if taken else "give an address of this machine, and a port"
+        reason = "it is taken" if taken else str(error)
         raise UnclearError(f"port {port} of {host} cannot be served: {reason}", hint) from None
 
     def close() -> None:
@@ -129,116 +124,47 @@ async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
             end.close()
 
     port = listening.sockets[0].getsockname()[1]
-    server = Server(f"tcp://{f'[{host}]' if ':' in host else host}:{port}", close)
-    server.port = port
-    return server
+    return Server(f"tcp://{f'[{host}]' if ':' in host else host}:{port}", close, port=port)
 
 
 async def serve_serial(line: Line, path: str = "", baud: int = 0) -> Server:
     """Serve a line at a serial port, or at a new pseudo terminal without a path. Raises UnclearError."""
     import tty  # POSIX only, as pseudo terminals are
 
-    spare = -1
-    if path:
-        own = _opened(path, baud)
-    else:
-        own, spare = os.openpty()  # the spare end stays open, so that clients may come and go
+    port, spare = (_opened(path, baud), -1) if path else os.openpty()
+    if not path:  # its other end stays open, so that clients may come and go
         tty.setraw(spare)
-        os.set_blocking(own, False)
         path = os.ttyname(spare)
-    ended = asyncio.Event()
-    server = Server(path, _Port(own, spare, _End(line, set()), ended.set).close, ended)
-    server.path = path
-    return server
+    loop, end = asyncio.get_running_loop(), _End(line, set())
+    await loop.connect_write_pipe(lambda: end, os.fdopen(os.dup(port), "wb", 0))
+    await loop.connect_read_pipe(lambda: end, os.fdopen(port, "rb", 0))
+
+    def close() -> None:
+        end.close()
+        if spare >= 0:
+            os.close(spare)
+
+    return Server(path, close, path=path)
 
 
 def _opened(path: str, baud: int) -> int:
     import termios
     import tty
 
+    port = -1
     try:
         port = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
-    except OSError as error:
-        hint = "name a serial port or a pseudo terminal; without a name a new pseudo terminal is made"
-        raise UnclearError(f"`{path}` cannot be opened: {error.strerror}", hint) from None
-    try:
         tty.setraw(port)
-        if baud:
-            settings = termios.tcgetattr(port)
-            settings[4] = settings[5] = getattr(termios, f"B{baud}")
-            termios.tcsetattr(port, termios.TCSANOW, settings)
-    except AttributeError:
-        os.close(port)
-        raise UnclearError(f"this machine has no speed of {baud} baud", "give a usual one, such as 9600") from None
-    except termios.error:
-        os.close(port)
-        raise UnclearError(f"`{path}` is no serial port", "name a serial port or a pseudo terminal") from None
+        settings = termios.tcgetattr(port)
+        settings[4] = settings[5] = getattr(termios, f"B{baud}") if baud else settings[4]
+        termios.tcsetattr(port, termios.TCSANOW, settings)
+    except (OSError, termios.error, AttributeError) as error:
+        if port >= 0:
+            os.close(port)
+        reason = f"it has no speed of {baud} baud" if isinstance(error, AttributeError) else str(error.args[-1])
+        hint = "name a serial port or a pseudo terminal; without a name a new pseudo terminal is made"
+        raise UnclearError(f"`{path}` cannot be served: {reason}", hint) from None
     return port
-
-
-class _Port:
-    """A transport over a file descriptor."""
-
-    def __init__(self, own: int, spare: int, end: _End, ended: Callable[[], object]) -> None:
-        self._loop = asyncio.get_running_loop()
-        self._own, self._spare, self._end, self._ended = own, spare, end, ended
-        self._waiting = b""
-        end.connection_made(self)
-        self.resume_reading()
-
-    def write(self, data: bytes) -> None:
-        """Send bytes, now or when the port takes them."""
-        self._waiting += data
-        self._flush()
-
-    def close(self) -> None:
-        """Close the port, and drop what waits."""
-        if self._own < 0:
-            return
-        self._loop.remove_reader(self._own)
-        self._loop.remove_writer(self._own)
-        for descriptor in (self._own, self._spare):
-            if descriptor >= 0:
-                os.close(descriptor)
-        self._own = -1
-        self._end.connection_lost(None)
-        self._ended()
-
-    def pause_reading(self) -> None:
-        """Read no more for now."""
-        self._loop.remove_reader(self._own)
-
-    def resume_reading(self) -> None:
-        """Read again."""
-        self._loop.add_reader(self._own, self._read)
-
-    def _read(self) -> None:
-        try:
-            data = os.read(self._own, 4096)
-        except BlockingIOError:
-            return
-        except OSError:
-            data = b""
-        if data:
-            self._end.data_received(data)
-        else:
-            self.close()
-
-    def _flush(self) -> None:
-        try:
-            sent = os.write(self._own, self._waiting) if self._waiting else 0
-        except BlockingIOError:
-            sent = 0
-        except OSError:
-            self.close()
-            return
-        full, self._waiting = bool(self._waiting), self._waiting[sent:]
-        if self._waiting:
-            self._loop.add_writer(self._own, self._flush)
-            self.pause_reading()
-        elif full:
-            self._loop.remove_writer(self._own)
-            self.resume_reading()
 
 
 async def serve_can(line: Line, interface: str, channel: str, bitrate: int | None = None) -> Server:

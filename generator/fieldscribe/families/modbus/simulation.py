@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, request_in
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, crc16, frame, pack_bits, request_length
-from fieldscribe.model import Bus
+from fieldscribe.model import Bus, Source
 from fieldscribe.simulation.core import Answer
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 
@@ -56,6 +56,14 @@ class _Unit:
         point = self.delay_point
         return (self.delay if point is None else self.device.memory.raw(point)) / 1000
 
+    def source(self, refusal: Refusal, function: int) -> Source:
+        """Return where the manual has the rule that a refused request broke: of the point, else of the function."""
+        if refusal.point is not None:
+            return refusal.point.source
+        document = next((each.id for each in self.device.device.documents), "")
+        lines = (code.line for code in self.device.device.bus.functions if code.number == function)
+        return Source(document, None, None, next(lines, None))
+
 
 class ModbusCore:
     """Devices on a line. `character` is the time of one, for strict devices on a line whose speed is known."""
@@ -86,8 +94,7 @@ class ModbusCore:
             )
             reply = bytes((pdu[0] & 0x7F | 0x80, code))
             refused = refusal.why
-            source = refusal.point.source if refusal.point is not None else None
-            unit.device.complain(refusal.kind.replace("_", " "), refusal.why, source)
+            unit.device.complain(refusal.kind.replace("_", " "), refusal.why, unit.source(refusal, pdu[0]))
             if not code and len(pdu) >= 5 and pdu[0] in FUNCTIONS:  # the device says nothing of it
                 reply = pdu[:5]
         answer = Answer(unit.device, self._framed(head, reply), unit.delay_now(), refused)
@@ -125,7 +132,7 @@ class ModbusCore:
                     raise Refusal("function", f"function {pdu[0]:02X}h is not for all units at once")
                 self._reply(unit, pdu, number)
             except Refusal as refusal:
-                unit.device.complain("broadcast", refusal.why, refusal.point.source if refusal.point else None)
+                unit.device.complain("broadcast", refusal.why, unit.source(refusal, pdu[0]))
         if hearing:
             return Answer(hearing[0].device, b"")
         if self.framing != "tcp":
