@@ -5,15 +5,32 @@
     starting    a plausible raw number for each point at the start
     device      a memory with the rules: access, ranges, conditions, commands, what survives a restart
     clock       the time of the devices, which may run faster or stand still
+    values      the values by name, in units
     core        what the part `simulation` of a family offers: it cuts bytes into requests, and answers them
     faults      what can happen to an answer on its way
     line        devices that share a line: requests in, answers with faults and delays out, and the trace
     servers     sockets, serial lines and CAN buses around a line
+    making      what a bench lists, made: devices by their ids, lines, servers
     bench       the file that lists many devices on many lines
+    console     what a person may say while it runs
     library     `simulated("hitachi_l200")`, for tests
 
 A behaviour file moves the numbers: `behaviour` implements `device.Behaviour`.
 """
 
-from fieldscribe.simulation.library import Simulated as Simulated
-from fieldscribe.simulation.library import simulated as simulated
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fieldscribe.simulation.library import Simulated as Simulated
+    from fieldscribe.simulation.library import simulated as simulated
+
+
+def __getattr__(name: str) -> Any:
+    """Return what tests use, imported on first use: `check` reads behaviour files without servers."""
+    if name not in ("Simulated", "simulated"):
+        raise AttributeError(name)
+    from fieldscribe.simulation import library
+
+    return getattr(library, name)
