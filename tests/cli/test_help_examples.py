@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
+import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import COMMANDS, command_module
+from fieldscribe.cli import COMMANDS, command_module, live_options, scan
 from fieldscribe.diagnostics import Report
+from fieldscribe.live.lines import LineAddress, read_line
 from fieldscribe.model import Device
+from fieldscribe.simulation import simulated
 from support.described import shipped
 from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
 
@@ -96,6 +100,45 @@ CLAIMS = {
         "siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW=047Fh --frame": Claim(
             0, "^02 0E 01 (00 ){8}04 7F 33 33 76\n$", "rounded to about 39.99"
         ),
+    },
+    "read": {
+        "hitachi_l200 A020 F002 --line tcp://192.168.0.20": Claim(0, "^A020 base_frequency +50 Hz\nF002 "),
+        'hitachi_l200 status --line "rtu:///dev/ttyUSB0?baud=19200" --unit 3': Claim(0, "^inverter_status +running"),
+        'siemens_mm4 P1082 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" -v': Claim(2, "^$", "could not open port"),
+        "woodward_mpu2s generator_frequency --line can://socketcan/can0 --format json": Claim(
+            2, "^$", "python-can cannot open it"
+        ),
+        "pump output_frequency": Claim(0, "^d001 output_frequency .* Hz"),
+    },
+    "write": {
+        "hitachi_l200 A020=50 --line tcp://192.168.0.20": Claim(2, "^$", "nobody can be asked here"),
+        'hitachi_l200 "A003=50 Hz" A002=modbus --keep --line rtu:///dev/ttyUSB0 --unit 3': Claim(
+            2, "^$", r"A003 (.|\n)* enter (.|\n)*the memory stands 100000 of these\n"
+        ),
+        "hitachi_l200 run_command=run --yes --line tcp://192.168.0.20": Claim(0, "written: run_command = run"),
+        "hitachi_l200 enter --line tcp://192.168.0.20": Claim(2, "^$", "  enter "),
+        'siemens_mm4 P1082=40 --keep --line "uss:///dev/ttyUSB0?pkw=4&pzd=2"': Claim(
+            2, "^$", "P1082 (.|\n)*write only when: stopped\n.*each write wears the memory"
+        ),
+        "pump network_frequency_setpoint=12.5": Claim(2, "^$", "network_frequency_setpoint = 12.5 Hz"),
+    },
+    "monitor": {
+        "hitachi_l200 status --line tcp://192.168.0.20": Claim(0, "inverter_status", "ended after"),
+        "hitachi_l200 d001 d002 --every 0.2 --line rtu:///dev/ttyUSB0 --unit 3": Claim(
+            0, "d001 .*\n.*d002", "ended after"
+        ),
+        "pump status --format csv > pump.csv": Claim(0, "^time,name,code,value", "ended after"),
+        "pump status --format json --count 60": Claim(0, '^{"time": ', "ended after"),
+    },
+    "scan": {
+        '--line "rtu:///dev/ttyUSB0?baud=19200"': Claim(0, "^unit 3  holding 0x0000: "),
+        "--line rtu:///dev/ttyUSB0 --units 1-4,247 --timeout 0.5": Claim(0, "^unit 3  "),
+        "hitachi_l200 --line tcp://192.168.0.20": Claim(0, "^unit 1  run_command = "),
+    },
+    "identify": {
+        "--line tcp://192.168.0.20": Claim(1, "it is not fronius_datamanager: .*\nnothing under `identify`: "),
+        "fronius_datamanager --line tcp://192.168.0.20 --unit 1": Claim(1, "it is not fronius_datamanager: "),
+        "pump": Claim(1, "^nothing under `identify`: hitachi_l200\n$"),
     },
     "audit": {
         "hitachi_l200 --manual hitachi_l200_modbus.txt": Claim(
@@ -227,12 +270,43 @@ def _called(printed: str, command: str) -> str:
     return printed.partition(f"fieldscribe {command}")[2].strip().rstrip(")")
 
 
+ON_LINES = ("read", "write", "monitor", "scan", "identify")
+
+
+@pytest.fixture
+def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Simulated devices where the examples have theirs, and a project that names one; nothing runs for ever."""
+    values = {"base_frequency": 50, "inverter_status": "running"}
+    project = '[lines]\nbench = "tcp://192.168.0.20"\n[stations.pump]\ndescription = "hitachi_l200"\nline = "bench"\n'
+    (tmp_path / "fieldscribe.toml").write_text(project, "utf-8")
+    monkeypatch.setattr(time, "sleep", _interrupted)
+    monkeypatch.setattr(scan, "_TIMEOUT", 0.01)
+    with (
+        simulated("hitachi_l200", values=values) as on_tcp,
+        simulated("hitachi_l200", values=values, unit=3, on="serial") as on_serial,
+    ):
+        places = {"192.168.0.20": f"127.0.0.1:{on_tcp.port}", "rtu:///dev/ttyUSB0": f"rtu://{on_serial.path}"}
+
+        def read_elsewhere(text: str) -> LineAddress:
+            for place, simulated_place in places.items():
+                text = text.replace(place, simulated_place)
+            return read_line(text)
+
+        monkeypatch.setattr(live_options, "read_line", read_elsewhere)
+        yield
+
+
+def _interrupted(seconds: float) -> None:
+    if seconds >= 0.05:  # the wait of monitor, and not the silence of a line
+        raise KeyboardInterrupt
+
+
 @pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("command", CLAIMS)
 def test_examples_do_what_they_show(
-    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    command: str, tmp_path: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder = workplace(tmp_path)
+    folder, capsys = workplace(tmp_path), request.getfixturevalue("capsys")
     if command == "audit":
         audited(folder)
     if command in ("diff", "fmt", "watch"):
@@ -243,6 +317,8 @@ def test_examples_do_what_they_show(
         stops_at_once(monkeypatch)
     if command in ("decode", "docs", "encode", "explain", "export", "list", "search"):
         monkeypatch.setattr(pipeline, "load_device", _load_once)
+    if command in ON_LINES:
+        request.getfixturevalue("lines")
     capsys.readouterr()
     for example in examples_of(command_module(command).EXAMPLE):
         claim = CLAIMS[command][_called(example.printed, command)]

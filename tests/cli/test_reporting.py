@@ -26,6 +26,7 @@ PACKAGES = Path(import_module("fieldscribe").__file__ or "").parents[1]
 pytestmark = pytest.mark.usefixtures("loads_once")
 
 INIT = ["heat_pump", "--family", "modbus", "--vendor", "Example", "--model", "M", "--title", "Pump"]
+NO_LINE = ["--line", "tcp://127.0.0.1:1"]
 ENDS: dict[str, dict[int, list[str]]] = {
     "check": {0: ["small_drive"], 1: ["broken"], 2: ["nowhere"]},
     "generate": {
@@ -43,6 +44,11 @@ ENDS: dict[str, dict[int, list[str]]] = {
     "explain": {0: ["small_drive", "P1"], 1: ["broken", "P1"], 2: ["small_drive", "P9"]},
     "decode": {0: ["small_drive", SPEED_50], 1: ["small_drive", SPEED_50[:-1] + "9"], 2: ["small_drive", "zz"]},
     "encode": {0: ["small_drive", "P1", "50"], 1: ["small_drive", "P1", "500"], 2: ["small_drive", "P1", "50 V"]},
+    "read": {1: ["broken", "P1", *NO_LINE], 2: ["small_drive", "P1"]},
+    "write": {1: ["broken", "P1=1", *NO_LINE], 2: ["small_drive", "P1=1"]},
+    "monitor": {1: ["broken", "P1", *NO_LINE], 2: ["small_drive", "P1"]},
+    "scan": {1: ["broken", *NO_LINE], 2: []},
+    "identify": {1: ["broken", *NO_LINE], 2: []},
     "audit": {1: ["broken", "--manual", "manual.txt"], 2: ["small_drive", "--manual", "no.txt"]},
     "diff": {0: ["small_drive", "small_drive"], 1: ["other", "small_drive"], 2: ["nowhere", "small_drive"]},
     "list": {0: [], 1: ["--family", "none"], 2: ["nowhere"]},

@@ -33,7 +33,7 @@ FREE = (
     *_WITHOUT_BLANKS.split(),
 )
 
-ENDLESS = ("watch",)
+ENDLESS = ("watch", "monitor")
 """Commands that run until somebody stops them."""
 
 

@@ -134,7 +134,7 @@ class _CommandLine:
         metavar = str(action.metavar or "")
         if metavar in ("DEVICE", "PATH"):
             return self._devices()
-        if metavar in ("POINT", "WHAT"):
+        if metavar in ("POINT", "POINT|GROUP", "WHAT"):
             return self._points()
         return [f"{name}=" for name in self._points()] if metavar.startswith("POINT=") else []
 

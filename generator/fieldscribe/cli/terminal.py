@@ -38,6 +38,14 @@ def terminal_width() -> int:
         return 80
 
 
+def terminal_size() -> tuple[int, int]:
+    """Return the columns and lines of the terminal, 80 by 24 if there is none."""
+    try:
+        return os.get_terminal_size(sys.stdout.fileno())
+    except (OSError, ValueError):
+        return 80, 24
+
+
 def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
     """Print styled lines."""
     stream = stream or sys.stdout

@@ -31,6 +31,8 @@ _LISTS = {"targets", "points"}
 _SWITCHES = {*LANGUAGE_OF}
 _KEYS = {"device", "targets", "points", "out", "as", *_SWITCHES}
 _COMMON = {"out", "targets"}
+_OF_LINES = ("lines", "stations")
+"""The tables for commands that talk to devices, which `live/project.py` reads."""
 _WHERE = re.compile(r"at line (\d+), column (\d+)")
 
 
@@ -79,7 +81,7 @@ class _Reader:
 
     def devices(self, document: Mapping[str, Any]) -> Iterator[ProjectDevice]:
         """Yield what stands under `devices`, once for each language."""
-        common = {key: value for key, value in document.items() if key != "devices"}
+        common = {key: value for key, value in document.items() if key not in ("devices", *_OF_LINES)}
         self._check(common, None, _COMMON)
         devices = document.get("devices")
         if not isinstance(devices, list) or not devices or not all(isinstance(entry, dict) for entry in devices):

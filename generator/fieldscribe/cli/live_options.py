@@ -1,0 +1,187 @@
+"""The options of commands that talk to a device: its line, unit and variants, by hand or from `fieldscribe.toml`."""
+
+from __future__ import annotations
+
+import sys
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.cli.common import StopError, add_device, add_repeated, open_device
+from fieldscribe.cli.frame_options import placed
+from fieldscribe.cli.terminal import FINDINGS, USAGE
+from fieldscribe.live.connection import Connection, advice
+from fieldscribe.live.lines import LineAddress, read_line
+from fieldscribe.live.project import NAME, Project, Station, read_project
+from fieldscribe.model import Device
+from fieldscribe.report import visible
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import did_you_mean
+
+if TYPE_CHECKING:
+    from fieldscribe_runtime import AnyDevice
+
+LINES = """lines: tcp://HOST[:PORT], rtu:///dev/ttyUSB0, rtu+tcp://HOST:PORT, uss:///dev/ttyUSB0, can://INTERFACE/CHANNEL
+serial ones take settings, as in rtu:///dev/ttyUSB0?baud=9600&parity=even&stop=1, uss also pkw=4&pzd=2"""
+
+
+def add_live(parser: ArgumentParser, *, optional: bool = False) -> None:
+    """Add DEVICE and the options about its line; `opened` reads them."""
+    add_device(parser, optional=optional)
+    add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="settings")
+    add = parser.add_argument
+    add("--line", metavar="LINE", help=f"where the device is: tcp://192.168.0.20, or a name from {NAME}")
+    add("--timeout", type=float, metavar="SECONDS", help="how long to wait for an answer")
+    add("-v", "--verbose", action="store_true", help="print the frames, and how many requests it took, on stderr")
+
+
+def add_unit(parser: ArgumentParser) -> None:
+    """Add `--unit`."""
+    parser.add_argument("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
+
+
+def line_of(arguments: Namespace) -> LineAddress:
+    """Return the line of the command line, or of the station that DEVICE names; a station's facts become arguments.
+
+    Raises StopError, UnclearError.
+    """
+    project = read_project(Path(NAME))
+    station = project.stations.get(arguments.device or "")
+    if station is not None:
+        _take(arguments, station)
+    if not arguments.line:
+        raise StopError("no line is given", f"give --line tcp://HOST:PORT, or a station in {NAME}")
+    return read_line(_named(arguments.line, project))
+
+
+def _take(arguments: Namespace, station: Station) -> None:
+    """Set what the command line does not say as the station has it."""
+    arguments.device = station.description
+    arguments.line = arguments.line or station.line
+    if getattr(arguments, "unit", None) is None:
+        arguments.unit = station.unit
+    given = {choice.partition("=")[0] for choice in arguments.variant}
+    arguments.variant += [choice for choice in station.variants if choice.partition("=")[0] not in given]
+
+
+def _named(text: str, project: Project) -> str:
+    """Return the line of that name, or the text itself. Raises StopError."""
+    if "://" in text or text in project.lines:
+        return project.lines.get(text, text)
+    names = f"{NAME} has {', '.join(project.lines)}" if project.lines else f"{NAME} here has no table `lines`"
+    near = did_you_mean(get_close_matches(text, project.lines, 1)) or f"{names}; a line itself is tcp://HOST:PORT"
+    raise StopError(f"`{shortened(text)}` is no line, and no name of one", near)
+
+
+class Work:
+    """What a command is at, for whoever interrupts it, or an error does: what was `written`, and what is `left`."""
+
+    def __init__(self) -> None:
+        self.written: list[str] = []
+        self.left: list[str] = []
+
+    def state(self) -> str:
+        """Return what was written and what was not, for a command that ends early."""
+        if not self.left:
+            return f"written: {', '.join(self.written)}" if self.written else "nothing was written"
+        written = f"written: {', '.join(self.written)}; " if self.written else ""
+        rest = f"; not written: {', '.join(self.left[1:])}" if self.left[1:] else ""
+        return f"{written}perhaps written: {self.left[0]}{rest}"
+
+
+class Live(NamedTuple):
+    """A device that a command talks to: its model, the device of the runtime, and its line."""
+
+    model: Device
+    device: AnyDevice
+    line: LineAddress
+    work: Work
+
+
+@contextmanager
+def opened(arguments: Namespace) -> Iterator[Live]:
+    """Return the device of the command line on its line. Raises StopError, also for errors of the line meanwhile."""
+    line = line_of(arguments)
+    model = placed(open_device(arguments), arguments)
+    unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
+    with connected(arguments, line) as (connection, work):
+        device = connection.device(model, unit)
+        try:
+            yield Live(model, device, line, work)
+        finally:
+            print_requests(arguments, device.traffic.requests)
+
+
+@contextmanager
+def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connection, Work]]:
+    """Return the line; errors of it end the command, and so does Ctrl-C, with what was written until then.
+
+    Frames are printed where `--verbose` asks for it. Raises StopError.
+    """
+    from fieldscribe_runtime import FieldscribeError
+
+    connection, work = Connection(line, arguments.timeout), Work()
+    try:
+        with _frames_printed() if arguments.verbose else nullcontext():
+            yield connection, work
+    except FieldscribeError as error:
+        hint = advice(error, line)
+        message = f"{error}; {work.state()}" if work.left else str(error)
+        raise StopError(message, hint, USAGE if hint else FINDINGS) from error
+    except KeyboardInterrupt:
+        print(f"\nfieldscribe: interrupted; {work.state()}", file=sys.stderr)
+        raise
+    finally:
+        connection.close()
+
+
+def print_requests(arguments: Namespace, requests: int) -> None:
+    """Print how many requests were sent, where `--verbose` asks for it."""
+    if arguments.verbose:
+        print(f"{requests} request{'' if requests == 1 else 's'}", file=sys.stderr)
+
+
+@contextmanager
+def _frames_printed() -> Iterator[None]:
+    """Print the frames that the runtime logs."""
+    import logging
+
+    logger, handler = logging.getLogger("fieldscribe"), logging.StreamHandler(sys.stderr)
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.DEBUG)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(before)
+
+
+class Progress:
+    """A line on stderr about work that takes longer than a second: rewritten on a terminal, else every ten seconds."""
+
+    def __init__(self) -> None:
+        self._is_terminal = sys.stderr.isatty()
+        self._next = time.monotonic() + 1
+        self._width = 0
+
+    def show(self, text: str) -> None:
+        """Show how far the work is, if it is time."""
+        if (now := time.monotonic()) < self._next:
+            return
+        self._next = now + (0.1 if self._is_terminal else 10)
+        text = visible(text)
+        sys.stderr.write(f"\r{text:<{self._width}}" if self._is_terminal else f"{text}\n")
+        sys.stderr.flush()
+        self._width = len(text)
+
+    def clear(self) -> None:
+        """Take the line off the terminal."""
+        if self._is_terminal and self._width:
+            sys.stderr.write(f"\r{'':<{self._width}}\r")
+            sys.stderr.flush()
+            self._width = 0

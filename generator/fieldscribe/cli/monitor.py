@@ -1,0 +1,173 @@
+"""`fieldscribe monitor`: read points of a device again and again, and show what changes."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import time
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable, Iterator
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, opened
+from fieldscribe.cli.read import style_of
+from fieldscribe.cli.terminal import FINE, is_coloured, print_lines, terminal_size
+from fieldscribe.live.readings import Reader, Reading, chosen
+from fieldscribe.report import Line, visible
+
+if TYPE_CHECKING:
+    from fieldscribe_runtime import FieldscribeError
+
+EXAMPLE = f"""examples:
+  fieldscribe monitor hitachi_l200 status --line tcp://192.168.0.20
+  fieldscribe monitor hitachi_l200 d001 d002 --every 0.2 --line rtu:///dev/ttyUSB0 --unit 3
+  fieldscribe monitor pump status --format csv > pump.csv
+  fieldscribe monitor pump status --format json --count 60
+
+A terminal shows a table, in which what changed last stands out. Elsewhere each change is a line: as text, as CSV, or as
+JSON. --all prints what did not change, too.
+
+{LINES}
+
+goes on after errors of the line; ends with 0 at Ctrl-C or after --count, with 2 when nothing answers at first"""
+
+_COLUMNS = ("time", *Reading._fields)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add_live(parser)
+    add = parser.add_argument
+    add("points", nargs="+", metavar="POINT|GROUP", help="points by code, name or address, or groups")
+    add_unit(parser)
+    add("--every", type=_seconds, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
+    add("--count", type=int, metavar="N", help="so often (default: until Ctrl-C)")
+    add("--all", action="store_true", help="print all points each time, not only what changed")
+    add("--format", choices=("text", "csv", "json"), default="text", help="how to print (default: text)")
+
+
+def _seconds(text: str) -> float:
+    """Return a number of seconds that is not negative."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0 <= seconds <= 86400:
+        raise ArgumentTypeError(f"`{text}` is no number of seconds from 0 to 86400")
+    return seconds
+
+
+def run(arguments: Namespace) -> int:
+    """Show changes until Ctrl-C or `--count`; return the exit code."""
+    gc.enable()  # the process may run for days
+    with opened(arguments) as live:
+        show = _printer(arguments)
+        try:
+            for readings in _samples(live, arguments):
+                show(readings)
+        except KeyboardInterrupt:
+            print(f"ended after {live.device.traffic.requests} requests; nothing was written", file=sys.stderr)
+    return FINE
+
+
+def _samples(live: Live, arguments: Namespace) -> Iterator[list[Reading]]:
+    """Yield the readings, once each period; of a line that is lost meanwhile, the next that come. Raises at first."""
+    from fieldscribe_runtime import FieldscribeError
+
+    reader, what = Reader(live.model, live.device), chosen(live.model, arguments.points)
+    yield reader.read(what)
+    due, left, is_lost = time.monotonic(), arguments.count, False
+    while left is None or (left := left - 1) > 0:
+        due = max(due + arguments.every, time.monotonic())
+        time.sleep(max(0.0, due - time.monotonic()))
+        try:
+            readings = reader.read(what)
+        except FieldscribeError as error:
+            _report_lost(error, is_lost=is_lost)
+            is_lost = True
+        else:
+            is_lost = False
+            yield readings
+
+
+def _report_lost(error: FieldscribeError, *, is_lost: bool) -> None:
+    """Print that the line lost all; once until it is there again."""
+    if not error.lost:
+        raise error
+    if not is_lost:
+        print(f"{datetime.now():%H:%M:%S} {visible(str(error))}; going on", file=sys.stderr)
+
+
+Printer = Callable[[list[Reading]], None]
+Show = Callable[[str, Reading], None]
+
+
+def _printer(arguments: Namespace) -> Printer:
+    """Return what prints readings in the chosen form."""
+    if arguments.format == "text" and is_coloured(sys.stdout) and not arguments.verbose:
+        return _Table()
+    show: Show = _csv_writer() if arguments.format == "csv" else _show_line
+    return _Changes(_show_json if arguments.format == "json" else show, everything=arguments.all)
+
+
+class _Changes:
+    """Prints each reading that is not as it was."""
+
+    def __init__(self, show: Show, *, everything: bool) -> None:
+        self._show, self._everything = show, everything
+        self._before: dict[str, Reading] = {}
+
+    def __call__(self, readings: list[Reading]) -> None:
+        now = datetime.now().astimezone().isoformat(timespec="milliseconds")
+        for reading in readings:
+            if self._everything or self._before.get(reading.name) != reading:
+                self._show(now, reading)
+        self._before = {reading.name: reading for reading in readings}
+        sys.stdout.flush()
+
+
+def _show_line(now: str, reading: Reading) -> None:
+    print_lines([[("", f"{now[11:23]}  {visible(reading.label)}  "), (style_of(reading), visible(reading.text))]])
+
+
+def _show_json(now: str, reading: Reading) -> None:
+    import json
+
+    print(json.dumps({"time": now, **reading.as_data()}))
+
+
+def _csv_writer() -> Show:
+    import csv
+
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    return lambda now, reading: writer.writerow((now, *reading))
+
+
+class _Table:
+    """A table that is drawn anew in its place; as much of it as the terminal has lines."""
+
+    def __init__(self) -> None:
+        self._before: dict[str, Reading] = {}
+        self._drawn = 0
+
+    def __call__(self, readings: list[Reading]) -> None:
+        columns, lines = terminal_size()
+        shown = readings[: lines - 2]
+        width = max(len(reading.label) for reading in readings) if readings else 0
+        rows: list[Line] = []
+        for reading in shown:
+            is_new = self._before and self._before.get(reading.name) != reading
+            text = visible(reading.text)[: max(8, columns - width - 5)]
+            rows.append(
+                [("", f"{visible(reading.label):<{width}}  "), ("strong" if is_new else style_of(reading), text)]
+            )
+        rest = len(readings) - len(shown)
+        more = f", {rest} more below the screen" if rest else ""
+        rows.append([("hint", f"{datetime.now():%H:%M:%S}{more}; Ctrl-C ends")])
+        sys.stdout.write(f"\x1b[{self._drawn}F\x1b[J" if self._drawn else "")
+        print_lines(rows)
+        sys.stdout.flush()
+        self._drawn = len(rows)
+        self._before = {reading.name: reading for reading in readings}

@@ -1,0 +1,110 @@
+"""The text that names a line: `tcp://192.168.0.20:502`, `rtu:///dev/ttyUSB0?baud=9600&parity=even`.
+
+A family's `lines.py` says which schemes it has, and opens them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+from fieldscribe.families import Family, families
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError, did_you_mean
+
+_PARITIES = {"none": "N", "even": "E", "odd": "O"}
+SERIAL_KEYS = ("baud", "parity", "stop", "bits", "echo")
+"""What may stand behind `?` of a serial line."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineAddress:
+    """A line as it was named: the text, its scheme, what stands behind `://`, and the settings behind `?`."""
+
+    text: str
+    scheme: str
+    place: str
+    settings: dict[str, str]
+
+    def number(self, key: str, default: int | None, ends: tuple[int, int]) -> int | None:
+        """Return a setting that is a whole number; `default` if it is not there. Raises UnclearError."""
+        text = self.settings.get(key)
+        if text is None:
+            return default
+        if not (text.isascii() and text.isdigit() and len(text) < 10 and ends[0] <= int(text) <= ends[1]):
+            raise self.wrong(f"`{key}` is a number from {ends[0]} to {ends[1]}, not `{shortened(text)}`")
+        return int(text)
+
+    def choice(self, key: str, default: str, choices: Iterable[str]) -> str:
+        """Return a setting that is one of several words. Raises UnclearError."""
+        text = self.settings.get(key, default)
+        if text not in (known := list(choices)):
+            raise self.wrong(f"`{key}` is one of {', '.join(known)}, not `{shortened(text)}`")
+        return text
+
+    def host_and_port(self, default: int | None) -> tuple[str, int]:
+        """Return a host and its port; the host may be an IPv6 address in brackets. Raises UnclearError."""
+        host, colon, port = self.place.rpartition(":")
+        if not colon or port.endswith("]"):
+            host, port = self.place, "" if default is None else str(default)
+        if not host or not (port.isascii() and port.isdigit() and 0 < int(port[:6]) <= 0xFFFF):
+            raise self.wrong("it takes a host and a port, as in 192.168.0.20:502")
+        return host.removeprefix("[").removesuffix("]"), int(port)
+
+    def serial(self, usual_mode: str) -> dict[str, Any]:
+        """Return the settings of a serial line, named as the runtime takes them. Raises UnclearError."""
+        if not self.place:
+            raise self.wrong("it takes a port, as in rtu:///dev/ttyUSB0 or rtu://COM3")
+        parity = self.choice("parity", {sign: name for name, sign in _PARITIES.items()}[usual_mode[1]], _PARITIES)
+        bits, stop = self.choice("bits", usual_mode[0], "78"), self.choice("stop", usual_mode[2], "12")
+        return {
+            "port": self.place,
+            "baudrate": self.number("baud", 9600, (1, 10_000_000)),
+            "mode": f"{bits}{_PARITIES[parity]}{stop}",
+            "echo": self.choice("echo", "no", ("no", "yes")) == "yes",
+        }
+
+    def wrong(self, why: str) -> UnclearError:
+        """Return the error for a line that cannot be."""
+        return UnclearError(f"the line `{shortened(self.text)}`: {why}", f"lines are {', '.join(examples())}")
+
+
+def read_line(text: str) -> LineAddress:
+    """Return a line by its text. Raises UnclearError for a scheme, or a setting of it, that does not exist."""
+    scheme, separator, rest = text.strip().partition("://")
+    known = {name: keys for family in families() for name, keys in _schemes(family).items()}
+    if not separator or scheme not in known:
+        near = did_you_mean([f"{name}://" for name in get_close_matches(scheme, known, 1)]) if separator else ""
+        what = f"no line begins with `{shortened(scheme)}://`" if separator else f"`{shortened(text)}` is no line"
+        raise UnclearError(what, near or f"lines are {', '.join(examples())}")
+    place, _, query = rest.partition("?")
+    pairs = [pair.partition("=") for pair in query.split("&") if pair]
+    line = LineAddress(text, scheme, place, {key: value for key, _, value in pairs})
+    for key in line.settings:
+        if key not in known[scheme]:
+            takes = f"it takes {', '.join(known[scheme])}" if known[scheme] else "it takes no settings"
+            raise line.wrong(f"there is no setting `{shortened(key)}`; {takes}")
+    return line
+
+
+def families_of(line: LineAddress) -> list[Family]:
+    """Return the families whose devices such a line can have."""
+    return [family for family in families() if line.scheme in _schemes(family)]
+
+
+def schemes_of(family: Family) -> list[str]:
+    """Return the schemes of a family's lines."""
+    return list(_schemes(family))
+
+
+def examples() -> list[str]:
+    """Return an example of each line."""
+    return [example for family in families() for example in getattr(family.part("lines"), "EXAMPLES", ())]
+
+
+def _schemes(family: Family) -> dict[str, tuple[str, ...]]:
+    """Return the settings of each scheme of a family."""
+    schemes: dict[str, tuple[str, ...]] = getattr(family.part("lines"), "SCHEMES", {})
+    return schemes

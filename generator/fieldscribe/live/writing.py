@@ -1,0 +1,139 @@
+"""Plans what a command writes to a device, with all that a person should know before, and carries it out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError
+from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.meanings import Meanings
+from fieldscribe.conversation.selection import choose_point
+from fieldscribe.families import family
+from fieldscribe.live.readings import Reading
+from fieldscribe.model import Device, Point
+from fieldscribe.text import line, shortened
+from fieldscribe.user_errors import UnclearError
+from fieldscribe.wording import label, title_text
+
+if TYPE_CHECKING:
+    from fieldscribe_runtime import AnyDevice
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    """One thing that is written: the attribute of the device, and the raw number (None for a command).
+
+    `text` says it to people, `notes` how it was rounded, `remarks` what to know before.
+    """
+
+    item: str
+    raw: int | None
+    keep: bool
+    reading: Reading
+    text: str
+    notes: tuple[str, ...]
+    remarks: tuple[str, ...]
+
+    def carry_out(self, device: AnyDevice) -> None:
+        """Write it. Raises FieldscribeError."""
+        if self.raw is None:
+            getattr(device, self.item).send()
+            return
+        handle: Any = device.point(self.item)
+        handle.write_raw(self.raw, **({"keep": True} if self.keep else {}))
+
+
+class Planner:
+    """Plans writes one after the other: what is planned counts for the scales and limits of what follows."""
+
+    def __init__(self, model: Device, device: AnyDevice, *, keep: bool) -> None:
+        self._model, self._device, self._keep = model, device, keep
+        self._points = {point.name: point for point in model.points}
+        self._commands = {command.name: command for command in model.all_commands}
+        self._settings: dict[str, int | Fraction] = {}
+
+    def plan(self, words: list[str]) -> list[Write]:
+        """Return the writes of `POINT=VALUE` and names of commands. Nothing is written, but settings are read.
+
+        Raises UnclearError, RefusedError, FieldscribeError.
+        """
+        writes = [self._of_word(word) for word in words]
+        if self._keep:
+            commands = {self._points[write.item].keeps for write in writes if write.item in self._points}
+            writes += [self._command(name) for name in self._commands if name in commands]
+        return writes
+
+    def _of_word(self, word: str) -> Write:
+        name, equals, value = word.partition("=")
+        name = name.strip()
+        if not equals and name in self._commands:
+            return self._command(name)
+        if not equals:
+            message = f"`{shortened(word)}` is no command of {self._model.id}, and has no value"
+            raise UnclearError(message, "write POINT=VALUE")
+        point = choose_point(self._model, name.removesuffix(".raw"))
+        keep = self._keep and self._kept_by_request(point)
+        settings = self._needed(point)
+        encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))
+        self._settings[point.name] = codec.setting_of(point, encoded.raw)
+        reading = _reading(self._model, point, encoded.raw, settings)
+        remarks = tuple(self._remarks(point, keep))
+        return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks)
+
+    def _needed(self, point: Point) -> dict[str, int | Fraction]:
+        """Return what the other points hold that a scale or limit depends on."""
+        for name in point.arguments:
+            if name not in self._settings:
+                other: Any = self._device.point(name)
+                self._settings[name] = codec.setting_of(self._points[name], other.read_raw())
+        return {name: self._settings[name] for name in point.arguments}
+
+    def _kept_by_request(self, point: Point) -> bool:
+        """Return True if the request that writes a point keeps the value. Raises UnclearError if nothing keeps it."""
+        if point.keeps == "no":
+            raise UnclearError(f"{label(point)} cannot be kept: it is lost when switched off", "leave out --keep")
+        is_chosen = family(self._model.family).chooses_memory and point.telegram is None
+        if point.keeps is None and not is_chosen:
+            raise UnclearError(f"{label(point)}: the manual does not say how it is kept", "leave out --keep")
+        return point.keeps in (None, "choice")
+
+    def _remarks(self, point: Point, keep: bool) -> Iterator[str]:
+        """Yield what to know before a point is written."""
+        if point.conditions:
+            yield f"write only when: {', '.join(point.conditions).replace('_', ' ')}"
+        if keep or point.keeps == "yes":
+            yield "kept when switched off: each write wears the memory"
+        elif point.keeps == "no":
+            yield "lost when switched off"
+        elif point.keeps is not None and not self._keep:
+            yield "lost when switched off, without --keep"
+        if point.takes_effect is not None:
+            yield f"takes effect {point.takes_effect}"
+        if point.write_with:
+            yield f"the device wants it in one request with {', '.join(point.write_with)}"
+
+    def _command(self, name: str) -> Write:
+        """Return a command."""
+        command = self._commands[name]
+        wears = getattr(command, "wears", None)
+        remarks = (f"the memory stands {wears} of these",) if wears else ()
+        text = line(f"{name} ({title_text(command.title)})")
+        reading = Reading(name, None, None, "", text, None, "ok", "")
+        return Write(name, None, False, reading, text, (), remarks)
+
+
+def _reading(model: Device, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
+    """Return what a point holds once it is written."""
+    meaning = Meanings(model, point).of(raw, settings)
+    text = Meanings(model, point).text(raw, settings)
+    value: float | str | None = raw if meaning.value is None else meaning.value
+    if meaning.value is not None and point.text is None:
+        try:
+            value = float(codec.decode(point, raw, settings))
+        except (CodecError, OverflowError):
+            value = None
+    return Reading(point.name, point.code, value, point.unit.symbol, text, raw, "ok", "")

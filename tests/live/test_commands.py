@@ -1,0 +1,211 @@
+"""The commands on a live device: exit codes, answers, refusals, and what is said when a line fails."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+from collections.abc import Callable, Iterator
+
+import pytest
+from fieldscribe.live.writing import Write
+from fieldscribe.simulation import Simulated, simulated
+from support.small_drive import Output
+
+pytestmark = pytest.mark.usefixtures("loads_once")
+
+Run = Callable[..., Output]
+VALUES: dict[str, str | int | float] = {
+    "base_frequency": 50,
+    "maximum_frequency": 60,
+    "lower_frequency_limit": 10,
+    "run_command": "stop",
+}
+
+
+@pytest.fixture(scope="module")
+def drive() -> Iterator[Simulated]:
+    with simulated("hitachi_l200", values=VALUES) as running:
+        yield running
+
+
+@pytest.fixture
+def on_line(drive: Simulated, run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run a command on the line of the drive; nobody can be asked."""
+    monkeypatch.setattr(sys, "stdin", io.StringIO())
+    return lambda *words: run(*words, "--line", f"tcp://127.0.0.1:{drive.port}", "--timeout", "0.5")
+
+
+def answers(*texts: str) -> io.StringIO:
+    """A terminal on which somebody types these lines."""
+    terminal = io.StringIO("".join(f"{text}\n" for text in texts))
+    terminal.isatty = lambda: True  # type: ignore[method-assign]
+    return terminal
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "out", "err"),
+    [
+        ("read hitachi_l200 A020", 0, r"^A020 base_frequency  50 Hz\n$", "^$"),
+        ("read hitachi_l200 0x1028 run_command", 0, r"^A020 .* 50 Hz\nrun_command +stop \(Stop\)\n$", "^$"),
+        ("read hitachi_l200 A020 --unit 1 -v", 0, "50 Hz", r"01 03 10 28 00 01 \(A020 .*\n.*\n1 request\n$"),
+        (
+            "read hitachi_l200 A020 --unit 9",
+            2,
+            "^$",
+            r"exception 0Bh\n  hint: is the unit .*fieldscribe scan --line tcp://",
+        ),
+        ("read hitachi_l200 A020 --unit 999", 2, "^$", "the device can be unit 1 to 32, not 999\n  hint: .*--unit"),
+        ("read hitachi_l200 A02", 2, "^$", "no point `A02`\n  hint: did you mean"),
+        ("read hitachi_l200 stattus", 2, "^$", "no point or group `stattus`\n  hint: did you mean `status`"),
+        (
+            "read siemens_mm4 P1082",
+            2,
+            "^$",
+            "siemens_mm4 is a uss device, and none is on a line tcp://\n  hint: .*uss://",
+        ),
+        ("write hitachi_l200 A020=401 --yes", 1, "^$", "A020 base_frequency: 401 Hz is outside 0..400 Hz"),
+        ("write hitachi_l200 A061=70 --yes", 1, "^$", r"upper_frequency_limit: 70 Hz is outside .* 10..60 Hz"),
+        ("write hitachi_l200 d001=1 --yes", 1, "^$", "d001 output_frequency is read only"),
+        ("write hitachi_l200 A020=x --yes", 2, "^$", "no name `x`"),
+        (
+            "write hitachi_l200 A020 --yes",
+            2,
+            "^$",
+            "no command of hitachi_l200, and has no value\n  hint: write POINT=",
+        ),
+        (
+            "write hitachi_l200 A020=50.04 --yes",
+            0,
+            "^written: .* = 50 Hz: raw 500",
+            "^note: 50.04 Hz .* rounded to 50 Hz",
+        ),
+        ("write hitachi_l200 A020=40", 2, "^$", "A020 .* = 40 Hz(.|\n)*nothing was written\n  hint: give --yes"),
+        ("write hitachi_l200 run_command=run --keep --yes", 2, "^$", "does not say how it is kept\n  hint: leave out"),
+        ("monitor hitachi_l200 A020 --count 2 --every 0", 0, r"^[\d:.]{12}  A020 base_frequency  50 Hz\n$", "^$"),
+        ("monitor hitachi_l200 A020 --count 2 --every 0 --all", 0, r"^(.* 50 Hz\n){2}$", "^$"),
+        ("monitor hitachi_l200 A020 --unit 9 --count 2", 2, "^$", "exception 0Bh"),
+        ("monitor hitachi_l200 A020 --every -1", 2, "^$", "no number of seconds"),
+        ("scan --units 1-2", 0, "^unit 1  holding 0x0000: .* exception 02h\n$", "^$"),
+        ("scan --units 2", 1, "^no unit answers\n$", "^$"),
+        ("scan --units 5-2", 2, "^$", "units are 1 to 247, not `5-2`"),
+        ("scan hitachi_l200 --units 1 -v", 0, "^unit 1  run_command = stop", "1 request\n$"),
+        ("identify hitachi_l200", 1, "^nothing under `identify`: hitachi_l200\n$", "^$"),
+        ("identify fronius_datamanager", 1, "^it is not fronius_datamanager: ", "^$"),
+    ],
+)
+def test_a_command_ends_and_answers(words: str, code: int, out: str, err: str, on_line: Run) -> None:
+    done = on_line(*words.split())
+    assert done.code == code, done
+    assert re.search(out, done.out), done.out
+    assert re.search(err, done.err), done.err
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("tcp://127.0.0.1:1", "Connection refused\n  hint: is the line right"),
+        ("rtu:///dev/nothing_here", "could not open port"),
+        ("bench", "`bench` is no line, and no name of one\n  hint: fieldscribe.toml here has no table"),
+    ],
+)
+def test_a_line_that_cannot_be_opened(line: str, message: str, run: Run, small: object) -> None:
+    done = run("read", "hitachi_l200", "A020", "--line", line)
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
+
+
+def test_answers_as_json(on_line: Run) -> None:
+    read = json.loads(on_line("read", "hitachi_l200", "A020", "--format", "json").out)
+    value = {"name": "base_frequency", "code": "A020", "value": 50.0, "unit": "Hz", "text": "50 Hz", "raw": 500}
+    assert read["values"] == [{**value, "status": "ok", "detail": ""}]
+    written = json.loads(on_line("write", "hitachi_l200", "A020=50", "--yes", "--format", "json").out)
+    assert written["written"] == read["values"]
+    shown = on_line("monitor", "hitachi_l200", "A020", "--count", "1", "--format", "json").out
+    assert json.loads(shown).items() >= value.items()
+    scanned = json.loads(on_line("scan", "hitachi_l200", "--units", "1,3", "--format", "json").out)
+    assert (scanned["asked"], [one["unit"] for one in scanned["answers"]]) == ([1, 3], [1])
+
+
+@pytest.mark.parametrize(("answer", "ends"), [("y", (0, 45.0)), ("", (1, 50.0)), ("n", (1, 50.0))])
+def test_a_write_is_asked_for(
+    answer: str, ends: tuple[int, float], drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drive.values["base_frequency"] = 50
+    monkeypatch.setattr(sys, "stdin", answers(answer))
+    done = on_line("write", "hitachi_l200", "A020=45")
+    assert (done.code, drive.values["base_frequency"]) == ends
+    assert "lost when switched off, without --keep" in done.err
+    drive.values["base_frequency"] = 50
+
+
+def test_what_is_kept_is_there_after_a_restart(drive: Simulated, on_line: Run) -> None:
+    for words, held in ((("A020=30",), 50.0), (("A020=30", "--keep"), 30.0)):
+        drive.values["base_frequency"] = 50
+        on_line("write", "hitachi_l200", "enter", "--yes")
+        assert on_line("write", "hitachi_l200", *words, "--yes").code == 0
+        drive.restart()
+        assert drive.values["base_frequency"] == held
+    drive.values.update(VALUES)
+
+
+def test_nothing_is_written_if_one_value_is_refused(drive: Simulated, on_line: Run) -> None:
+    assert on_line("write", "hitachi_l200", "A020=45", "A003=9999", "--yes").code == 1
+    assert drive.values["base_frequency"] == 50
+
+
+@pytest.mark.parametrize(("fault", "code"), [(KeyboardInterrupt, 130), (TimeoutError, 2)])
+def test_a_write_that_ends_early_says_what_was_written(
+    fault: type[BaseException], code: int, drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    carry_out = Write.carry_out
+
+    def failing(write: Write, device: object) -> None:
+        if write.item != "motor_rated_frequency":
+            return carry_out(write, device)  # type: ignore[arg-type]
+        if fault is KeyboardInterrupt:
+            raise KeyboardInterrupt
+        drive.fault("silent x1")
+        return carry_out(write, device)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Write, "carry_out", failing)
+    done = on_line("write", "hitachi_l200", "A020=50", "A003=50", "A061=50", "--yes")
+    assert done.code == code
+    assert (
+        "written: A020 base_frequency; perhaps written: A003 motor_rated_frequency; "
+        "not written: A061 upper_frequency_limit" in done.err
+    )
+
+
+def test_monitor_goes_on_after_a_lost_answer(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    rounds = iter(range(9))
+
+    def between(_seconds: float) -> None:
+        if next(rounds) == 0:
+            drive.fault("silent x1")
+        else:
+            drive.values["base_frequency"] = 41
+
+    monkeypatch.setattr("time.sleep", between)
+    done = on_line("monitor", "hitachi_l200", "A020", "--count", "3", "--every", "0")
+    drive.values["base_frequency"] = 50
+    assert done.code == 0
+    assert re.fullmatch(r"\S+  A020 base_frequency  50 Hz\n\S+  A020 base_frequency  41 Hz\n", done.out)
+    assert re.fullmatch(r".* did not reply .*; going on\n", done.err)
+
+
+def test_monitor_ends_at_ctrl_c(on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(_seconds: float) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("time.sleep", interrupted)
+    done = on_line("monitor", "hitachi_l200", "status")
+    assert done.code == 0
+    assert "ended after 2 requests; nothing was written" in done.err
+
+
+def test_monitor_sends_as_few_requests_as_the_planner_needs(drive: Simulated, on_line: Run) -> None:
+    before = drive.requests
+    assert on_line("monitor", "hitachi_l200", "status", "--count", "5", "--every", "0").code == 0
+    assert drive.requests - before == 10
