@@ -36,18 +36,16 @@ class _End(asyncio.Protocol):
     def __init__(self, line: Line, ends: set[_End]) -> None:
         self._loop = asyncio.get_running_loop()
         self._stream, self._ends = Stream(line), ends
-        self._reader: asyncio.ReadTransport | None = None
-        self._writer: asyncio.WriteTransport | None = None
+        self._reader: Any = None
+        self._writer: Any = None
         self._timer: asyncio.TimerHandle | None = None
         self._free, self._pending = 0.0, 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Begin; the two directions of a serial port come one by one."""
+        """Begin; of a serial port the direction out comes first."""
         self._ends.add(self)
-        if isinstance(transport, asyncio.ReadTransport):
-            self._reader = transport
-        if isinstance(transport, asyncio.WriteTransport):
-            self._writer = transport
+        self._writer = self._writer or transport
+        self._reader = transport
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End: what waits is dropped."""
@@ -103,7 +101,7 @@ class _End(asyncio.Protocol):
     def _write(self, outcome: Outcome) -> None:
         if self._writer is not None and outcome.data:
             self._writer.write(outcome.data)
-        if outcome.drop and isinstance(self._writer, asyncio.Transport):  # a serial port stays
+        if outcome.drop and self._writer is self._reader:  # a serial port stays
             self.close()
 
 
