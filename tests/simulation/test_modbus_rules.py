@@ -1,0 +1,206 @@
+"""A simulated Modbus device without a line: bytes in, bytes out, by the rules of the manual."""
+
+from __future__ import annotations
+
+import json
+import random
+
+import pytest
+from fieldscribe.families.modbus.frames import crc16, frame
+from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.line import Line, Stream
+from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings
+
+
+def line_of(
+    name: str, *units: int, framing: str = "rtu", strict: bool = False, at: str = "", **settings: object
+) -> Line:
+    device = DeviceSettings(name, units, behaviour=False, **settings)  # type: ignore[arg-type]  # by name
+    (line,) = Bench([LineSettings([device], "tcp", at, framing)], strict=strict).made(Clock(0))
+    return line
+
+
+def said(line: Line, request: str, unit: int = 1) -> str:
+    """The PDU of the answer to a PDU, in hexadecimal; empty without one."""
+    outcomes = Stream(line).received(frame(line.core.framing, unit, 7, bytes.fromhex(request)))
+    return " ".join((each.data[7:] if line.core.framing == "tcp" else each.data[1:-2]).hex() for each in outcomes)
+
+
+def device_of(line: Line) -> SimulatedDevice:
+    return line.core.devices[0]
+
+
+REQUESTS = [
+    ("hitachi_l200", "03 1028 0001", "030201f4"),
+    ("hitachi_l200", "03 1028 0005", "8303"),  # four registers at most
+    ("hitachi_l200", "03 1028 0000", "8303"),
+    ("hitachi_l200", "04 1028 0001", "8401"),
+    ("hitachi_l200", "2b 0e01 00", "ab01"),
+    ("hitachi_l200", "03 0030 0001", "8302"),  # the gap
+    ("hitachi_l200", "03 0003 0001", "8302"),  # a hole
+    ("hitachi_l200", "06 1028 0258", "0610280258"),
+    ("hitachi_l200", "06 1028 ffff", "8621"),
+    ("hitachi_l200", "06 0002 0001", "0600020001"),
+    ("hitachi_l200", "06 1001 0001", "8622"),  # a monitor
+    ("hitachi_l200", "05 0000 ff00", "050000ff00"),
+    ("hitachi_l200", "05 0000 1234", "8503"),
+    ("hitachi_l200", "08 0000 abcd", "080000abcd"),
+    ("hitachi_l200", "06 0900 1234", "0609001234"),  # ENTER takes any number
+    ("eastron_sdm630", "04 0000 0002", "040443660000"),
+    ("eastron_sdm630", "06 0000 0002", "8601"),
+    ("eastron_sdm630", "10 0200 0001 02 0000", "9002"),  # nothing is there
+    ("jumo_controller", "05 0000 ff00", "8501"),
+    ("nord_sk5xxe", "03 ffff 0002", "8302"),
+    ("fronius_datamanager", "03 9c40 0004", "030853756e5300010041"),  # SunS, then model 1
+]
+
+
+@pytest.mark.parametrize(("name", "request_pdu", "reply"), REQUESTS)
+@pytest.mark.parametrize("framing", ["rtu", "tcp"])
+def test_requests_are_answered_or_refused_as_the_manual_says(
+    name: str, request_pdu: str, reply: str, framing: str
+) -> None:
+    line = line_of(name, framing=framing)
+    device_of(line).values.update({"A020": 50} if name == "hitachi_l200" else {})
+    assert said(line, request_pdu) == reply
+
+
+def test_bytes_are_cut_into_requests_however_they_come() -> None:
+    rnd = random.Random(7)
+    for framing in ("rtu", "tcp"):
+        line = line_of("hitachi_l200", framing=framing)
+        requests = [bytes.fromhex(text) for _, text, _ in REQUESTS[:4] if text[:2] == "03"]
+        requests.append(bytes.fromhex("100001000204000a0001"))
+        bytes_ = b"".join(frame(framing, 1, place, pdu) for place, pdu in enumerate(requests * 20))
+        whole = [each.data for each in Stream(line).received(bytes_)]
+        assert len(whole) == 20 * len(requests)
+        stream, parted, at = Stream(line), [], 0
+        while at < len(bytes_):
+            size = rnd.randint(1, 13)
+            parted += [each.data for each in stream.received(bytes_[at : at + size])]
+            at += size
+        assert parted == whole
+        noise = Stream(line_of("hitachi_l200", framing=framing))
+        for _ in range(200):
+            noise.received(rnd.randbytes(rnd.randint(1, 30)))
+            noise.received(b"", quiet=True)
+            assert noise.waiting == b""
+            assert len(noise.received(frame(framing, 1, 1, requests[0]))) == 1
+
+
+@pytest.mark.full(seconds=30)
+@pytest.mark.parametrize("framing", ["rtu", "tcp"])
+def test_no_bytes_make_it_fall_over(framing: str) -> None:
+    rnd, line = random.Random(1), line_of("hitachi_l200", 1, 2, framing=framing)
+    stream = Stream(line)
+    for _ in range(50_000):
+        pdu = bytearray(bytes((rnd.choice((1, 3, 5, 6, 8, 15, 16, 43, 0)),)) + rnd.randbytes(rnd.randint(0, 12)))
+        data = bytearray(frame(framing, rnd.choice((0, 1, 2, 9, 255)), 1, bytes(pdu)))
+        for _ in range(rnd.randint(0, 2)):
+            data[rnd.randrange(len(data))] = rnd.randrange(256)
+        for outcome in stream.received(bytes(data), quiet=rnd.random() < 0.3):
+            if framing == "rtu":
+                assert crc16(outcome.data[:-2]).to_bytes(2, "little") == outcome.data[-2:]
+        assert len(stream.waiting) <= 4096
+    stream.received(b"", quiet=True)
+    assert len(stream.received(frame(framing, 1, 1, bytes.fromhex("0310280001")))) == 1
+
+
+def test_a_broadcast_is_carried_out_and_not_answered() -> None:
+    line = line_of("hitachi_l200", 1, 2, 3)
+    assert said(line, "06 1028 0258", unit=0) == ""
+    assert [device.values["A020"] for device in line.core.devices] == [60, 60, 60]
+    assert said(line, "10 1028 0001 02 01f4", unit=0) == ""  # 10h is not broadcast
+    assert device_of(line).values["A020"] == 60
+    assert said(line, "03 1028 0001", unit=9) == ""
+
+
+def test_what_is_not_stored_is_lost_at_a_restart() -> None:
+    line = line_of("hitachi_l200")
+    device = device_of(line)
+    device.values["A020"] = 50
+    said(line, "06 1028 0258")
+    device.restart()
+    assert device.values["A020"] == 50
+    said(line, "06 1028 0258")
+    said(line, "06 0900 0000")
+    assert device.values["data_write"] != 0
+    device.clock.advance(1)
+    assert said(line, "01 0019 0001") == "010100"
+    device.restart()
+    assert device.values["A020"] == 60
+
+
+def test_conditions_refuse_writes_until_they_hold() -> None:
+    line = line_of("eastron_sdm630", unmet=("password_entered",))
+    device = device_of(line)
+    (point,) = (point for point in device.layout.points.values() if point.conditions)
+    address = device.layout.written[point.name].addresses[0]
+    request = f"10 {address:04x} 0002 04 {device.memory.raw(point.name):08x}"
+    assert said(line, request) == "9005"
+    device.conditions["password_entered"] = True
+    assert said(line, request) == f"10{address:04x}0002"
+
+
+def test_answers_take_their_time() -> None:
+    line = line_of("hitachi_l200")
+    device_of(line).values["C078"] = 250
+    (outcome,) = Stream(line).received(frame("rtu", 1, 0, bytes.fromhex("0310280001")))
+    assert outcome.delay == 0.25
+
+
+STRICT: list[tuple[str, str, str]] = [
+    ("04 1028 0001", "function", ""),
+    ("03 1028 0005", "format: function 03h takes 4 items at most, not 5", "line 138"),
+    ("03 002e 0004", "address: holding 46 to 49 crosses the gap 002Fh to 08FFh", "line 138"),
+    ("03 0003 0001", "address: nothing is at holding 3", "line 138"),
+    ("06 1028 ffff", "out of range: A020 base_frequency does not take raw 65535", "line 780"),
+    ("06 1001 0001", "read only: d001 output_frequency can only be read", "line 669"),
+]
+
+
+@pytest.mark.parametrize(("request_pdu", "what", "where"), STRICT)
+def test_a_strict_device_says_which_line_of_the_manual(request_pdu: str, what: str, where: str) -> None:
+    line = line_of("hitachi_l200", strict=True)
+    said(line, request_pdu)
+    (complaint,) = device_of(line).complaints
+    assert str(complaint).startswith(what)
+    assert where in str(complaint)
+
+
+def test_a_strict_device_counts_cyclic_writes_to_memory_that_wears() -> None:
+    line = line_of("hitachi_l200", strict=True)
+    for _ in range(10):
+        said(line, "06 0900 0000")
+    (complaint,) = device_of(line).complaints
+    assert "cyclic writes: enter wrote the memory 10 times" in str(complaint)
+    assert "line 567" in str(complaint)
+    assert device_of(line).wear == {"enter": 10}
+
+
+def test_a_strict_device_keeps_the_pause_between_frames() -> None:
+    line = line_of("hitachi_l200", strict=True)
+    line.core.character = 11 / 9600  # type: ignore[attr-defined]  # of this family
+    clock = device_of(line).clock
+    for pause in (1.0, 0.001, 0.5):
+        clock.advance(pause)
+        said(line, "03 1028 0001")
+    assert [str(each).partition(":")[0] for each in device_of(line).complaints] == ["turnaround"]
+
+
+def test_the_trace_has_each_request_with_its_answer() -> None:
+    entries: list[str] = []
+    line = line_of("hitachi_l200")
+    line.trace = entries.append
+    said(line, "03 1028 0005")
+    assert json.loads(entries[0]) == {
+        "time": 0.0,
+        "line": "hitachi_l200",
+        "unit": 1,
+        "request": frame("rtu", 1, 0, bytes.fromhex("0310280005")).hex(),
+        "answer": frame("rtu", 1, 0, b"\x83\x03").hex(),
+        "delay": 0.0,
+        "refused": "function 03h takes 4 items at most, not 5",
+        "fault": None,
+    }

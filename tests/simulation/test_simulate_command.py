@@ -1,0 +1,152 @@
+"""`fieldscribe simulate`, bench files, and the fixture for pytest."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.simulation import Simulated
+from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.console import Console
+from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings
+from fieldscribe.simulation.pytest_plugin import simulated_device  # noqa: F401  # the fixture
+from fieldscribe.user_errors import UnclearError
+
+L200 = "hitachi_l200"
+
+
+def ends(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    return main(["simulate", *arguments, "--for", "0"]), "".join(capsys.readouterr())
+
+
+def test_a_port_that_is_taken_ends_with_the_reason(capsys: pytest.CaptureFixture[str]) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        code, printed = ends([L200, "--tcp", str(port)], capsys)
+    assert code == 2
+    assert f"port {port} of 127.0.0.1 cannot be served: it is taken" in printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        ([L200, "--serial", "/dev/no_such_port"], "`/dev/no_such_port` cannot be served: No such file or directory"),
+        ([L200, "--serial", os.devnull], f"`{os.devnull}` cannot be served: Inappropriate ioctl for device"),
+        ([L200, "--tcp", "no.such.host.invalid:0"], "port 0 of no.such.host.invalid cannot be served: "),
+        ([L200, "--tcp", "99999"], "port 99999 of 127.0.0.1 cannot be served: "),
+        ([L200, "--tcp", "x"], "`x` is no TCP port"),
+        ([L200, "--can", "virtual:x"], "hitachi_l200 is on no can line"),
+        ([L200, "--tcp", "0", "--framing", "uss"], "a tcp line has no framing `uss` here"),
+        ([L200, "--unit", "99"], "hitachi_l200 has no unit 99"),
+        ([L200, f"{L200}@1"], "two devices on the line have the unit 1"),
+        ([L200, "eastron_sdm630@x"], "`eastron_sdm630@x` names no unit"),
+        ([L200, "siemens_mm4"], "devices of modbus and uss cannot share a line"),
+        ([L200, "--set", "A020"], "--set: `A020` gives no value"),
+        ([L200, "--set", "A020=fast"], "has no name `fast`"),
+        ([L200, "--set", "A099=1"], "has no point `A099`"),
+        ([L200, "--unmet", "stopped"], "no write asks for the condition `stopped`"),
+        ([L200, "--fault", "tired"], "there is no fault `tired`"),
+        ([L200, "--fault", "late soon"], "`soon` says nothing about the fault `late`"),
+        ([L200, "--time-scale", "-1"], "--time-scale is a number from 0"),
+        ([], "there is nothing to simulate"),
+    ],
+)
+def test_what_cannot_be_simulated_ends_with_the_reason(
+    arguments: list[str], reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, printed = ends(arguments, capsys)
+    assert code == 2
+    assert reason in printed
+
+
+def test_nobody_beyond_this_machine_is_served_unless_it_is_wanted(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "on tcp://127.0.0.1:" in ends([L200], capsys)[1]
+    assert "on tcp://127.0.0.1:" in ends([L200, "--tcp", "0"], capsys)[1]
+    assert "on tcp://0.0.0.0:" in ends([L200, "--tcp", "0.0.0.0:0"], capsys)[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("lines: 3\n", ":1:8: `lines` is a list"),
+        ("line: []\n", ":1:7: there is no key `line` here"),
+        ("lines:\n- {tcp: 0, serial: x, devices: []}\n", ":2:3: a line is one of `tcp`, `serial` and `can`"),
+        ("lines:\n- {tcp: 0, devices: []}\n", ":2:21: a line has at least one device"),
+        ("lines:\n- {tcp: 0, devices: [{device: nothing}]}\n", "there is no device `nothing`"),
+        ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, unit: one}]}\n", ":2:50: `unit` is a whole number"),
+        ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, units: 1-4}]}\n", ":2:51: `1-4` is no interval"),
+        ("lines:\n- {tcp: 0, devices: [nord_sk5xxe]}\n", ":2:22: this is no mapping"),
+        ("lines: [\n", ":2:1: this is not YAML"),
+        ("lines:\n- {tcp: 0, faults: [tired], devices: [{device: nord_sk5xxe}]}\n", "there is no fault `tired`"),
+    ],
+)
+def test_a_wrong_bench_file_says_where(
+    text: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "bench.yaml").write_text(text, "utf-8")
+    code, printed = ends(["--bench", str(tmp_path / "bench.yaml")], capsys)
+    assert code == 2
+    assert message in printed
+
+
+def test_the_console_reads_writes_and_spoils() -> None:
+    clock = Clock(0)
+    devices = [DeviceSettings(L200, (1, 2), behaviour=False), DeviceSettings("eastron_sdm630", (3,))]
+    lines = Bench([LineSettings(devices)]).made(clock)
+    console = Console(lines, clock)
+    assert console.said("@1 set A020=60 Hz") == ""
+    assert console.said("@1 get A020") == "1 A020 = 60"
+    assert console.said("@2 get base_frequency") == "2 base_frequency = 50"
+    assert console.said("@3 unmet password_entered") == ""
+    assert lines[0].core.devices[2].conditions == {"password_entered": False}
+    assert console.said("fault cut 4 x2") == ""
+    assert [fault.kind for fault in lines[0].faults.waiting] == ["cut"]
+    assert console.said("clear") == console.said("restart") == console.said("advance 2.5") == console.said("") == ""
+    assert (lines[0].faults.waiting, clock.now()) == ([], 2.5)
+    assert console.said("help").startswith("get POINT")
+    for wrong in ("@9 get A020", "get A020", "@1 set A020", "@1 set A020=fast", "advance far", "met hope", "fault"):
+        with pytest.raises(UnclearError):
+            console.said(wrong)
+    with pytest.raises(EOFError):
+        console.said("quit")
+
+
+@pytest.mark.full(seconds=2)
+def test_the_command_serves_until_a_signal(tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    words = [L200, "--tcp", "0", "--strict", "--trace", str(trace), "--fault", "exception x1"]
+    command = [sys.executable, "-m", "fieldscribe", "simulate", *words]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stdout is not None
+        port = int(running.stdout.readline().rpartition(":")[2])
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            for request, reply in (("000100000006010310280001", "8304"), ("000200000006010300030001", "8302")):
+                client.sendall(bytes.fromhex(request))
+                assert client.recv(300)[7:].hex() == reply
+        running.send_signal(signal.SIGTERM)
+        printed, complaints = running.communicate()
+    assert running.returncode == 1
+    assert printed == "2 requests, 1 against the manual\n"
+    assert complaints == "address: nothing is at holding 3 (manual, line 138)\n"
+    assert [json.loads(line)["fault"] for line in trace.read_text("utf-8").splitlines()] == ["exception", None]
+
+
+def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) -> None:  # noqa: F811
+    drive, other = simulated_device(L200, values={"A020": 12.5}), simulated_device(L200, on="serial")
+    assert (drive.port > 0, other.port, drive.values["A020"]) == (True, 0, 12.5)
+    drive.values["output_frequency"] = 30.0
+    assert drive.values["d001"] == 30
+    with pytest.raises(KeyError, match="has no point `A999`"):
+        drive.values["A999"] = 1
+    with pytest.raises(ValueError, match="cannot hold"):
+        drive.values["A020"] = 1e9
