@@ -22,6 +22,8 @@ BUSY_FOR = 0.05
 
 CYCLIC = 10, 60.0
 """So many writes to memory that wears, within so many seconds, are cyclic ones to a strict device."""
+_OPENED = frozenset({"password"})
+"""The conditions that come true by a write: of what the point of that name holds, which no write changes."""
 
 
 class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
@@ -143,6 +145,10 @@ class SimulatedDevice:
         points = self._touched(area, cells)
         together = {point.name for point in points}
         numbers = {point.name: self._number(point, cells, before, together) for point in points}
+        for condition in _OPENED.intersection(self.conditions):
+            if asked := [point for point in points if condition in point.name]:
+                self.conditions[condition] = all(numbers[each.name] == self.memory.raw(each.name) for each in asked)
+                return points
         for point in points:
             self._check(point, numbers[point.name])
         for point in points:

@@ -84,10 +84,10 @@ def unwrap(data: bytes) -> Unwrapped:
 
 def frames_in(data: bytes) -> list[bytes]:
     """Return the telegrams in pasted bytes: several if whole ones follow each other, by length and check byte."""
-    return cut_apart(data, _sound_size, LEAST_BYTES) if unwrap(data).flaws else [data]
+    return cut_apart(data, sound_size, LEAST_BYTES) if unwrap(data).flaws else [data]
 
 
-def _sound_size(data: bytes) -> int:
+def sound_size(data: bytes) -> int:
     """Return the size of the telegram that the bytes begin with; 0 if its start, length or check byte is wrong."""
     size = data[1] + 2 if len(data) > 1 else 0
     return size if 0 < size <= len(data) and not unwrap(data[:size]).flaws else 0
