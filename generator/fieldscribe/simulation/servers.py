@@ -21,6 +21,8 @@ _QUIET = 0.02
 _MOST_PENDING = 1000
 """Answers that may wait for their time; meanwhile nothing more is read."""
 _EXTENDED = 1 << 31
+_HEAD = 4
+"""The bytes of the identifier, in front of the data of a frame."""
 
 
 class Server:
@@ -219,7 +221,10 @@ class _CanEnd:
 
         identifier = int.from_bytes(data[:4], "big")
         extended = bool(identifier & _EXTENDED)
-        message = can.Message(arbitration_id=identifier & ~_EXTENDED, is_extended_id=extended, data=data[4:12])
+        long = len(data) > _HEAD + 8
+        message = can.Message(
+            arbitration_id=identifier & ~_EXTENDED, is_extended_id=extended, data=data[_HEAD:], is_fd=long
+        )
         try:
             self._bus.send(message)
         except can.CanError:  # nobody takes the frame: a device would try again

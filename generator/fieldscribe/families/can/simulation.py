@@ -69,8 +69,8 @@ class _Sender:
         self._unit, self._message, self._area = unit, message, (telegram.name, 0)
         self.every = message.every / 1000 if message.every else pause
         self.next = 0.0
-        choices = [when for _, when in signals.parts(message) if when]
-        self._choices = list(dict.fromkeys(choices)) or [()]
+        choices = dict.fromkeys(when for _, when in signals.parts(message))
+        self._choices = [when for when in choices if not any({*when} < {*other} for other in choices)] or [()]
         self._count = len(self._choices) if message.fields else frames.frame_count(telegram, message)
         self._slot = 0
 

@@ -9,7 +9,7 @@ from fieldscribe.arithmetic.words import split as words_of
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import parts
 from fieldscribe.families.uss.parts import Link, Part
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, sound_size, telegram
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
 from fieldscribe.model import Point, Source
 from fieldscribe.simulation.core import Answer
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
@@ -59,7 +59,7 @@ class UssCore:
         """Cut by start, length and check byte; what begins no sound telegram is skipped."""
         found: list[bytes] = []
         begin = at = 0
-        while len(data) - at >= LEAST_BYTES:
+        while len(data) - (at := data.find(START, at)) >= LEAST_BYTES and at >= 0:
             size = sound_size(data[at : at + _LONGEST])
             if size:
                 found.append(data[at : at + size])
