@@ -14,8 +14,9 @@ from fieldscribe.families.uss.telegrams import Request, broadcast, build, parse,
 from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.device import SimulatedDevice
-from fieldscribe.simulation.library import layout_of, rules_of, simulated
+from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line, Stream
+from fieldscribe.simulation.making import layout_of, rules_of
 from support.places import PACKAGES
 from support.python_package import imported
 
