@@ -50,6 +50,7 @@ COMMANDS = {
     "export": "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)",
     "explain": "show everything about one address, code or name",
     "decode": "decode frames from the line into points and values",
+    "listen": "say what is exchanged on a line or in a capture: names, values, who polls what, what is wrong",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "simulate": "let devices answer on a line, as their descriptions say: TCP, serial ports, CAN",
     "read": "read points of a device on its line: names, values and units",

@@ -70,6 +70,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--unit", type=int, metavar="N", help="only frames to or from this unit")
     add_family_options(parser, "decode")
     add_with(parser)
+    add(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="say which numbers are out of range, and which other readings are not",
+    )
     add_format(parser, ("jsonl",), "; json is one object, jsonl one object a line")
 
 
@@ -80,7 +86,7 @@ def run(arguments: Namespace) -> int:
     device = placed(open_device(arguments), arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments)
-    decoder = StreamDecoder(device, settings, frame_decoder(device, options))
+    decoder = StreamDecoder(device, settings, frame_decoder(device, options), doubting=arguments.verbose)
     output = _Output(decoder, _PRINTERS[arguments.format](device), arguments.unit)
     requests = decoder.requests(options)
     for is_input, frames in groupby(arguments.frames, key=lambda word: word == "-"):
@@ -176,6 +182,7 @@ def _rows(result: FrameResult) -> list[tuple[str, str]]:
         rows.append(("Says", visible(item.summary)))
         if item.bit_texts:
             rows += [bits.row for bits in item.flags]
+        rows += [("Doubt", visible(doubt)) for doubt in item.doubts]
     if result.checks:
         rows.append(("Header" if result.framing == "tcp" else "Checksum", visible(result.checks)))
     rows += [("Wrong", visible(fault)) for fault in (*result.faults, *result.findings)]

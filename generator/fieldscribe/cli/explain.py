@@ -16,7 +16,7 @@ from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Device
-from fieldscribe.pasted_numbers import HexError, parse_hex
+from fieldscribe.pasted_numbers import HexError, number_of, parse_hex
 from fieldscribe.text import shortened
 from fieldscribe.wording import label
 
@@ -34,6 +34,7 @@ EXAMPLE = """examples:
   fieldscribe explain siemens_mm4 "P2010[1]"
   fieldscribe explain siemens_mm4 error:17
   fieldscribe explain hitachi_l200 unit:Hz
+  fieldscribe explain hitachi_l200 d001 --raw 0xFE0C
 
 ends with 2 when nothing has that code, name or address, with 1 when the chosen variants do not have it"""
 
@@ -50,6 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "look up frames, unit: a unit",
     )
     add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="settings")
+    add("--raw", metavar="NUMBER", help="also say what this raw number of the point means: 65036, 0xFE0C, -500")
     add("--as-documented", action="store_true", help="show what the manual alone would say, without errata")
     add_format(parser)
 
@@ -62,7 +64,8 @@ def run(arguments: Namespace) -> int:
         raise StopError(message, bases.advice(device.bases))
     if not what.strip():
         raise StopError("there is nothing to explain", "give a code, a name or an address")
-    found = _points(device, find(device, what), as_documented=arguments.as_documented)
+    raw = None if arguments.raw is None else _raw_number(arguments.raw)
+    found = _points(device, find(device, what), as_documented=arguments.as_documented, raw=raw)
     found += explain_other_items(device, what)
     if not found:
         raise _nothing_found(device, what)
@@ -79,7 +82,15 @@ def run(arguments: Namespace) -> int:
     return FINE
 
 
-def _points(device: Device, matches: list[Match], *, as_documented: bool) -> list[Found]:
+def _raw_number(text: str) -> int:
+    """Return a raw number as it is typed. Raises StopError."""
+    number = number_of(text.strip().removeprefix("-"))
+    if number is None:
+        raise StopError(f"--raw {shortened(text)}: this is no whole number", "as in 65036, 0xFE0C, FE0Ch or -500")
+    return -number if text.strip().startswith("-") else number
+
+
+def _points(device: Device, matches: list[Match], *, as_documented: bool, raw: int | None) -> list[Found]:
     """Return the explanation of each matching point. Raises StopError if the chosen variants have none of them."""
     existing = [match for match in matches if not absence(device, match.point)]
     if matches and not existing:
@@ -91,7 +102,8 @@ def _points(device: Device, matches: list[Match], *, as_documented: bool) -> lis
         readings.setdefault(match.point.item, []).append(match.reading + word)
     points = {match.point.item: match.point for match in existing}
     return [
-        (readings[item], explain_point(device, point, as_documented=as_documented)) for item, point in points.items()
+        (readings[item], explain_point(device, point, as_documented=as_documented, raw=raw))
+        for item, point in points.items()
     ]
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from fieldscribe.arithmetic.codec import Settings, setting_of
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.meanings import Meanings, raw_form
+from fieldscribe.conversation.near_misses import doubts
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
 from fieldscribe.families import family
@@ -76,6 +77,10 @@ class Directory:
         """Return the points whose lowest address is this, each with its place."""
         return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
+    def neighbours(self, point: Point, address: int) -> list[Point]:
+        """Return the points that begin at an address of the space or the telegram of a point."""
+        return [other for other, _ in self.starting_at(point.telegram or point.space, address)]
+
     def first(self, telegram: str, name: str) -> int | None:
         """Return the first address of a point of the telegram; None if the telegram has no such point."""
         return self._firsts.get((telegram, name))
@@ -98,9 +103,13 @@ class Directory:
 class PointFormatter:
     """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
 
-    def __init__(self, device: Device, point: Point, base: Base, *, written: bool) -> None:
+    def __init__(
+        self, device: Device, point: Point, base: Base, *, written: bool, doubting: Directory | None = None
+    ) -> None:
+        """`doubting` makes each item say whether its number is in range; it has the points for other readings."""
         self._device, self._point, self.base, self._written = device, point, base, written
-        self.needs = point.arguments if written else point.scale_arguments
+        self._doubting = doubting
+        self.needs = point.arguments if written or doubting else point.scale_arguments
         self._head, self._title = f"{label(point)} = ", english_title(point)
         self._name = point.item
         self._raw_text = raw_form(point)
@@ -132,8 +141,17 @@ class PointFormatter:
         text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
         return Item(
             *self.base, line(self._head + text), self._name, point.code, None if point.text is not None else raw,
-            meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags,
+            meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags, meaning.text,
+            self._doubts(raw, settings, finding),
         )  # fmt: skip
+
+    def _doubts(self, raw: int, settings: Settings, finding: str) -> tuple[str, ...]:
+        """Return what speaks against a number, and other readings of it."""
+        point, directory = self._point, self._doubting
+        if directory is None or point.text is not None or not point.generated:
+            return ()
+        texts = doubts(self._device, point, raw, settings, partial(directory.neighbours, point))
+        return texts[1:] if finding else texts
 
 
 @dataclass(slots=True)
@@ -147,6 +165,8 @@ class DecodeState:
     given: Mapping[str, int | Fraction]
     settings: dict[str, int | Fraction]
     """The numbers for rules: those that the user gave, else those of frames."""
+    doubting: bool = False
+    """True if items say whether their numbers are in range."""
     words: dict[int, int] = field(default_factory=dict)
     incomplete: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
     """By item, the points whose meaning needs settings that are not known yet, with their raw numbers."""
@@ -179,7 +199,8 @@ class DecodeState:
         """Return the formatter of a point at this place."""
         key = point.item, base, written
         if key not in self.formatters:
-            self.formatters[key] = PointFormatter(self.device, point, base, written=written)
+            doubting = self.directory if self.doubting else None
+            self.formatters[key] = PointFormatter(self.device, point, base, written=written, doubting=doubting)
         return self.formatters[key]
 
 

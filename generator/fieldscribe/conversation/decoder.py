@@ -55,7 +55,15 @@ def frame_decoder(device: Device, options: Options) -> decoded_frame.FrameDecode
 class StreamDecoder:
     """Decodes the frames of one line in their order."""
 
-    def __init__(self, device: Device, settings: Settings, frame_decoder: decoded_frame.FrameDecoder) -> None:
+    def __init__(
+        self,
+        device: Device,
+        settings: Settings,
+        frame_decoder: decoded_frame.FrameDecoder,
+        *,
+        doubting: bool = False,
+    ) -> None:
+        """`doubting` makes items say whether their numbers are in range, and which other readings are."""
         given, directory = dict(settings), Directory(device)
         formatters: dict[Any, PointFormatter] = {}
         self._frame_decoder, self._directory = frame_decoder, directory
@@ -65,7 +73,7 @@ class StreamDecoder:
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
         self._state_of_unit = lru_cache(decoded_frame.MOST_STATES)(
-            lambda _unit: DecodeState(device, directory, formatters, given, dict(given))
+            lambda _unit: DecodeState(device, directory, formatters, given, dict(given), doubting)
         )
 
     def requests(self, options: Options) -> list[FrameResult]:
@@ -79,12 +87,18 @@ class StreamDecoder:
         frames = [frame for text in texts if (frame := _logged_frame(text) if "unit " in text else text) is not None]
         return [self.decode(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
 
-    def decode(self, frame: Any, *, expecting: bool = False) -> FrameResult:
-        """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it."""
-        decoded = self._frame_decoder.decode(frame, self._open_requests, expecting=expecting)
+    def decode(
+        self, frame: Any, *, expecting: bool = False, requests: decoded_frame.OpenRequests | None = None
+    ) -> FrameResult:
+        """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it.
+
+        `requests` are the open requests that it may answer, if the frames of several lines are mixed.
+        """
+        requests = self._open_requests if requests is None else requests
+        decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
         state = self._state_of_unit(decoded.unit)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
-        self._open_requests.follow(decoded, expecting=expecting)
+        requests.follow(decoded, expecting=expecting)
         notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, decoded_frame.CutFrame) else ()))
         return replace(decoded.result, items=items, notes=decoded.result.notes + notes)
 

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import float_of, pattern_of
-from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.arithmetic.words import ends_of, number_of, with_fixed
+from fieldscribe.conversation.decode_state import Directory
+from fieldscribe.conversation.meanings import Meanings, raw_form
+from fieldscribe.conversation.near_misses import doubts
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
@@ -38,14 +42,31 @@ class Explanation:
         return {"heading": self.heading, "rows": [{"label": label, "text": text} for label, text in self.rows]}
 
 
-def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
-    """Return all facts of a point; with `as_documented` as the manual prints them, without its errata."""
+def explain_point(device: Device, point: Point, *, as_documented: bool = False, raw: int | None = None) -> Explanation:
+    """Return all facts of a point; with `as_documented` as the manual prints them, without its errata.
+
+    Rows about the raw number, if there is one, come first.
+    """
     errata = [erratum for erratum in device.errata if erratum.id in point.errata]
     printed = errata if as_documented else []
-    rows = [row for row in _rows(device, point, errata, printed) if row[1]]
+    rows = [*_rows_of_number(device, point, raw), *(row for row in _rows(device, point, errata, printed) if row[1])]
     head = f"{point.code} {point.item}" if point.code else point.item
     heading = line(f"{head}: {wording.title_text(point.title)}")
     return Explanation(heading, tuple((line(label), line(text)) for label, text in rows))
+
+
+def _rows_of_number(device: Device, point: Point, raw: int | None) -> Iterator[Row]:
+    """Return the meaning of a raw number, and if it is out of range, other readings of it."""
+    if raw is None or point.text is not None:
+        return
+    signed = raw < 0
+    if not ends_of(point.width, signed=signed)[0] <= raw <= ends_of(point.width, signed=signed)[1]:
+        yield f"Raw {raw}", f"it does not fit into the {point.width} bits of the point"
+        return
+    raw = number_of(raw, point.width, signed=point.info.signed) if raw > 0 else raw
+    yield f"R{raw_form(point)(raw)[1:]}", Meanings(device, point).text(raw, {})
+    neighbours = partial(Directory(device).neighbours, point)
+    yield from (("Doubt", text) for text in doubts(device, point, raw, {}, neighbours))
 
 
 def _rows(device: Device, point: Point, errata: list[Erratum], printed: list[Erratum]) -> Iterator[Row]:

@@ -51,6 +51,16 @@ def written_remarks(device: Device, point: Point, raw: int, settings: Settings) 
     return "", ""
 
 
+def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> str:
+    """Return that a raw number lies outside the range of its point; empty if it does not, or limits are not known."""
+    try:
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        if error.status in ("out_of_range", "unknown_value"):
+            return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why
+    return ""
+
+
 def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
     try:
         return codec.decode(point, raw, settings) if point.form in ("scaled", "integer", "float") else None

@@ -67,7 +67,9 @@ class Item:
 
     `summary` is one line with everything but the flags of a word; `bit_texts` works those out on demand (few users look
     at them). `missing` names the points whose raw numbers are needed to compute the value. `findings` say what the
-    device refuses, or that the manual closes the address; `summary` repeats them.
+    device refuses, or that the manual closes the address; `summary` repeats them. `meaning` is the value with its
+    unit, or a name. `doubts`, where they are asked for, say that the number lies outside its range, and which other
+    readings are within.
     """
 
     space: str
@@ -81,6 +83,8 @@ class Item:
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
     bit_texts: BitTexts | None = None
+    meaning: str = ""
+    doubts: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
@@ -103,6 +107,7 @@ class Item:
             "missing": list(self.missing),
             "findings": list(self.findings),
             "text": self.text,
+            **({"doubts": list(self.doubts)} if self.doubts else {}),
         }
 
 

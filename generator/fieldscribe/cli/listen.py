@@ -1,0 +1,183 @@
+"""`fieldscribe listen`: what devices and their masters say, from a capture."""
+
+from __future__ import annotations
+
+import gc
+import json
+import sys
+from argparse import ArgumentParser, Namespace
+from contextlib import ExitStack
+from datetime import UTC, datetime
+from functools import lru_cache
+from io import BufferedReader
+from typing import cast
+
+from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, open_device, usage_error
+from fieldscribe.cli.frame_options import add_family_options, add_framing, options_of
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
+from fieldscribe.listening.captures import chunks_of
+from fieldscribe.listening.chunks import Chunk
+from fieldscribe.listening.exchanges import Exchange, finding_text, item_text, seconds
+from fieldscribe.listening.listener import Listener, Station
+from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
+from fieldscribe.listening.statistics import Statistics
+from fieldscribe.pasted_numbers import HexError
+from fieldscribe.report import visible
+from fieldscribe.text import counted, shortened
+from fieldscribe.user_errors import UnclearError
+
+EXAMPLE = """examples:
+  fieldscribe listen hitachi_l200 --capture plant.pcapng
+  fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --capture line.log --write line.pcapng
+  candump -L can0 | fieldscribe listen woodward_mpu2s --capture - --summary
+  fieldscribe listen siemens_mm4 --capture telegrams.log --format jsonl
+
+DEVICE=N is the device with unit N; without N it stands for all other units. Captures are pcap and pcapng (a network, a
+serial line as DLT 147 to 162, SocketCAN), logs of candump, and lines of hexadecimal bytes, each perhaps with a time.
+
+ends with 1 when there are errors, or something is against the manual
+ends with 2 when a capture is cut off or is none: what came before is printed"""
+
+_GC_THRESHOLD = 100_000
+_LAST_MOMENT = 1 << 34
+"""Times beyond are no times."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add = parser.add_argument
+    add("devices", nargs="+", metavar="DEVICE[=N]", help="a device's id or path, perhaps with its unit number")
+    add_descriptions(parser)
+    add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
+    add_repeated(parser, "--capture", "FILE", "read a capture; - is standard input")
+    add_repeated(parser, "--port", "N", "a TCP port of the devices (default: that of the protocol)", type=int)
+    add("--write", metavar="FILE", help="also write everything to a new capture (pcapng)")
+    add("--summary", action="store_true", help="print only the summary, not each exchange")
+    add("-v", "--verbose", action="store_true", help="with each exchange, print its frames and what the manual says")
+    add_framing(parser, "by the bytes")
+    add_family_options(parser, "decode")
+    add("--format", choices=("text", "jsonl"), default="text", help="how to report (default: text)")
+
+
+def run(arguments: Namespace) -> int:
+    """Listen and print; return the exit code."""
+    if not arguments.capture:
+        raise StopError("there is nothing to listen to", "give --capture FILE: pcap, pcapng, candump, bytes in lines")
+    stations = [_station(arguments, name) for name in arguments.devices]
+    listener = Listener(stations, options_of(stations[0].device, arguments))
+    gc.set_threshold(_GC_THRESHOLD)
+    gc.enable()  # a line may last for days
+    with ExitStack() as stack:
+        writer = PacketWriter(stack.enter_context(open(arguments.write, "xb"))) if arguments.write else None
+        output = _Output(arguments, listener, writer)
+        for name in arguments.capture:
+            stream = sys.stdin.buffer if name == "-" else stack.enter_context(open(name, "rb"))
+            output.follow(cast("BufferedReader", stream), "standard input" if name == "-" else name)
+        return output.end()
+
+
+def _station(arguments: Namespace, text: str) -> Station:
+    """Return a device with its unit, as typed. Raises StopError."""
+    name, equals, unit = text.rpartition("=")
+    if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
+        raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
+    arguments.device = name if equals else text
+    return Station(open_device(arguments), int(unit) if equals else None)
+
+
+class _Output:
+    """Prints exchanges as they come, and the summary at the end."""
+
+    def __init__(self, arguments: Namespace, listener: Listener, writer: PacketWriter | None) -> None:
+        self._listener, self._writer, self._statistics = listener, writer, Statistics()
+        self._ports = frozenset(arguments.port) or listener.part.PORTS
+        self._json = arguments.format == "jsonl"
+        kind = _JsonPrinter if self._json else _Printer
+        self._printer = None if arguments.summary else kind(verbose=arguments.verbose)
+        self._unread, self._broken = 0, False
+
+    def follow(self, stream: BufferedReader, name: str) -> None:
+        """Print what a capture holds."""
+        each = None
+        if self._writer is not None:
+            is_packets = is_packet_file(stream.peek(4))
+            each, self._listener.each = (self._writer.write, None) if is_packets else (None, self._writer.write)
+        try:
+            for chunk in chunks_of(stream, self._ports, self._chunk_of, each):
+                self._take(chunk)
+        except UnclearError as error:
+            self._broken = True
+            usage_error(f"{name}: {error.message}", error.hint)
+
+    def _chunk_of(self, text: str) -> Chunk | None:
+        try:
+            chunk: Chunk = self._listener.part.chunk_of_text(text)
+        except HexError:
+            self._unread += 1
+            return None
+        return chunk
+
+    def _take(self, chunk: Chunk) -> None:
+        for exchange in self._listener.take(chunk):
+            self._exchange(exchange)
+
+    def _exchange(self, exchange: Exchange) -> None:
+        self._statistics.add(exchange)
+        if self._printer is not None:
+            self._printer.exchange(exchange)
+
+    def end(self) -> int:
+        """Print what is left and the summary; return the exit code."""
+        for exchange in self._listener.rest():
+            self._exchange(exchange)
+        statistics = self._statistics
+        if self._json:
+            sys.stdout.write(f"{json.dumps({'summary': statistics.as_data()})}\n")
+        else:
+            sys.stdout.write("\n" if self._printer is not None and statistics.exchanges else "")
+            sys.stdout.write("".join(f"{visible(text)}\n" for text in statistics.lines()))
+        if self._unread:
+            usage_error(f"{counted(self._unread, 'line')} without a frame")
+        if self._listener.others:
+            usage_error(f"{counted(self._listener.others, 'frame')} of another kind of bus")
+        return USAGE if self._broken else FINDINGS if statistics.wrong else FINE
+
+
+class _Printer:
+    """Prints an exchange as a line of text, with `verbose` also its frames and what is said of them."""
+
+    def __init__(self, *, verbose: bool) -> None:
+        self._verbose = verbose
+        self._clock = lru_cache(4)(lambda second: datetime.fromtimestamp(second, UTC).strftime("%H:%M:%S"))
+
+    def exchange(self, exchange: Exchange) -> None:
+        """Print an exchange."""
+        words = [self._moment(exchange.time), exchange.place, "" if exchange.unit is None else f"unit {exchange.unit}"]
+        words += [exchange.action, ", ".join(map(item_text, exchange.items)) or exchange.remark]
+        words += [f"({seconds(exchange.took)})"] if exchange.took else []
+        wrong = (*exchange.faults, *(finding_text(*finding) for finding in exchange.findings.items()))
+        words += [f"! {'; '.join(wrong)}"] if wrong else []
+        sys.stdout.write(f"{visible('  '.join(filter(None, words)))}\n")
+        if self._verbose:
+            for frame, result in exchange.frames:
+                sys.stdout.write(f"    {frame}\n")
+                if result is not None:
+                    texts = (result.summary, *(item.text for item in result.items), *result.notes)
+                    sys.stdout.write("".join(f"      {visible(text)}\n" for text in texts))
+
+    def _moment(self, moment: float | None) -> str:
+        """Return a time of day (UTC)."""
+        if moment is None or not 0 <= moment < _LAST_MOMENT:
+            return ""
+        thousandths = round(moment * 1000)
+        return f"{self._clock(thousandths // 1000)}.{thousandths % 1000:03}"
+
+
+class _JsonPrinter(_Printer):
+    """Prints one object a line for each exchange."""
+
+    def exchange(self, exchange: Exchange) -> None:
+        data = exchange.as_data()
+        if self._verbose:
+            data["frames"] = [frame for frame, _ in exchange.frames]
+        sys.stdout.write(f"{json.dumps(data)}\n")

@@ -1,0 +1,61 @@
+"""Messages of a CAN bus: each is a frame of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fieldscribe.families.can.frames import LONGEST, CanFrame
+from fieldscribe.families.can.notation import Pasted, read_frames
+from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.listening.chunks import MESSAGE, Chunk, Cut
+from fieldscribe.listening.packet_files import CAN_SOCKET, Packet
+from fieldscribe.pasted_numbers import HexError
+from fieldscribe.user_errors import UnclearError
+
+KINDS = (MESSAGE,)
+PORTS: frozenset[int] = frozenset()
+_LONG, _REMOTE, _SHORT = 0x80000000, 0x40000000, 0x7FF
+"""How SocketCAN marks long identifiers and remote messages, and the last short identifier."""
+
+
+class CanCutter:
+    """Makes frames of messages."""
+
+    def take(self, chunk: Chunk) -> Iterator[Cut]:
+        """Return the frame of a message."""
+        frame = Pasted(CanFrame(chunk.identifier, chunk.data), remote=chunk.remote)
+        yield Cut(chunk.time, frame, chunk.data, None)
+
+    def rest(self) -> Iterator[Cut]:
+        """Return nothing: each message is whole."""
+        return iter(())
+
+
+def cutter() -> CanCutter:
+    """Return what makes frames of messages."""
+    return CanCutter()
+
+
+def packet(cut: Cut) -> Packet:
+    """Return a message as a packet of SocketCAN."""
+    pasted: Pasted = cut.frame
+    identifier, data = pasted.frame.id, cut.data[:LONGEST]
+    head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if pasted.remote else 0)
+    return Packet(cut.time, CAN_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
+
+
+def action(result: FrameResult) -> str:
+    """Return what a message is."""
+    return str(result.details.get("message", "message"))
+
+
+def chunk_of_text(text: str) -> Chunk:
+    """Return the message in a line of candump. Raises HexError for a line without one."""
+    try:
+        pasted = read_frames([text])[0]
+    except (UnclearError, IndexError) as error:
+        raise HexError(str(error)) from error
+    stamp = pasted.stamp.strip("()")
+    time = float(stamp) if stamp.count(".") == 1 and len(stamp) > 1 else None
+    frame = pasted.frame
+    return Chunk(time, MESSAGE, frame.data, pasted.bus, identifier=frame.id, remote=pasted.remote)

@@ -1,0 +1,36 @@
+"""Cuts what is heard of USS into telegrams: by their start, length and check byte."""
+
+from __future__ import annotations
+
+from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.families.uss import parts
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
+from fieldscribe.listening.chunks import BYTES
+from fieldscribe.listening.cutting import ByteCutter, packet
+from fieldscribe.listening.logs import logged_bytes as chunk_of_text
+
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "packet"]
+
+KINDS = (BYTES,)
+PORTS: frozenset[int] = frozenset()
+_LONGEST = 256
+
+
+def _size_at(data: bytes) -> int:
+    if data[0] != START:
+        return 0
+    size = data[1] + 2 if len(data) > 1 else LEAST_BYTES
+    if len(data) < size:
+        return -1
+    return size if size >= LEAST_BYTES and not check_byte(data[:size]) else 0
+
+
+def cutter() -> ByteCutter:
+    """Return what cuts chunks into telegrams."""
+    return ByteCutter(_size_at, _LONGEST, None, 2)
+
+
+def action(result: FrameResult) -> str:
+    """Return what an exchange does, in a word."""
+    task = result.details.get("task")
+    return "process data" if not task else "write" if task in parts.TASK_WIDTHS else "read"

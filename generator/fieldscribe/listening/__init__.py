@@ -1,0 +1,11 @@
+"""Passive listening: what devices and their masters say, from a capture or on a line, by name and with units.
+
+- `captures.py` opens a capture and returns its chunks; `packet_files.py` reads pcap and pcapng, and writes pcapng;
+  `packets.py` takes packets apart, and joins the segments of a connection; `logs.py` reads lines of text.
+- `lines.py` listens on a serial line or a bus.
+- A family's `listening.py` cuts chunks into frames (`cutting.py` helps where only a check tells where a frame ends).
+- `listener.py` gives each frame to the decoder of its device, and pairs requests with their answers.
+- `statistics.py` counts who polls what, how often, and what is wrong.
+
+Nothing here sends, and memory does not grow with a capture. Any bytes are safe.
+"""

@@ -1,0 +1,167 @@
+"""Gives each frame to the decoder of its device, and pairs requests with their answers."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from typing import NamedTuple
+
+from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
+from fieldscribe.families import family
+from fieldscribe.families.decoded_frame import OpenRequests
+from fieldscribe.families.frame_results import FrameResult, Options
+from fieldscribe.listening.chunks import Chunk, Cut
+from fieldscribe.listening.exchanges import Exchange
+from fieldscribe.listening.packet_files import Packet
+from fieldscribe.model import Device
+from fieldscribe.user_errors import UnclearError
+
+_ASKS, _ANSWERS = ("request", "request_or_reply"), ("reply", "exception")
+_MOST_OPEN = 1024
+"""How many requests may wait for an answer at the same time."""
+NO_ANSWER = "no answer"
+ALONE = "an answer without a request before it"
+NOISE = "bytes that are no frame"
+FOREIGN = "for a unit without a description"
+
+
+class Station(NamedTuple):
+    """A device on the line; without a unit it stands for all units that no other station has."""
+
+    device: Device
+    unit: int | None = None
+
+
+class _Open(NamedTuple):
+    """A request that waits for its answer."""
+
+    cut: Cut
+    result: FrameResult
+    station: Station
+
+
+class Listener:
+    """Turns chunks into exchanges. Raises UnclearError for devices that cannot be on one line."""
+
+    def __init__(self, stations: Sequence[Station], options: Options) -> None:
+        names = {station.device.family for station in stations}
+        if len(names) > 1:
+            raise UnclearError(f"devices of {' and '.join(sorted(names))} are not on one line", "listen to one family")
+        self.part = family(stations[0].device.family).part("listening")
+        self.each: Callable[[Packet], object] | None = None
+        """Gets each frame as a packet of a capture."""
+        self._cutter = self.part.cutter()
+        self._stations, self._options = stations, options
+        self._named = {station.unit: station for station in stations if station.unit is not None}
+        self._default = next((station for station in stations if station.unit is None), None)
+        self._decoders: dict[tuple[int, str | None], StreamDecoder] = {}
+        self._open: OrderedDict[Hashable, _Open] = OrderedDict()
+        self._requests: OrderedDict[Hashable, OpenRequests] = OrderedDict()
+        self._units: set[int | None] = set()
+        """The units that a sound frame was for or from."""
+        self.others = 0
+        """Chunks that cannot be frames of this family."""
+
+    def take(self, chunk: Chunk) -> Iterator[Exchange]:
+        """Return the exchanges that end with this chunk."""
+        if chunk.kind not in self.part.KINDS:
+            self.others += 1
+            return
+        for cut in self._cutter.take(chunk):
+            yield from self._frame(cut)
+
+    def rest(self) -> Iterator[Exchange]:
+        """Return what is left at the end; requests at the very end may have been answered."""
+        for cut in self._cutter.rest():
+            yield from self._frame(cut)
+        for waiting in self._open.values():
+            yield self._exchange(waiting, None, None)
+        self._open.clear()
+
+    def _frame(self, cut: Cut) -> Iterator[Exchange]:
+        if self.each is not None:
+            self.each(self.part.packet(cut))
+        if cut.damaged and cut.unit not in self._units:
+            yield Exchange(cut.time, cut.place, None, None, "", None, None, (cut,), (NOISE,))
+            return
+        key: tuple[Hashable, ...] = cut.place, cut.exchange
+        if cut.sent and key in self._open:  # the client gave up waiting
+            yield self._unanswered(key)
+            self._requests.pop(key, None)
+        station, result = self._decoded(cut, self._open_requests(key))
+        if result is None or station is None:
+            yield Exchange(cut.time, cut.place, cut.unit, None, "", None, None, (cut,), (FOREIGN,))
+            return
+        if not cut.damaged:
+            self._units.add(result.unit)
+        yield from self._paired(cut, (*key, result.unit) if cut.unit is None else key, station, result)
+
+    def _open_requests(self, key: Hashable) -> OpenRequests:
+        """Return the open requests of an exchange; those used last are kept."""
+        requests = self._requests.pop(key, None) or OpenRequests()
+        self._requests[key] = requests
+        if len(self._requests) > _MOST_OPEN:
+            self._requests.popitem(last=False)
+        return requests
+
+    def _paired(self, cut: Cut, key: Hashable, station: Station, result: FrameResult) -> Iterator[Exchange]:
+        waiting = self._open.get(key)
+        if result.kind in _ASKS and cut.sent is not False:
+            if waiting is not None:
+                yield self._unanswered(key)
+            self._open[key] = _Open(cut, result, station)
+            if len(self._open) > _MOST_OPEN:
+                yield self._unanswered(next(iter(self._open)))
+        elif result.kind in _ANSWERS and waiting is not None and waiting.result.unit == result.unit:
+            del self._open[key]
+            yield self._exchange(waiting, result, cut)
+        else:
+            lonely = (ALONE,) if result.kind in _ANSWERS or result.kind in _ASKS else ()
+            asks = result.kind == "broadcast"
+            yield Exchange(
+                cut.time, cut.place, result.unit, station.device, self.part.action(result),
+                result if asks else None, None if asks else result, (cut,), (*result.faults, *lonely),
+            )  # fmt: skip
+
+    def _unanswered(self, key: Hashable) -> Exchange:
+        waiting = self._open.pop(key)
+        silent = waiting.result.kind in _ASKS and waiting.result.unit != waiting.station.device.bus.broadcast
+        return self._exchange(waiting, None, None, (NO_ANSWER,) if silent else ())
+
+    def _decoded(self, cut: Cut, requests: OpenRequests) -> tuple[Station | None, FrameResult | None]:
+        """Return the station that a frame is for or from, and its meaning there; None for a foreign one."""
+        if cut.unit is not None:
+            station = self._named.get(cut.unit, self._default)
+            if station is None and cut.unit == self._stations[0].device.bus.broadcast:
+                station = self._stations[0]
+            return station, None if station is None else self._decoder(station, cut.framing).decode(
+                cut.frame, requests=requests
+            )
+        first = None
+        for station in self._stations:
+            result = self._decoder(station, cut.framing).decode(cut.frame, requests=requests)
+            if result.kind != "other" and station.unit in (None, result.unit):
+                return station, result
+            first = first or (station, result)
+        return first if first and first[1].kind != "other" and first[0].unit is None else (None, None)
+
+    def _decoder(self, station: Station, framing: str | None) -> StreamDecoder:
+        key = id(station), framing
+        if key not in self._decoders:
+            options = Options(framing or self._options.framing, own=self._options.own)
+            self._decoders[key] = StreamDecoder(
+                station.device, {}, frame_decoder(station.device, options), doubting=True
+            )
+        return self._decoders[key]
+
+    def _exchange(
+        self, waiting: _Open, reply: FrameResult | None, cut: Cut | None, faults: tuple[str, ...] = ()
+    ) -> Exchange:
+        first, request, station = waiting
+        took = None if cut is None or cut.time is None or first.time is None else cut.time - first.time
+        faults = (*request.faults, *(reply.faults if reply else ()), *faults)
+        cuts = (first,) if cut is None else (first, cut)
+        action = self.part.action(request)
+        return Exchange(
+            first.time, first.place, request.unit, station.device, action, request, reply, cuts, faults, took
+        )
