@@ -31,7 +31,7 @@ LINES = [
 @pytest.mark.parametrize(
     ("typed", "known"),
     [
-        (["l"], ["list"]),
+        (["l"], ["listen", "list"]),
         (["--v"], ["--version"]),
         (["nothing", ""], []),
         (["explain", "woodward"], ["woodward_mpu2s"]),

@@ -60,7 +60,16 @@ CLAIMS = {
             0, r"P2010 uss_baud_rate_index_1: (.|\n)*Wire address +07DAh \(2010\), index 1"
         ),
         "siemens_mm4 error:17": Claim(0, "error 17 not_in_this_operating_state"),
+        "hitachi_l200 d001 --raw 0xFE0C": Claim(0, r"is outside 0\.\.400 Hz\n  Doubt +as a signed number it is -50 Hz"),
         "hitachi_l200 unit:Hz": Claim(0, r"Hz: hertz(.|\n)*Points +network_frequency_setpoint"),
+    },
+    "listen": {
+        "hitachi_l200 --capture plant.pcapng": Claim(0, r"10\.0\.0\.1:4000  unit 1  read  output_frequency = 50 Hz"),
+        "hitachi_l200=1 nord_sk5xxe=2 --capture gateway.log --write gateway.pcapng": Claim(
+            0, r"unit 1  read  base_frequency\n", made="gateway.pcapng"
+        ),
+        "woodward_mpu2s --capture - --summary": Claim(0, r"2 exchanges(.|\n)*generator_power_exponent"),
+        "woodward_mpu2s --capture candump.log --format jsonl": Claim(0, r'"generator_frequency = 50 Hz"'),
     },
     "decode": {
         'hitachi_l200 "05 06 10 28 01 F4 0C 91"': Claim(0, r"A020 base_frequency = 50 Hz(.|\n)*ok \(0C 91\)"),

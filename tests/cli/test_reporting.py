@@ -43,6 +43,11 @@ ENDS: dict[str, dict[int, list[str]]] = {
     "export": {0: ["json", "small_drive"], 1: ["json", "broken"], 2: ["xml", "small_drive"]},
     "explain": {0: ["small_drive", "P1"], 1: ["broken", "P1"], 2: ["small_drive", "P9"]},
     "decode": {0: ["small_drive", SPEED_50], 1: ["small_drive", SPEED_50[:-1] + "9"], 2: ["small_drive", "zz"]},
+    "listen": {
+        0: ["small_drive", "--capture", "line.log"],
+        1: ["small_drive=9", "--capture", "line.log"],
+        2: ["small_drive", "--capture", "manual.txt"],
+    },
     "encode": {0: ["small_drive", "P1", "50"], 1: ["small_drive", "P1", "500"], 2: ["small_drive", "P1", "50 V"]},
     "read": {1: ["broken", "P1", *NO_LINE], 2: ["small_drive", "P1"]},
     "write": {1: ["broken", "P1=1", *NO_LINE], 2: ["small_drive", "P1=1"]},
@@ -73,6 +78,7 @@ def devices(small: Path) -> None:
         device = DEVICE.replace("device: small_drive", f"device: {name if name != 'other' else 'small_drive'}")
         write(small.parent / name, device, main=MAIN.replace("TITLE", "Speed").replace(old, new))
     Path("manual.txt").write_text("a manual\n")
+    Path("line.log").write_text(f"{SPEED_50}\n")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

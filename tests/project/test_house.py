@@ -51,6 +51,8 @@ ROOMS = (
     ("what a family knows of simulated devices", "families.*.simulation"),
     ("a real device", "live"),
     ("the lines of a family", "families.*.lines"),
+    ("passive listening", "listening"),
+    ("how a family is heard", "families.*.listening"),
     ("output", "output"),
     ("what a project takes", "vendoring"),
     ("a person who writes a description", "authoring"),

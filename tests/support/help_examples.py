@@ -20,6 +20,7 @@ from fieldscribe.cli import main
 from fieldscribe.simulation import making
 from fieldscribe.simulation.servers import serve_tcp
 
+from support.captured import classic, segment
 from support.places import ROOT, TESTS
 
 _EXAMPLE = re.compile(
@@ -101,6 +102,8 @@ def workplace(folder: Path) -> Path:
         "points.txt": "A020\nd001\n",
     }.items():
         (folder / name).write_text(text, "utf-8")
+    asked, came = bytes.fromhex("0001 0000 0006 01 03 1001 0001"), bytes.fromhex("0001 0000 0005 01 03 02 01F4")
+    (folder / "plant.pcapng").write_bytes(classic([segment(1, asked), segment(1, came, back=True)]))
     return folder
 
 

@@ -7,6 +7,7 @@ import json
 import sys
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import lru_cache
 from io import BufferedReader
@@ -15,10 +16,12 @@ from typing import cast
 from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, open_device, usage_error
 from fieldscribe.cli.frame_options import add_family_options, add_framing, options_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
+from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import Chunk
 from fieldscribe.listening.exchanges import Exchange, finding_text, item_text, seconds
 from fieldscribe.listening.listener import Listener, Station
+from fieldscribe.listening.logs import timed
 from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
 from fieldscribe.listening.statistics import Statistics
 from fieldscribe.pasted_numbers import HexError
@@ -28,9 +31,9 @@ from fieldscribe.user_errors import UnclearError
 
 EXAMPLE = """examples:
   fieldscribe listen hitachi_l200 --capture plant.pcapng
-  fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --capture line.log --write line.pcapng
+  fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --capture gateway.log --write gateway.pcapng
   candump -L can0 | fieldscribe listen woodward_mpu2s --capture - --summary
-  fieldscribe listen siemens_mm4 --capture telegrams.log --format jsonl
+  fieldscribe listen woodward_mpu2s --capture candump.log --format jsonl
 
 DEVICE=N is the device with unit N; without N it stands for all other units. Captures are pcap and pcapng (a network, a
 serial line as DLT 147 to 162, SocketCAN), logs of candump, and lines of hexadecimal bytes, each perhaps with a time.
@@ -110,12 +113,14 @@ class _Output:
             usage_error(f"{name}: {error.message}", error.hint)
 
     def _chunk_of(self, text: str) -> Chunk | None:
+        """Return what a line of a log brings; None if it has no frame."""
+        frame = logged_frame(text) if "unit " in text else text
         try:
-            chunk: Chunk = self._listener.part.chunk_of_text(text)
+            chunk: Chunk | None = None if frame is None else self._listener.part.chunk_of_text(frame)
         except HexError:
             self._unread += 1
             return None
-        return chunk
+        return chunk if chunk is None or frame is text else replace(chunk, time=timed(text)[0])
 
     def _take(self, chunk: Chunk) -> None:
         for exchange in self._listener.take(chunk):
@@ -131,6 +136,8 @@ class _Output:
         for exchange in self._listener.rest():
             self._exchange(exchange)
         statistics = self._statistics
+        if self._broken and not statistics.exchanges:
+            return USAGE
         if self._json:
             sys.stdout.write(f"{json.dumps({'summary': statistics.as_data()})}\n")
         else:

@@ -84,7 +84,7 @@ class StreamDecoder:
 
     def pasted(self, texts: Sequence[str]) -> list[FrameResult]:
         """Decode the frames in the texts. Raises UnclearError for a text that is no frame."""
-        frames = [frame for text in texts if (frame := _logged_frame(text) if "unit " in text else text) is not None]
+        frames = [frame for text in texts if (frame := logged_frame(text) if "unit " in text else text) is not None]
         return [self.decode(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
 
     def decode(
@@ -117,7 +117,7 @@ class StreamDecoder:
             yield _misprint_text(misprint)
 
 
-def _logged_frame(text: str) -> str | None:
+def logged_frame(text: str) -> str | None:
     """Return the frame in a line that our packages log; None for a failure, any other text as it is."""
     match = _LOGGED.fullmatch(text.strip())
     if match is None:

@@ -13,8 +13,11 @@ SILENCE = 0.1
 """The seconds without a byte after which a frame is at its end; many times what any protocol asks for."""
 _MOST_LINES = 256
 
-SizeAt = Callable[[bytes], int]
-"""Returns the size of the sound frame at the beginning of bytes; 0 if there is none, -1 if more bytes may make one."""
+SizeAt = Callable[[bytes, bool], int]
+"""Returns the size of the sound frame at the beginning of bytes; 0 if there is none, -1 if more bytes may make one.
+
+The second argument is True where a frame may begin, False within noise.
+"""
 
 
 @dataclass(slots=True)
@@ -59,7 +62,7 @@ class ByteCutter:
         """Yield the frames in what waits. Behind noise, a sound frame ends the wait for one before it."""
         data, at, start, wanting = line.waiting, line.noise, 0, -1
         while at < len(data):
-            size = self._size_at(data[at : at + self._longest])
+            size = self._size_at(data[at : at + self._longest], at == start)
             if size > 0:
                 yield from self._damaged(data[start:at], place, line)
                 yield self._made(data[at : at + size], place, line)

@@ -11,7 +11,7 @@ from typing import BinaryIO, NamedTuple
 
 from fieldscribe.user_errors import UnclearError
 
-ETHERNET, SERIAL, CAN_SOCKET = 1, 147, 227
+ETHERNET, SERIAL, BUS_SOCKET = 1, 147, 227
 """Types of link that are written: a network, bytes of a serial line (reserved for users), and messages of SocketCAN."""
 
 _CLASSIC = {

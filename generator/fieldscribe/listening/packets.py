@@ -7,12 +7,12 @@ from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
 from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, Chunk
-from fieldscribe.listening.packet_files import CAN_SOCKET, SERIAL, Packet
+from fieldscribe.listening.packet_files import BUS_SOCKET, SERIAL, Packet
 
 _HEADS = {1: (14, 12), 113: (16, 14), 276: (20, 0), 0: (4, -1), 108: (4, -1), 101: (0, -1), 228: (0, -1), 229: (0, -1)}
 """Types of link of a network: the size of their head, and where it has the protocol; -1 for internet packets alone."""
 _USERS = range(SERIAL, SERIAL + 16)
-_IP4, _IP6, _VLAN, _CAN, _TCP = 0x0800, 0x86DD, (0x8100, 0x88A8), (0x000C, 0x000D), 6
+_IP4, _IP6, _VLAN, _BUS, _TCP = 0x0800, 0x86DD, (0x8100, 0x88A8), (0x000C, 0x000D), 6
 _FIN, _SYN, _RST = 1, 2, 4
 _MOST_CONNECTIONS, _MOST_HELD, _HALF = 1024, 32, 1 << 31
 """Limits: connections that are followed, segments that wait for one before them, half of the sequence numbers."""
@@ -38,14 +38,14 @@ class Packets:
         link, data = packet.link, packet.data
         if link in _USERS:
             yield Chunk(packet.time, BYTES, data)
-        elif link == CAN_SOCKET:
+        elif link == BUS_SOCKET:
             yield from _message(packet.time, data)
         elif link in _HEADS:
             size, place = _HEADS[link]
             protocol = _ip_of(data[size:]) if place < 0 else int.from_bytes(data[place : place + 2], "big")
             while protocol in _VLAN:
                 protocol, size = int.from_bytes(data[size + 2 : size + 4], "big"), size + 4
-            if protocol in _CAN:
+            if protocol in _BUS:
                 yield from _message(packet.time, data[size:])
             elif protocol in (_IP4, _IP6):
                 yield from self._internet(packet.time, data[size:], protocol)

@@ -8,7 +8,7 @@ from fieldscribe.families.can.frames import LONGEST, CanFrame
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.listening.chunks import MESSAGE, Chunk, Cut
-from fieldscribe.listening.packet_files import CAN_SOCKET, Packet
+from fieldscribe.listening.packet_files import BUS_SOCKET, Packet
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.user_errors import UnclearError
 
@@ -41,7 +41,7 @@ def packet(cut: Cut) -> Packet:
     pasted: Pasted = cut.frame
     identifier, data = pasted.frame.id, cut.data[:LONGEST]
     head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if pasted.remote else 0)
-    return Packet(cut.time, CAN_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
+    return Packet(cut.time, BUS_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
 
 
 def action(result: FrameResult) -> str:

@@ -69,7 +69,7 @@ def _framed(chunk: Chunk, data: bytes) -> Cut:
     return Cut(chunk.time, b"\0\0" + data[2:], data, "tcp", data[6], chunk.place, data[:2], chunk.sent)
 
 
-def _size_at(data: bytes) -> int:
+def _size_at(data: bytes, begins: bool) -> int:
     pdu = data[1:]
     if len(pdu) < 2:
         return -1
@@ -79,7 +79,7 @@ def _size_at(data: bytes) -> int:
             return size
     if any(size > len(data) for size in sizes) or (len(pdu) < 6 and pdu[0] in _COUNTED):
         return -1
-    return 0 if unwrap("rtu", data).flaw else len(data)
+    return len(data) if begins and unwrap("rtu", data).flaw is None else 0
 
 
 def cutter() -> ModbusCutter:

@@ -16,7 +16,8 @@ PORTS: frozenset[int] = frozenset()
 _LONGEST = 256
 
 
-def _size_at(data: bytes) -> int:
+def _size_at(data: bytes, begins: bool) -> int:
+    del begins
     if data[0] != START:
         return 0
     size = data[1] + 2 if len(data) > 1 else LEAST_BYTES
