@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.codec import CodecError, encode, float_of, rule_in_force
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Point
-from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Pair, Ref, Rule, Rules, Step
+from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Amount, Pair, Ref, Rule, Rules, Step
 
 if TYPE_CHECKING:
     from fieldscribe.simulation.device import SimulatedDevice
@@ -24,9 +24,10 @@ SAMPLE = 10
 """How many milliseconds a moving number may be old when a request reads it."""
 
 _MOST_PASSES = 8
-_MOST_EVENTS = 100_000
+_MOST_EVENTS = 5_000
 _DECIMALS = 10**9
-"""Numbers between the raw numbers are kept to 10^-9, so that they do not grow."""
+_LARGEST = Fraction(10**20)
+"""Numbers between the raw numbers are kept to 10^-9, and up to 10^20, so that they do not grow."""
 
 
 class Behaviour:
@@ -154,10 +155,10 @@ class Behaviour:
 
     def _aim(self, ref: Ref, step: Step, number: Fraction) -> Pair:
         """Return what a number is now by a move, and its slope; it keeps still where there is no result."""
-        try:
-            target, slope = step.target.at(self._read)
-        except ZeroDivisionError:
+        found = self._result(step.target)
+        if found is None:
             return number, ZERO
+        target, slope = found
         if not step.rates:
             return _rounded(target), ZERO if step.once else slope
         target = _rounded(target)
@@ -169,9 +170,14 @@ class Behaviour:
 
     def _rate(self, step: Step, *, up: bool) -> Fraction | None:
         """Return how fast a number moves; None if at once."""
+        found = self._result(step.rates[0 if up else -1])
+        return None if found is None else abs(found[0])
+
+    def _result(self, amount: Amount) -> Pair | None:
+        """Return the result of an expression and its slope; None if it has none."""
         try:
-            return abs(step.rates[0 if up else -1].at(self._read)[0])
-        except ZeroDivisionError:
+            return amount.at(self._read)
+        except ArithmeticError:
             return None
 
     def _is_ready(self, step: Step) -> bool:
@@ -186,11 +192,8 @@ class Behaviour:
 
     def _due(self, step: Step, since: int) -> int:
         """Return the time at which a move is ready whose condition has held since then."""
-        try:
-            delay = ZERO if step.delay is None else step.delay.at(self._read)[0]
-        except ZeroDivisionError:
-            delay = ZERO
-        return since - floor(-delay * 1000)
+        delay = None if step.delay is None else self._result(step.delay)
+        return since if delay is None else since - floor(-delay[0] * 1000)
 
     def _events(self) -> Iterator[int]:
         """Yield the times, later than now, at which a rule may find something else."""
@@ -207,7 +210,8 @@ class Behaviour:
                     for constant in test.constants:
                         yield from self._meeting(self._read(test.ref), (constant, ZERO))
                 if step.rates and since is not None and rule.ref in self._slopes:
-                    yield from self._meeting(self._read(rule.ref), step.target.at(self._read))
+                    target = self._result(step.target)
+                    yield from () if target is None else self._meeting(self._read(rule.ref), target)
 
     def _meeting(self, first: Pair, second: Pair) -> Iterator[int]:
         """Yield the first millisecond behind the time at which two numbers meet, if they do."""
@@ -304,4 +308,5 @@ def _milliseconds(seconds: float) -> int:
 
 
 def _rounded(number: Fraction) -> Fraction:
+    number = min(max(number, -_LARGEST), _LARGEST)
     return number if _DECIMALS % number.denominator == 0 else Fraction(round(number * _DECIMALS), _DECIMALS)

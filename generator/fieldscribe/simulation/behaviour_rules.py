@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
+from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
 from fieldscribe.model import Flag, Titles
 
@@ -64,7 +65,7 @@ class Amount:
     factor: Fraction = Fraction(1)
 
     def at(self, read: Callable[[Ref], Pair]) -> Pair:
-        """Return the number and its slope. Raises ZeroDivisionError."""
+        """Return the number and its slope. Raises ArithmeticError: for a zero divisor, or a large exponent."""
         number, slope = _evaluated(self.expression, lambda name: read(self.refs[name]))
         return number * self.factor, slope * self.factor
 
@@ -134,6 +135,8 @@ def _evaluated(expression: Expression, read: Callable[[Name], Pair]) -> Pair:
             return -number, -slope
         case Power10(exponent, negative):
             number, _ = _evaluated(exponent, read)
+            if abs(number) > MOST_EXPONENT:
+                raise OverflowError
             return Fraction(10) ** (-int(number) if negative else int(number)), ZERO
         case Binary(op, left, right):
             return _joined(op, _evaluated(left, read), _evaluated(right, read))
