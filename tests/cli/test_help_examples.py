@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from fieldscribe import pipeline
 from fieldscribe.cli import COMMANDS, command_module, live_options, scan
 from fieldscribe.diagnostics import Report
 from fieldscribe.live.lines import LineAddress, read_line
+from fieldscribe.live.snapshots import Held, defaults
 from fieldscribe.model import Device
 from fieldscribe.simulation import simulated
 from support.described import shipped
@@ -149,6 +151,26 @@ CLAIMS = {
         "fronius_datamanager --line tcp://192.168.0.20 --unit 1": Claim(1, "it is not fronius_datamanager: "),
         "pump": Claim(1, "^nothing under `identify`: hitachi_l200\n$"),
     },
+    "snapshot": {
+        "hitachi_l200 --line tcp://192.168.0.20 --out before.json": Claim(0, "^234 points in before.json\n$"),
+        'siemens_mm4 --variant model=mm440 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --out drive.json': Claim(
+            2, "^$", "could not open port"
+        ),
+        "pump --out pump.json": Claim(0, "^234 points", made="pump.json"),
+    },
+    "compare": {
+        "before.json after.json": Claim(1, "  A020 base_frequency  60 Hz -> 40 Hz\n1 difference"),
+        "meter.json": Claim(1, "  demand_period  1 min -> 60 min\n1 difference"),
+        "before.json after.json --all --format json": Claim(1, '"name": "base_frequency"'),
+    },
+    "restore": {
+        "before.json --dry-run": Claim(0, "^would be written: A020 base_frequency = 60 Hz"),
+        "before.json": Claim(2, "^$", "nobody can be asked here"),
+        "before.json --keep --yes --line rtu:///dev/ttyUSB0 --unit 3": Claim(
+            0, "^written: A020 (.|\n)*^written: enter", made="before.json.journal"
+        ),
+        "before.json pump --only A020 --only standard_a --yes": Claim(0, "^written: A020 base_frequency = 60 Hz"),
+    },
     "audit": {
         "hitachi_l200 --manual hitachi_l200_modbus.txt": Claim(
             1, r"the text that was transcribed(.|\n)*facts +\d+, \d+ of them not where"
@@ -279,7 +301,7 @@ def _called(printed: str, command: str) -> str:
     return printed.partition(f"fieldscribe {command}")[2].strip().rstrip(")")
 
 
-ON_LINES = ("read", "write", "monitor", "scan", "identify")
+ON_LINES = ("read", "write", "monitor", "scan", "identify", "snapshot", "restore")
 
 
 @pytest.fixture
@@ -305,6 +327,17 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         yield
 
 
+def snapshots(folder: Path) -> None:
+    """Files of a drive with two base frequencies, and of a meter."""
+    meter = defaults(shipped("eastron_sdm630"))
+    period = meter.points["demand_period"]._replace(value=1.0, text="1 min")
+    replace(meter, line="x", points={**meter.points, "demand_period": period}).write(folder / "meter.json")
+    for name, hertz in (("before", 60), ("after", 40)):
+        held = Held("A020", float(hertz), "Hz", f"{hertz} Hz", 10 * hertz, "setting")
+        drive = replace(meter, device="hitachi_l200", line="tcp://192.168.0.20", unit=1, taken="2027-01-01T12:00:00")
+        replace(drive, points={"base_frequency": held}).write(folder / f"{name}.json")
+
+
 def _interrupted(seconds: float) -> None:
     if seconds >= 0.05:  # the wait of monitor, and not the silence of a line
         raise KeyboardInterrupt
@@ -326,6 +359,8 @@ def test_examples_do_what_they_show(
         stops_at_once(monkeypatch)
     if command in ("decode", "docs", "encode", "explain", "export", "list", "search"):
         monkeypatch.setattr(pipeline, "load_device", _load_once)
+    if command in ("compare", "restore"):
+        snapshots(folder)
     if command in ON_LINES:
         request.getfixturevalue("lines")
     capsys.readouterr()

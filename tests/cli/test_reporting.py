@@ -16,6 +16,7 @@ import pytest
 from fieldscribe import __version__
 from fieldscribe.cli import COMMANDS, command_module, main
 from fieldscribe.cli.common import print_json
+from fieldscribe.live.snapshots import Held, Snapshot
 from fieldscribe.resources import descriptions_dir
 from support.described import write
 from support.small_drive import DEVICE, MAIN, SPEED_50, Output
@@ -54,6 +55,9 @@ ENDS: dict[str, dict[int, list[str]]] = {
     "monitor": {1: ["broken", "P1", *NO_LINE], 2: ["small_drive", "P1"]},
     "scan": {1: ["broken", *NO_LINE], 2: []},
     "identify": {1: ["broken", *NO_LINE], 2: []},
+    "snapshot": {1: ["broken", "--out", "x.json", *NO_LINE], 2: ["small_drive", "--out", "x.json"]},
+    "compare": {0: ["one.json", "one.json"], 1: ["one.json", "two.json"], 2: ["no.json"]},
+    "restore": {2: ["one.json", "small_drive"]},
     "audit": {1: ["broken", "--manual", "manual.txt"], 2: ["small_drive", "--manual", "no.txt"]},
     "diff": {0: ["small_drive", "small_drive"], 1: ["other", "small_drive"], 2: ["nowhere", "small_drive"]},
     "list": {0: [], 1: ["--family", "none"], 2: ["nowhere"]},
@@ -79,6 +83,9 @@ def devices(small: Path) -> None:
         write(small.parent / name, device, main=MAIN.replace("TITLE", "Speed").replace(old, new))
     Path("manual.txt").write_text("a manual\n")
     Path("line.log").write_text(f"{SPEED_50}\n")
+    for name, raw in (("one", 1), ("two", 2)):
+        points = {"speed": Held("P1", raw, "", "", raw, "setting")}
+        Snapshot("small_drive", "", "", "", 1, "", {}, points, {}).write(Path(f"{name}.json"))
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -52,7 +52,7 @@ def run(arguments: Namespace) -> int:
             notes = [note for write in writes for note in write.notes]
             print_lines(([("hint", f"note: {visible(note)}")] for note in notes), sys.stderr)
         else:
-            _ask(live, writes)
+            ask(live, writes)
         live.work.left = [write.reading.label for write in writes]
         for write in writes:
             write.carry_out(live.device)
@@ -65,7 +65,7 @@ def run(arguments: Namespace) -> int:
     return FINE
 
 
-def _ask(live: Live, writes: list[Write]) -> None:
+def ask(live: Live, writes: list[Write]) -> None:
     """Show what is to be written, and ask. Raises StopError if nobody can be asked, or the answer is no."""
     lines: list[Line] = [[("strong", f"{live.model.id}, unit {live.device.unit}, {visible(live.line.text)}:")]]
     for write in writes:

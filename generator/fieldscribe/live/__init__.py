@@ -5,4 +5,5 @@
 - `lines.py` reads the text that names a line (`tcp://host:port`); `project.py` those that `fieldscribe.toml` names.
 - `connection.py` opens a line by `families/<family>/lines.py`, and makes devices on it.
 - `readings.py`, `writing.py` and `scanning.py` do the work of the commands; they print nothing.
+- `snapshots.py` keeps what a device holds in a file; `restoring.py` finds the order of writes, `journal.py` notes them.
 """

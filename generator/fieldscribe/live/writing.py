@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -48,13 +48,26 @@ class Write:
 
 
 class Planner:
-    """Plans writes one after the other: what is planned counts for the scales and limits of what follows."""
+    """Plans writes one after the other: what is planned counts for the scales and limits of what follows.
 
-    def __init__(self, model: Device, device: AnyDevice, *, keep: bool) -> None:
+    `keep` is for values that survive power-off; with `lenient` points that nothing keeps are no error. `known` are the
+    settings that are read already.
+    """
+
+    def __init__(
+        self,
+        model: Device,
+        device: AnyDevice,
+        *,
+        keep: bool,
+        lenient: bool = False,
+        known: Mapping[str, int | Fraction] | None = None,
+    ) -> None:
         self._model, self._device, self._keep = model, device, keep
         self._points = {point.name: point for point in model.points}
         self._commands = {command.name: command for command in model.all_commands}
-        self._settings: dict[str, int | Fraction] = {}
+        self._settings: dict[str, int | Fraction] = {**(known or {})}
+        self._lenient = lenient
 
     def plan(self, words: list[str]) -> list[Write]:
         """Return the writes of `POINT=VALUE` and names of commands. Nothing is written, but settings are read.
@@ -80,7 +93,7 @@ class Planner:
         settings = self._needed(point)
         encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))
         self._settings[point.name] = codec.setting_of(point, encoded.raw)
-        reading = _reading(self._model, point, encoded.raw, settings)
+        reading = reading_of(self._model, point, encoded.raw, settings)
         remarks = tuple(self._remarks(point, keep))
         return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks)
 
@@ -94,9 +107,11 @@ class Planner:
 
     def _kept_by_request(self, point: Point) -> bool:
         """Return True if the request that writes a point keeps the value. Raises UnclearError if nothing keeps it."""
+        is_chosen = family(self._model.family).chooses_memory and point.telegram is None
+        if self._lenient and (point.keeps == "no" or (point.keeps is None and not is_chosen)):
+            return False
         if point.keeps == "no":
             raise UnclearError(f"{label(point)} cannot be kept: it is lost when switched off", "leave out --keep")
-        is_chosen = family(self._model.family).chooses_memory and point.telegram is None
         if point.keeps is None and not is_chosen:
             raise UnclearError(f"{label(point)}: the manual does not say how it is kept", "leave out --keep")
         return point.keeps in (None, "choice")
@@ -126,7 +141,7 @@ class Planner:
         return Write(name, None, False, reading, text, (), remarks)
 
 
-def _reading(model: Device, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
+def reading_of(model: Device, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
     """Return what a point holds once it is written."""
     meaning = Meanings(model, point).of(raw, settings)
     text = Meanings(model, point).text(raw, settings)

@@ -1,0 +1,186 @@
+"""`fieldscribe restore`: write the settings of a snapshot back, in an order that the device allows."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fieldscribe.cli.common import StopError, add_format, add_repeated, print_json
+from fieldscribe.cli.live_options import LINES, Live, Progress, add_live, add_unit, opened
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.cli.write import ask
+from fieldscribe.conversation.selection import choose_point
+from fieldscribe.live.journal import Journal, interrupted
+from fieldscribe.live.restoring import Order, ordered, refusals
+from fieldscribe.live.snapshots import Snapshot, read_snapshot, settings_of, take
+from fieldscribe.live.writing import Planner, Write
+from fieldscribe.model import Point
+from fieldscribe.report import visible
+from fieldscribe.resources import use_python_runtime
+from fieldscribe.user_errors import RefusedError
+
+use_python_runtime()
+
+from fieldscribe_runtime import FieldscribeError  # noqa: E402 - it is found from here on
+
+EXAMPLE = f"""examples:
+  fieldscribe restore before.json --dry-run
+  fieldscribe restore before.json             (to the device on the line that the file names)
+  fieldscribe restore before.json --keep --yes --line rtu:///dev/ttyUSB0 --unit 3
+  fieldscribe restore before.json pump --only A020 --only standard_a --yes   (a station of fieldscribe.toml)
+
+first reads the device, and writes only what differs: settings, by what the description says of how they are kept, that
+they never change by themselves, or their defaults. --only names others. Limits, conditions and scales order the writes.
+FILE.journal notes each write before and after it; after an early end the next start says what was written
+
+{LINES}
+
+ends with 1 when something cannot be written or was not, or the answer is no; with 2 when the line or the device does
+not answer, and where nobody can be asked"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add = parser.add_argument
+    add("file", type=Path, metavar="FILE", help="a snapshot")
+    add_live(parser, optional=True)
+    add_unit(parser)
+    add_repeated(parser, "--only", "POINT|GROUP", "restore only this, whatever it is")
+    add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
+    add("--dry-run", action="store_true", help="only show what would be written")
+    add("-y", "--yes", action="store_true", help="write without asking")
+    add_format(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Restore, if the user agrees; return the exit code."""
+    wanted = read_snapshot(arguments.file)
+    journal = arguments.file.with_name(f"{arguments.file.name}.journal")
+    if (before := interrupted(journal)) is not None:
+        print_lines([[("warning", visible(text))] for text in before.lines()], sys.stderr)
+    _take_from(wanted, arguments)
+    with opened(arguments) as live:
+        now = _taken(live)
+        order = ordered(live.model, now, wanted, _chooser(live, arguments.only))
+        writes = _planned(live, now, order, keep=arguments.keep)
+        _print_rest(live, order)
+        done = Done(writes, order.refused, order.same)
+        if not arguments.dry_run:
+            if writes and not arguments.yes:
+                ask(live, writes)
+            names = [write.reading.label for write in writes]
+            _write(live, writes, now, Journal(journal, names, _facts(arguments, live)))
+            done.left = [item for item, raw in order.writes.items() if _differs(live, item, raw)]
+            done.is_written = True
+        return _report(arguments, live, done)
+
+
+@dataclass
+class Done:
+    """What a restore writes or has written, what it cannot write, what was so before, and what is different still."""
+
+    writes: list[Write]
+    refused: dict[str, str]
+    same: int
+    left: list[str] = field(default_factory=list)
+    is_written: bool = False
+
+
+def _differs(live: Live, item: str, raw: int) -> bool:
+    """Return True if the device does not hold a number that was written to it. Raises FieldscribeError."""
+    return live.device.point(item).read_raw() != raw
+
+
+def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
+    """Set what the command line does not say as the snapshot has it: a station or the command line come first."""
+    if arguments.device is None:
+        arguments.device = wanted.device
+        arguments.line = arguments.line or wanted.line
+        arguments.unit = wanted.unit if arguments.unit is None else arguments.unit
+    given = {choice.partition("=")[0] for choice in arguments.variant}
+    arguments.variant += [f"{axis}={value}" for axis, value in wanted.variants.items() if axis not in given]
+
+
+def _taken(live: Live) -> Snapshot:
+    progress = Progress()
+    try:
+        return take(live.model, live.device, live.line.text, progress.show)
+    finally:
+        progress.clear()
+
+
+def _chooser(live: Live, names: list[str]) -> Callable[[Point], bool] | None:
+    """Return what chooses points by `--only`; None if it is not given. Raises UnclearError."""
+    if not names:
+        return None
+    groups = {group.name for group in live.model.groups} & {*names}
+    items = {choose_point(live.model, name).item for name in names if name not in groups}
+    return lambda point: point.item in items or point.group in groups
+
+
+def _planned(live: Live, now: Snapshot, order: Order, *, keep: bool) -> list[Write]:
+    """Return the writes, with all that a person should know before. Raises StopError."""
+    planner = Planner(live.model, live.device, keep=keep, lenient=True, known=settings_of(live.model, now.raws))
+    try:
+        return planner.plan([f"{item}.raw={raw}" for item, raw in order.writes.items()])
+    except RefusedError as error:
+        raise StopError(error.message, error.hint, FINDINGS) from error
+
+
+def _print_rest(live: Live, order: Order) -> None:
+    """Print what is not restored."""
+    lines = [[("error", visible(f"cannot be written: {text}"))] for text in refusals(live.model, order)]
+    if order.unknown:
+        lines.append([("warning", visible(f"not in the description: {', '.join(order.unknown)}"))])
+    if order.others:
+        text = f"no settings by the description, and different: {', '.join(order.others)}; --only NAME restores them"
+        lines.append([("hint", visible(text))])
+    print_lines(lines, sys.stderr)
+
+
+def _facts(arguments: Namespace, live: Live) -> dict[str, object]:
+    return {
+        "file": str(arguments.file),
+        "device": live.model.id,
+        "unit": live.device.unit,
+        "line": live.line.text,
+        "keep": arguments.keep,
+    }
+
+
+def _write(live: Live, writes: list[Write], now: Snapshot, journal: Journal) -> None:
+    """Write all, each with its lines in the journal. Raises FieldscribeError."""
+    live.work.left = [write.reading.label for write in writes]
+    try:
+        for number, write in enumerate(writes):
+            held = now.points.get(write.item)
+            journal.begin(number, before=held and held.raw, raw=write.raw, text=write.text)
+            try:
+                write.carry_out(live.device)
+            except FieldscribeError as error:
+                if not error.lost:
+                    journal.refused(number, str(error))
+                raise
+            journal.done(number)
+            live.work.written.append(live.work.left.pop(0))
+        journal.end()
+    finally:
+        journal.close()
+
+
+def _report(arguments: Namespace, live: Live, done: Done) -> int:
+    """Print what was done, and return the exit code."""
+    if arguments.format == "json":
+        what = [write.reading.as_data() for write in done.writes]
+        key = "written" if done.is_written else "would_write"
+        facts = {"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "same": done.same}
+        print_json({**facts, key: what, "refused": done.refused, "still_different": done.left})
+    else:
+        verb = "written" if done.is_written else "would be written"
+        lines = [[("", visible(f"{verb}: {write.text}"))] for write in done.writes]
+        print_lines([*lines, [("", f"as in the file before: {done.same}")]])
+    print_lines([[("error", visible(f"still different: {', '.join(done.left)}"))]] if done.left else [], sys.stderr)
+    return FINDINGS if done.refused or done.left else FINE

@@ -1,0 +1,46 @@
+"""`fieldscribe snapshot`: all that a device holds now, in a file."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, opened
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.live.snapshots import take
+from fieldscribe.report import visible
+
+EXAMPLE = f"""examples:
+  fieldscribe snapshot hitachi_l200 --line tcp://192.168.0.20 --out before.json
+  fieldscribe snapshot siemens_mm4 --variant model=mm440 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --out drive.json
+  fieldscribe snapshot pump --out pump.json   (a station of fieldscribe.toml)
+
+`compare` shows what differs from another snapshot or from the manual's defaults, `restore` writes the settings back
+
+{LINES}
+
+ends with 1 when points have no number (the file says why), with 2 when the line or the device does not answer"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add_live(parser)
+    parser.add_argument("--out", required=True, type=Path, metavar="FILE", help="the file to write, as JSON")
+    add_unit(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Read all and write the file; return the exit code."""
+    progress = Progress()
+    with opened(arguments) as live:
+        try:
+            snapshot = take(live.model, live.device, live.line.text, progress.show)
+        finally:
+            progress.clear()
+    snapshot.write(arguments.out)
+    missing = [[("error", visible(f"{name}: {why}"))] for name, why in snapshot.missing.items()]
+    print_lines(missing, sys.stderr)
+    without = f", {len(missing)} without a number" if missing else ""
+    print_lines([[("", visible(f"{len(snapshot.points)} points in {arguments.out}{without}"))]])
+    return FINDINGS if missing else FINE

@@ -1,0 +1,113 @@
+"""In which order the settings of a snapshot are written, so that the device allows each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from fieldscribe.arithmetic import codec
+from fieldscribe.conversation.refusals import written_remarks
+from fieldscribe.live.snapshots import Snapshot, is_setting, settings_of
+from fieldscribe.model import Device, Point
+from fieldscribe.user_errors import UnclearError
+from fieldscribe.wording import label
+
+
+@dataclass(slots=True)
+class Order:
+    """What is written, in order, as items with raw numbers; and what is not.
+
+    `refused` says why a number cannot be written; `unknown` are names that the description does not have; `others` can
+    be written and differ, but are no settings by the description; `same` counts what the device holds already.
+    """
+
+    writes: dict[str, int] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    unknown: list[str] = field(default_factory=list)
+    others: list[str] = field(default_factory=list)
+    same: int = 0
+
+
+def ordered(model: Device, now: Snapshot, wanted: Snapshot, only: Callable[[Point], bool] | None) -> Order:
+    """Return the order in which a device that holds `now` gets what it has in `wanted`.
+
+    `only` chooses points; without it these are the settings. Raises UnclearError for another kind of device.
+    """
+    if wanted.device != model.id:
+        raise UnclearError(f"the snapshot is of {wanted.device}, and this is {model.id}", "name the device it is of")
+    points = {point.item: point for point in model.points if point.generated}
+    known = {old: point.item for point in points.values() for old in point.old_items} | {item: item for item in points}
+    order = Order(unknown=[name for name in wanted.points if name not in known])
+    held = now.raws
+    differing: dict[str, int] = {}
+    equal: dict[str, int] = {}
+    for name, each in wanted.points.items():
+        point = points.get(known.get(name, ""))
+        if point is None or each.raw is None or not point.writable:
+            continue
+        chosen = is_setting(point) if only is None else only(point)
+        if held.get(point.item) == each.raw:
+            order.same += chosen
+            equal.update({point.item: each.raw} if chosen else {})
+        elif not chosen:
+            order.others += [point.item] if only is None else []
+        elif point.item not in held:
+            order.refused[point.item] = now.missing.get(point.name, "the device does not have it")
+        else:
+            differing[point.item] = each.raw
+    _add_changed(points, differing, equal)
+    _Sorter(model, points, held, order).sort(differing)
+    return order
+
+
+def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: dict[str, int]) -> None:
+    """Add points that are as wanted now, but that a write of another point changes."""
+    names = {points[item].name for item in differing}
+    while changed := [item for item in equal if names.intersection(points[item].changes_with)]:
+        differing.update({item: equal.pop(item) for item in changed})
+        names.update(points[item].name for item in changed)
+
+
+class _Sorter:
+    """Writes on paper: next is what waits for nothing and what the device allows by what it then holds."""
+
+    def __init__(self, model: Device, points: Mapping[str, Point], held: Mapping[str, int], order: Order) -> None:
+        self._model, self._points, self._order = model, points, order
+        self._settings = settings_of(model, held)
+
+    def sort(self, wanted: Mapping[str, int]) -> None:
+        """Add the writes to the order."""
+        for last in (False, True):  # what takes effect later comes last: settings of the line are among that
+            self._part(
+                {item: raw for item, raw in wanted.items() if (self._points[item].takes_effect is not None) is last}
+            )
+
+    def _part(self, pending: dict[str, int]) -> None:
+        while pending:
+            allowed = [item for item, raw in pending.items() if not self._error(item, raw)]
+            names = {self._points[item].name for item in pending}
+            free = [item for item in allowed if not names.intersection(_waits_for(self._points[item]))]
+            if not allowed:
+                self._order.refused.update({item: self._error(item, raw) for item, raw in pending.items()})
+                return
+            for item in free or allowed[:1]:
+                if self._error(item, pending[item]):
+                    continue  # what was written before it in this round moved its limits
+                self._order.writes[item] = pending[item]
+                self._settings[self._points[item].name] = codec.setting_of(self._points[item], pending.pop(item))
+
+    def _error(self, item: str, raw: int) -> str:
+        """Return why a raw number may not be written by what the device holds; empty if it may."""
+        wrong, unchecked = written_remarks(self._model, self._points[item], raw, self._settings)
+        return wrong or unchecked
+
+
+def _waits_for(point: Point) -> Iterable[str]:
+    """Yield the points that are written before this one: those it depends on, exists by, or is changed by."""
+    return {*point.arguments, *point.changes_with, *(() if point.when is None else point.when.names)} - {point.name}
+
+
+def refusals(model: Device, order: Order) -> list[str]:
+    """Return what cannot be written, with the reason."""
+    points = {point.item: point for point in model.points}
+    return [f"{label(points[item])}: {why}" for item, why in order.refused.items()]

@@ -1,0 +1,203 @@
+"""What a device held at one time, as a file: names, values with units, and the raw numbers that restore them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, fields
+from datetime import UTC, datetime
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from fieldscribe.arithmetic import codec
+from fieldscribe.live.writing import reading_of
+from fieldscribe.model import Device, Point
+from fieldscribe.safe_files import read_regular
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError
+
+if TYPE_CHECKING:
+    from fieldscribe_runtime import AnyDevice
+
+DEFAULTS = "defaults"
+"""Where a snapshot is from that is no file: the manual."""
+
+_FORMAT = 1
+_MOST_BYTES = 32 << 20
+_HAS_A_NUMBER = ("ok", "special", "not_a_number")
+"""The states of points that hold a raw number."""
+
+
+class Held(NamedTuple):
+    """What a point holds: its code, value, unit, text for people, and raw number (None if only the value is known).
+
+    `kind` is `setting`, `written` for what else can be written, or `read`.
+    """
+
+    code: str | None
+    value: float | str | None
+    unit: str
+    text: str
+    raw: int | None
+    kind: str
+
+
+_TYPES: dict[str, tuple[type, ...]] = {
+    "code": (str, type(None)),
+    "value": (int, float, str, type(None)),
+    "unit": (str,),
+    "text": (str,),
+    "raw": (int, type(None)),
+    "kind": (str,),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """A device at one time: what its points held by name, and why others have no number."""
+
+    device: str
+    version: str
+    digest: str
+    line: str
+    unit: int
+    taken: str
+    variants: dict[str, str]
+    points: dict[str, Held]
+    missing: dict[str, str]
+
+    @property
+    def title(self) -> str:
+        """Return which device it is of, and when."""
+        return f"{self.device}, unit {self.unit}, {self.taken}" if self.taken else f"{self.device}, {self.line}"
+
+    @property
+    def raws(self) -> dict[str, int]:
+        """The raw numbers by item."""
+        return {item: held.raw for item, held in self.points.items() if held.raw is not None}
+
+    def write(self, path: Path) -> None:
+        """Write the file. Raises OSError."""
+        facts = asdict(self) | {"points": {name: held._asdict() for name, held in self.points.items()}}
+        path.write_text(json.dumps({"snapshot": _FORMAT, **facts}, indent=1) + "\n", encoding="utf-8")
+
+
+def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
+    """Read all groups of a device. Raises FieldscribeError for a line that loses all."""
+    raws: dict[str, int] = {}
+    missing: dict[str, str] = {}
+    for number, group in enumerate(device.GROUPS, 1):
+        progress(f"reading group {number} of {len(device.GROUPS)}: {group}")
+        for row in device.rows(device.read_many(group, errors="return")):
+            if row["status"] not in _HAS_A_NUMBER:
+                missing[row["name"]] = row["detail"]
+                continue
+            handle: Any = device.point(row["name"])
+            raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]
+    variants = {axis: value for axis, value in device.variants.items() if value is not None}
+    taken = datetime.now(UTC).isoformat(timespec="seconds")
+    points = dict(_held(model, raws))
+    return Snapshot(model.id, model.version, model.digest, line, device.unit, taken, variants, points, missing)
+
+
+def defaults(model: Device) -> Snapshot:
+    """Return a device as the manual's defaults make it: only points that have one. Raises UnclearError without any."""
+    raws = {point.item: point.default_raw for point in model.points if point.default_raw is not None}
+    points = dict(_held(model, raws))
+    for point in model.points:
+        if point.default is not None and point.item not in points:
+            text = f"{float(point.default):.12g} {point.unit.symbol}".rstrip()
+            points[point.item] = Held(point.code, float(point.default), point.unit.symbol, text, None, _kind(point))
+    if not points:
+        raise UnclearError(f"the description of {model.id} gives no defaults", "name another snapshot to compare with")
+    return Snapshot(model.id, model.version, model.digest, DEFAULTS, 0, "", {}, points, {})
+
+
+def settings_of(model: Device, raws: Mapping[str, int]) -> dict[str, int | Fraction]:
+    """Return raw numbers by item as settings by name, as scales and limits use them."""
+    points = {point.item: point for point in model.points}
+    return {points[item].name: codec.setting_of(points[item], raw) for item, raw in raws.items() if item in points}
+
+
+def _held(model: Device, raws: Mapping[str, int]) -> Iterator[tuple[str, Held]]:
+    """Yield what each point holds; scales use the numbers of the same device."""
+    points = {point.item: point for point in model.points}
+    settings = settings_of(model, raws)
+    for item, raw in raws.items():
+        point = points[item]
+        known = {name: settings[name] for name in point.arguments if name in settings}
+        reading = reading_of(model, point, raw, known)
+        value = reading.text if point.text is not None else reading.value
+        yield item, Held(point.code, value, reading.unit, reading.text, raw, _kind(point))
+
+
+def is_setting(point: Point) -> bool:
+    """Return True if the description says that a point is set once and kept, and no command or setpoint."""
+    kept = point.keeps not in (None, "no") or point.changes == "never" or point.default is not None
+    return point.writable and kept and point.changes != "always"
+
+
+def _kind(point: Point) -> str:
+    return "setting" if is_setting(point) else "written" if point.writable else "read"
+
+
+def read_snapshot(path: Path) -> Snapshot:
+    """Return the snapshot in a file. Raises UnclearError, OSError."""
+    wrong = UnclearError(f"{path} is no snapshot", "`fieldscribe snapshot DEVICE --out FILE` writes one")
+    try:
+        data = json.loads(read_regular(path, _MOST_BYTES).data)
+        if data.pop("snapshot") != _FORMAT:
+            raise UnclearError(f"{path} is a snapshot of another version of fieldscribe", "take it again")
+        points = {name: Held(**held) for name, held in data.pop("points").items()}
+        snapshot = Snapshot(points=points, **data)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise wrong from error
+    expected = {"unit": int, "variants": dict, "points": dict, "missing": dict}
+    typed = all(isinstance(getattr(snapshot, one.name), expected.get(one.name, str)) for one in fields(snapshot))
+    texts = typed and all(isinstance(text, str) for text in (*snapshot.variants.values(), *snapshot.missing.values()))
+    if not texts or not all(_is_held(held) for held in points.values()):
+        raise wrong
+    return snapshot
+
+
+def _is_held(held: Held) -> bool:
+    return all(isinstance(each, _TYPES[name]) and not isinstance(each, bool) for name, each in held._asdict().items())
+
+
+class Difference(NamedTuple):
+    """A point that two snapshots differ in; None where one has no such point."""
+
+    name: str
+    first: Held | None
+    second: Held | None
+
+    @property
+    def label(self) -> str:
+        """Return the code and the name."""
+        code = next((held.code for held in (self.first, self.second) if held is not None and held.code), "")
+        return f"{code} {self.name}".lstrip()
+
+
+def compared(first: Snapshot, second: Snapshot, *, also_read: bool = True) -> list[Difference]:
+    """Return what differs by value and unit; of the manual's defaults, points without one do not count.
+
+    With `also_read` those count, too, that can only be read.
+
+    Raises UnclearError for snapshots of two kinds of devices.
+    """
+    if first.device != second.device:
+        message = f"{shortened(first.device)} and {shortened(second.device)} are different kinds of devices"
+        raise UnclearError(message, "compare snapshots of one kind")
+    names = dict.fromkeys((*first.points, *second.points))
+    if DEFAULTS in (first.line, second.line):
+        names = {name: None for name in names if name in first.points and name in second.points}
+    pairs = [Difference(name, first.points.get(name), second.points.get(name)) for name in names]
+    if not also_read:
+        pairs = [pair for pair in pairs if "read" not in {held.kind for held in (pair.first, pair.second) if held}]
+    return [pair for pair in pairs if _meaning(pair.first) != _meaning(pair.second)]
+
+
+def _meaning(held: Held | None) -> object:
+    """Return what is compared: the value with its unit; the raw number where there is no value."""
+    return None if held is None else (held.raw if held.value is None else held.value, held.unit)

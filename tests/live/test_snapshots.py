@@ -1,0 +1,222 @@
+"""Snapshots of devices, what differs between them, and restoring them: in which order, and with which journal."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from fieldscribe.live.journal import Journal, interrupted
+from fieldscribe.live.restoring import ordered
+from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
+from fieldscribe.live.writing import Write
+from fieldscribe.simulation import Simulated, simulated
+from support.described import described, loaded_in, shipped
+from support.small_drive import Output
+
+pytestmark = pytest.mark.usefixtures("loads_once")
+
+Run = Callable[..., Output]
+Values = dict[str, str | int | float]
+BEFORE: Values = {"maximum_frequency": 60, "base_frequency": 50, "acceleration_time": 7.5, "run_command": "stop"}
+AFTER: Values = {"maximum_frequency": 400, "base_frequency": 390, "acceleration_time": 20, "run_command": "run"}
+FIRST = ["F002 acceleration_time", "A004 maximum_frequency", "A020 base_frequency"]
+
+
+@pytest.fixture
+def drive() -> Iterator[Simulated]:
+    with simulated("hitachi_l200", values=BEFORE) as running:
+        yield running
+
+
+@pytest.fixture
+def on_line(drive: Simulated, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Take a snapshot in `a.json`, change the drive, and run commands on its line."""
+    monkeypatch.chdir(tmp_path)
+    line = ("--line", f"tcp://127.0.0.1:{drive.port}", "--timeout", "0.5")
+    assert run("snapshot", "hitachi_l200", "--out", "a.json", *line) == Output(0, "234 points in a.json\n", "")
+    drive.values.update(AFTER)
+    return lambda *words: run(*words, *(() if words[0] == "compare" else line))
+
+
+def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None:
+    """A command that the description does not call a setting stays, unless it is named."""
+    assert on_line("snapshot", "hitachi_l200", "--out", "b.json").code == 0
+    different = on_line("compare", "a.json", "b.json")
+    assert (different.code, different.out.splitlines()[-1]) == (1, "4 differences")
+    assert "  A020 base_frequency     50 Hz -> 390 Hz\n" in different.out
+    tried = on_line("restore", "a.json", "--dry-run")
+    assert (tried.code, drive.values["base_frequency"]) == (0, 390)
+    assert "would be written: A020 base_frequency = 50 Hz: raw 500" in tried.out
+    restored = on_line("restore", "a.json", "--yes", "--keep")
+    assert restored.code == 0
+    assert "written: enter" in restored.out
+    assert "and different: run_command; --only NAME restores them" in restored.err
+    assert on_line("restore", "a.json", "--yes", "--only", "run_command").code == 0
+    assert {name: drive.values[name] for name in BEFORE} == BEFORE
+    on_line("snapshot", "hitachi_l200", "--out", "b.json")
+    assert on_line("compare", "a.json", "b.json").code == 0
+    drive.restart()
+    assert drive.values["base_frequency"] == 50
+
+
+@pytest.mark.parametrize("device", ["hitachi_l200", "eastron_sdm630"])
+def test_another_device_gets_all_settings(device: str, run: Run, tmp_path: Path) -> None:
+    """One whose numbers differ: two simulated devices of different seeds."""
+    files = [str(tmp_path / name) for name in ("one.json", "other.json", "restored.json")]
+    with simulated(device, seed=1) as one, simulated(device, seed=2) as other:
+        lines = [("--line", f"tcp://127.0.0.1:{each.port}") for each in (one, other)]
+        for line, file in zip(lines, files, strict=False):
+            assert run("snapshot", device, "--out", file, *line).code == 0
+        assert run("compare", *files[:2]).code == 1
+        assert run("restore", files[0], "--yes", *lines[1]).code == 0
+        assert run("snapshot", device, "--out", files[2], *lines[1]).code == 0
+    left = compared(read_snapshot(Path(files[0])), read_snapshot(Path(files[2])))
+    assert left
+    assert "setting" not in {each.first.kind for each in left if each.first}
+
+
+@pytest.mark.parametrize("after", [False, True])
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_the_journal_of_a_killed_restore_is_right(
+    number: int, *, after: bool, drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The process ends at once, before or after the device has the number; then the restore starts again."""
+    assert FIRST[number]  # three settings differ
+    pid = os.fork()
+    if pid == 0:
+        _die_at(number, monkeypatch, after=after)
+        on_line("restore", "a.json", "--yes")
+        os._exit(1)
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 9
+    assert interrupted(Path("a.json.journal")) == (
+        json.loads(Path("a.json.journal").read_text("utf-8").splitlines()[0])["started"],
+        f"hitachi_l200, unit 1, tcp://127.0.0.1:{drive.port}",
+        FIRST[:number],
+        FIRST[number : number + 1],
+        FIRST[number + 1 :],
+    )
+    names = [label.split()[1] for label in FIRST]
+    written = [name for name in names if drive.values[name] == BEFORE[name]]
+    assert written == names[: number + after]
+    again = on_line("restore", "a.json", "--yes")
+    assert f"perhaps written: {FIRST[number]}\n" in again.err
+    assert (again.code, interrupted(Path("a.json.journal"))) == (0, None)
+    assert all(drive.values[name] == BEFORE[name] for name in names)
+
+
+def _die_at(number: int, monkeypatch: pytest.MonkeyPatch, *, after: bool) -> None:
+    left, carry_out = iter(range(9)), Write.carry_out
+
+    def dying(write: Write, device: object) -> None:
+        dies = next(left) == number
+        if not dies or after:
+            carry_out(write, device)  # type: ignore[arg-type]
+        if dies:
+            os._exit(9)
+
+    monkeypatch.setattr(Write, "carry_out", dying)
+
+
+def test_a_journal_that_ends_anywhere_tells_of_what_is_whole(tmp_path: Path) -> None:
+    """Whatever part of the file is there, nothing counts as written that was not noted."""
+    path = tmp_path / "journal"
+    journal = Journal(path, ["a", "b", "c"], {"device": "x"})
+    for number in range(3):
+        journal.begin(number, raw=1)
+        (journal.refused(number, "no") if number == 1 else journal.done(number))
+    journal.close()
+    whole = path.read_bytes()
+    told = []
+    for size in range(len(whole) + 1):
+        path.write_bytes(whole[:size])
+        if (found := interrupted(path)) and found[2:] not in told:
+            told.append(found[2:])
+    assert told == [
+        ([], [], ["a", "b", "c"]),
+        ([], ["a"], ["b", "c"]),
+        (["a"], [], ["b", "c"]),
+        (["a"], ["b"], ["c"]),
+        (["a"], ["c"], ["b"]),
+        (["a", "c"], [], ["b"]),
+    ]
+
+
+POINTS = """
+  - {name: low, at: 1, type: u16, range: 0..high, access: rw, changes: never}
+  - {name: high, at: 2, type: u16, range: low..100, access: rw, changes: never}
+  - {name: scaled, at: 3, type: u16, scale: value = raw * high, range: 0..50, access: rw, changes: never}
+  - {name: reset, at: 4, type: u16, access: rw, default: 1}
+  - {name: cleared, at: 5, type: u16, access: rw, changes: never, changes_with: [reset]}
+  - {name: baud, at: 6, type: u16, access: rw, changes: never, takes_effect: after a restart}
+  - {name: start, at: 7, type: u16, access: rw}
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wanted", "writes", "others"),
+    [
+        ({}, {}, [], []),
+        ({"low": 1, "high": 5}, {"low": 10, "high": 20}, ["high", "low"], []),
+        ({"low": 10, "high": 20}, {"low": 1, "high": 5}, ["low", "high"], []),
+        ({"reset": 1, "cleared": 7}, {"reset": 0, "cleared": 7}, ["reset", "cleared"], []),
+        ({"baud": 1, "low": 0}, {"baud": 2, "low": 1, "start": 1}, ["low", "baud"], ["start"]),
+    ],
+)
+def test_writes_come_in_an_order_that_the_device_allows(
+    now: dict[str, int], wanted: dict[str, int], writes: list[str], others: list[str], tmp_path: Path
+) -> None:
+    model = loaded_in(tmp_path, described(POINTS))
+    order = ordered(model, snapshot(now), snapshot(wanted), None)
+    assert (list(order.writes), order.others, order.refused) == (writes, others, {})
+
+
+def test_what_no_order_allows_is_named(tmp_path: Path) -> None:
+    model = loaded_in(tmp_path, described(POINTS))
+    order = ordered(model, snapshot({}), snapshot({"low": 60, "high": 50, "elsewhere": 1}), None)
+    assert (order.writes, order.unknown) == ({"high": 50}, ["elsewhere"])
+    assert order.refused == {"low": "60 is outside what is allowed here, 0..50"}
+
+
+def snapshot(raws: dict[str, int]) -> Snapshot:
+    """A snapshot of the made-up device; what is not given is as always."""
+    held = {"low": 0, "high": 30, "scaled": 1, "reset": 1, "cleared": 0, "baud": 1, "start": 0} | raws
+    points = {name: Held(None, raw, "", str(raw), raw, "setting") for name, raw in held.items()}
+    return Snapshot("made_up", "1.0.0", "", "tcp://x", 1, "", {}, points, {})
+
+
+def test_a_snapshot_is_compared_with_the_defaults() -> None:
+    model = shipped("eastron_sdm630")
+    usual = defaults(model)
+    name, held = next((name, held) for name, held in usual.points.items() if held.raw is not None)
+    other = replace(usual, line="tcp://x", points={**usual.points, name: held._replace(value=99.0), "more": held})
+    assert [difference.name for difference in compared(other, usual)] == [name]
+
+
+HEAD = '{"snapshot": 1, "device": "x", "version": "1", "digest": "", "line": "", "taken": "", "variants": {}, '
+NO_SNAPSHOTS = (
+    *("", "{}", "[]", "7", '"snapshot"', '{"snapshot": 1}', '{"snapshot": 2}', "[" * 100_000, '{"snapshot": NaN}'),
+    HEAD + '"unit": "1", "points": {}, "missing": {}}',
+    HEAD + '"unit": 1, "points": {}, "missing": {"a": 1}}',
+    HEAD + '"unit": 1, "points": {"a": [1, 2, 3, 4, 5, 6]}, "missing": {}}',
+    HEAD
+    + f'"unit": 1, "missing": {{}}, "points": {{"a": {json.dumps(Held(None, 1, "", "", True, "read")._asdict())}}}}}',
+)
+
+
+@pytest.mark.parametrize("text", NO_SNAPSHOTS)
+def test_what_is_no_snapshot_is_said(text: str, run: Run, tmp_path: Path) -> None:
+    (tmp_path / "x.json").write_text(text, "utf-8")
+    for words in (("compare",), ("restore", "--line", "tcp://127.0.0.1:1")):
+        done = run(*words, str(tmp_path / "x.json"))
+        assert (done.code, done.out) == (2, "")
+        assert "snapshot" in done.err
+
+
+def test_a_snapshot_is_read_as_it_was_written(tmp_path: Path) -> None:
+    usual = defaults(shipped("eastron_sdm630"))
+    usual.write(tmp_path / "x.json")
+    assert read_snapshot(tmp_path / "x.json") == usual
