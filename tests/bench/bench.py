@@ -21,6 +21,7 @@ from pathlib import Path
 from line_bench import print_lines
 from m0_bench import print_m0
 from python_bench import print_python
+from simulation_bench import print_simulation
 from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
 from synthetic import write_dbc, write_device
 
@@ -167,6 +168,7 @@ def main() -> None:
         bench.run(arguments.runs)
         print(*bench.table(), sep="\n", flush=True)
     print_lines(3 * arguments.runs)
+    print_simulation(3 * arguments.runs)
     print_python(3 * arguments.runs)
     print_streams(STREAMED)
     print_m0()

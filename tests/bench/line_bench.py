@@ -33,7 +33,7 @@ def _serve(connection: Any) -> None:
 
 
 @contextmanager
-def _servers() -> Iterator[tuple[int, int]]:
+def servers() -> Iterator[tuple[int, int]]:
     """Ports of a server of pymodbus, TCP and RTU."""
     near, far = multiprocessing.get_context("spawn").Pipe()
     process = multiprocessing.get_context("spawn").Process(target=_serve, args=(far,), daemon=True)
@@ -51,7 +51,7 @@ def print_lines(rounds: int) -> None:
     tcp_line = importlib.import_module("fieldscribe_runtime.transports.tcp").TcpLine
     serial_line = importlib.import_module("fieldscribe_runtime.transports.serial").SerialLine
     print(f"\n{'reads over a socket, to pymodbus by hand':<44} {'wall us':>9} {'CPU us':>9} {'wall':>7} {'CPU':>6}")
-    with _servers() as (tcp, rtu):
+    with servers() as (tcp, rtu):
         for what, port, framer, line in (
             ("TcpLine", tcp, FramerType.SOCKET, tcp_line("127.0.0.1", tcp)),
             ("TcpLine, RTU", rtu, FramerType.RTU, tcp_line("127.0.0.1", rtu, framing="rtu")),

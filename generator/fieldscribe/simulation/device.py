@@ -141,10 +141,9 @@ class SimulatedDevice:
         if command is not None:
             self.perform(command)
             return []
-        before = dict(self.memory.areas.get(area, {}))
         points = self._touched(area, cells)
         together = {point.name for point in points}
-        numbers = {point.name: self._number(point, cells, before, together) for point in points}
+        numbers = {point.name: self._number(point, cells, together) for point in points}
         for condition in _OPENED.intersection(self.conditions):
             if asked := [point for point in points if condition in point.name]:
                 self.conditions[condition] = all(numbers[each.name] == self.memory.raw(each.name) for each in asked)
@@ -153,11 +152,11 @@ class SimulatedDevice:
             self._check(point, numbers[point.name])
         for point in points:
             self._remember(point, keep)
-        self.memory.areas[area].update(cells)
-        for point in points:
+        changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
+        for point in changed:
             self.memory.put(point.name, numbers[point.name])
-        if self.behaviour is not None:
-            self.behaviour.written(self, points, self.clock.now())
+        if self.behaviour is not None and changed:
+            self.behaviour.written(self, changed, self.clock.now())
         return points
 
     def perform(self, command: Command) -> None:
@@ -205,7 +204,7 @@ class SimulatedDevice:
             touched.update((point.name, point) for point in writable)
         return list(touched.values())
 
-    def _number(self, point: Point, cells: Mapping[int, int], before: Mapping[int, int], together: set[str]) -> int:
+    def _number(self, point: Point, cells: Mapping[int, int], together: set[str]) -> int:
         """Return the raw number that a write would give a point. Raises Refusal for a part of one."""
         place: Cells = self.layout.written[point.name]
         if missing := [address for address in place.addresses if address not in cells]:
