@@ -288,6 +288,7 @@ FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
         fieldscribe_agree(v, step->read.count == count && step->write.count == count);           \
         fieldscribe_is_count(v, "within", step->within);                                         \
         fieldscribe_is_number(v, "conditional", step->conditional ? 1U : 0U);                    \
+        fieldscribe_agree(v, fieldscribe_absent(fieldscribe_field(v, "base")) == !step->based);  \
     }
 
 /* Where a base is, by the vector. */

@@ -716,8 +716,8 @@ static const fieldscribe_modbus_word fronius_datamanager_command_use_integers_st
 };
 
 static const fieldscribe_modbus_step fronius_datamanager_command_use_integers_steps[] = {
-    {{0U, 0x00D7U, 1U}, {6U, 0x00D7U, 1U}, &fronius_datamanager_command_use_integers_steps_words[0], 0U, false},
-    {{0U, 0x00D7U, 1U}, {6U, 0x00D7U, 1U}, &fronius_datamanager_command_use_integers_steps_words[1], 0U, false}
+    {{0U, 0x00D7U, 1U}, {6U, 0x00D7U, 1U}, &fronius_datamanager_command_use_integers_steps_words[0], 0U, false, false},
+    {{0U, 0x00D7U, 1U}, {6U, 0x00D7U, 1U}, &fronius_datamanager_command_use_integers_steps_words[1], 0U, false, false}
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */

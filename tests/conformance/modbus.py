@@ -41,8 +41,9 @@ def step(package: Package, vector: Vector) -> bool:
     one = command.requests[vector["index"]]
     numbers = {name: int(number) for name, number in (vector["with"] or {}).items()}
     words, at = one.merged(numbers, tuple(vector["held"])), one.at
-    facts = at.address, at.span, at.function, bool(one.when), one.reads
-    expected = vector["address"], len(words), vector["write"], bool(vector["conditional"]), vector["read"] is not None
+    facts = at.address, at.span, at.function, at.base, bool(one.when), one.reads
+    where = vector["address"], len(words), vector["write"], vector["base"]
+    expected = *where, bool(vector["conditional"]), vector["read"] is not None
     within = None if one.within is None else round(one.within * 1000)
     known = numbers.keys() == command.arguments.keys()
     ends = all(numbers[name] in ends for name, ends in command.arguments.items())

@@ -73,10 +73,10 @@ class _SpanItems:
         """Return the item of a step of a command that writes just these words, where no point has them."""
         if not self._written or any(self._directory.places(self._space, at) for at in self.addresses):
             return None
-        here = self._space, self._start, len(self._words)
+        here = self._space, self._start, len(self._words), None
         for command in self._device.stepped_commands:
             for number, step in enumerate(command.steps, 1):
-                is_here = step.write is not None and (step.space, step.address, len(step.words)) == here
+                is_here = step.write is not None and (step.space, step.address, len(step.words), step.base) == here
                 given = step.arguments_in(self._words, command.arguments) if is_here else None
                 if given is not None:
                     numbers = "".join(f"; {name} = {value}" for name, value in given.items())

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from fieldscribe.language.numbers import NumberError, parse_integer
-from fieldscribe.model import Base, Device, Place, Point, Terms
+from fieldscribe.model import Base, Device, Place, Point, SteppedCommand, Terms
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
@@ -41,14 +41,26 @@ def at_bases(device: Device, pairs: Sequence[str]) -> tuple[Device, list[str]]:
     points = tuple(
         [_moved(point, starts[point.base], terms) if point.base in starts else point for point in device.points]
     )
+    stepped = tuple([_of_steps(command, starts) for command in device.stepped_commands])
     left = tuple(base for base in device.bases if base.name not in starts)
-    return replace(device, points=points, bases=left), others
+    return replace(device, points=points, stepped_commands=stepped, bases=left), others
 
 
 def advice(bases: Iterable[Base]) -> str:
     """Return the options that say where these bases are."""
     names = dict.fromkeys(name for base in bases for name in base.wanted)
     return " ".join(f"--with {name}=NUMBER" for name in names)
+
+
+def _of_steps(command: SteppedCommand, starts: Mapping[str, int]) -> SteppedCommand:
+    """Return the command with the steps whose base is known at their addresses."""
+    moved = [
+        replace(step, address=starts[step.base] + step.address, base=None)
+        if step.base and step.base in starts
+        else step
+        for step in command.steps
+    ]
+    return replace(command, steps=tuple(moved))
 
 
 def _moved(point: Point, start: int, known: dict[int, Terms]) -> Point:

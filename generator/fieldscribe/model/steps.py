@@ -43,6 +43,7 @@ class Step:
 
     With both functions, words are read first, and what is outside the masks is written as it was. `within` are the
     milliseconds that the words may take to come. `says` is what the author says: points with their values, or words.
+    `base` is the name of what the address counts from; None if that is 0.
     """
 
     space: str
@@ -53,6 +54,7 @@ class Step:
     within: int | None
     when: Condition | None
     says: str
+    base: str | None = None
 
     def arguments_in(self, words: Sequence[int], ends: Mapping[str, tuple[int, int]]) -> dict[str, int] | None:
         """Return the arguments, within these ends, that give the words; None if none do."""

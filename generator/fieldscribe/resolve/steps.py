@@ -98,9 +98,9 @@ class Steps:
                 message, hint = f"`{key}` does not belong beside `{action}`", "the points say where they are"
                 raise FactError("steps", message, node.key_span(key), hint)
         if action == "words":
-            space, address, words = self._by_address(node)
+            (space, address, words), base = self._by_address(node), None
         else:
-            space, address, words = self._by_points(node, action)
+            space, base, address, words = self._by_points(node, action)
         masked = any(word.mask != 0xFFFF for word in words)
         return Step(
             space=space,
@@ -111,6 +111,7 @@ class Steps:
             within=_milliseconds(str(node["within"])) if action == "wait" else None,
             when=self._condition(node),
             says=", ".join(map(str, words) if action == "words" else self._said),
+            base=base,
         )
 
     def _by_address(self, node: Map) -> tuple[str, int, tuple[Word, ...]]:
@@ -155,15 +156,15 @@ class Steps:
         for end in self.arguments.get(word.argument or "", (0,)):
             yield word.constant + word.factor * end
 
-    def _by_points(self, node: Map, action: str) -> tuple[str, int, tuple[Word, ...]]:
-        """Return the space, the first address and the words of the points of a step. Raises FactError."""
+    def _by_points(self, node: Map, action: str) -> tuple[str, str | None, int, tuple[Word, ...]]:
+        """Return the space, the base, the first address and the words of the points of a step. Raises FactError."""
         values: Map = node[action]
         placed: dict[int, Word] = {}
         self._said = []
-        spaces: set[str] = set()
+        spaces: set[tuple[str, str | None]] = set()
         for named, value in values.items():
             point, span = self._point(values, named, action), values.key_span(named)
-            spaces.add(point.space)
+            spaces.add((point.space, point.base))
             place = point.written if action == "write" else point.place
             for address, word in zip(place.addresses, self._words(point, values, named, value, action), strict=True):
                 other = placed.get(address, Word(0, mask=0))
@@ -176,7 +177,7 @@ class Steps:
         if len(spaces) != 1 or max(placed, default=0) - first + 1 != len(placed):
             hint = "one step is one request: give each a step of its own"
             raise FactError("steps", "these points do not follow each other", node.key_span(action), hint)
-        return spaces.pop(), first, tuple(placed[address] for address in sorted(placed))
+        return *spaces.pop(), first, tuple(placed[address] for address in sorted(placed))
 
     def _point(self, values: Map, named: str, action: str) -> Point:
         """Return the point that a step names. Raises FactError."""
@@ -188,7 +189,7 @@ class Steps:
         if facts.failed:
             raise FactError
         reached = point.writable if action == "write" else point.readable
-        apart = point.variant is not None or point.base is not None or (point.bits and point.write_place)
+        apart = point.variant is not None or (point.bits and point.write_place)
         if not reached or apart or point.text is not None or point.untyped is not None or not point.addresses:
             message = f"`{point.name}` cannot be {'written' if action == 'write' else 'read'} by a step"
             hint = "name a number that all variants have at one address, or write its words by `at` and `words`"

@@ -157,7 +157,7 @@ def _reduced(
     names = {point.name for point in points}
     groups = {point.group for point in points}
     kept = {each.name for each in commands} | {each.name for each in stepped}
-    counted = {point.base for point in points}
+    counted = {point.base for point in points} | {step.base for command in stepped for step in command.steps}
     bases = tuple(base for base in device.bases if base.name in counted)
     command_places = {f"command:{command.name}" for command in device.all_commands if command.name not in kept}
     reduced = replace(

@@ -22,7 +22,7 @@ def step_text(step: Step) -> str:
     """Return what a step writes where and how, or what it waits for."""
     words = ", ".join(map(word_text, step.words))
     says = "" if step.says == words else f"{step.says}: "
-    where = f"{step.space} {step.address} ({hex_text(step.address)})"
+    where = f"{step.space} {step.address} ({hex_text(step.address)}){f' from {step.base}' if step.base else ''}"
     if step.write is None:
         how = f"with function {hex_text(step.read or 0, 2)} until it is {words}"
         return f"{says}read {where} {how}, for {time_text(step.within or 0)}"

@@ -7,7 +7,9 @@
  *         const fieldscribe_modbus_step *const step = &genset_command_close_breaker_steps[at];
  *
  * 1. Leave the step out if it is `conditional` and its condition, which stands in the comment, does not hold.
- * 2. If `read.function` is not 0, read the words: fieldscribe_modbus_read(unit, &step->read).
+ * 2. If `read.function` is not 0, read the words: fieldscribe_modbus_read(unit, &step->read). If the step is `based`,
+ *    its addresses count from the base in the comment: pass fieldscribe_modbus_reading_at(base, &step->read), and below
+ *    fieldscribe_modbus_writing_at(base, &step->write).
  * 3. done = fieldscribe_modbus_steps_fill(step, arguments, words).
  * 4. If `write.function` is not 0, write them: fieldscribe_modbus_write(unit, &step->write, words, step->write.count).
  *    Else go back to 2 until it is `done`, for at most `within` milliseconds.
@@ -32,6 +34,7 @@ typedef struct fieldscribe_modbus_step {
     const fieldscribe_modbus_word *words;
     uint32_t within;
     bool conditional;
+    bool based;
 } fieldscribe_modbus_step;
 
 /*

@@ -67,6 +67,17 @@ def test_given(package: Any) -> None:
     assert str(third.level.facts.at) == "holding 0x0005 from slot_half"
 
 
+def test_steps(package: Any) -> None:
+    """Words of a command count from the base of their points; one command may have several bases."""
+    line = Registers({5: 3, 3005: 405, 3006: 0, 3007: 0, 3008: 2, 40: 0, **FOUND, 50009: 7})
+    device = package.KitchenBlocks(line, 1, slot=3, half=0)
+    device.dim.send(percent=50)
+    assert (line.held[3005], line.held[3008]) == (500, 3)
+    wrong, message = status(device.close.send)
+    assert wrong == "no_block"
+    assert "close, step 1" in message
+
+
 @pytest.mark.parametrize(
     ("given", "needle"),
     [

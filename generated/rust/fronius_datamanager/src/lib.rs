@@ -504,8 +504,8 @@ pub mod stepped_commands {
     /// 2. `F_ModelType = confirm: write 6 to holding 215 (00D7h) with function 06h`
     pub const USE_INTEGERS: SteppedCommand = super::runtime::stepped! {
         "use_integers";
-        None, Some(6), 0x00D7, 0, false: 0x0002 0x0000 0xFFFF 0;
-        None, Some(6), 0x00D7, 0, false: 0x0006 0x0000 0xFFFF 0;
+        None, Some(6), 0x00D7, 0, false, "": 0x0002 0x0000 0xFFFF 0;
+        None, Some(6), 0x00D7, 0, false, "": 0x0006 0x0000 0xFFFF 0;
     };
 }
 

@@ -95,10 +95,10 @@ def read_text(device: Device, point: Point) -> str:
 
 
 def frames_of_step(device: Device, step: Step, arguments: Mapping[str, int]) -> Iterator[str]:
-    """Yield the requests of a step of a command, to the usual unit; bits that stay are 0."""
+    """Yield the requests of a step of a command, to the usual unit; bits that stay are 0. None at an unknown base."""
     words = tuple(word.of(arguments) for word in step.words)
     for function, values in ((step.read, ()), (step.write, words)):
-        if function is not None:
+        if function is not None and step.base is None:
             request = Request(device.bus.usual_unit, function, step.address, len(words), values)
             yield spaced(build(profile_of(device.bus), framings_of(device.bus)[0], request)[1])
 

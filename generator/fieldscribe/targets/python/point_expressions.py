@@ -210,8 +210,10 @@ def place_of_command(command: Command, scope: PackageScope) -> Node:
 def step_of(step: Step, scope: PackageScope) -> Node:
     """Return a step of a command."""
     addresses = addresses_of(tuple(range(step.address, step.address + len(step.words))), step.space)
-    function = {} if step.write is None else {"function": Hex(step.write, 2)}
-    where = _place(step.space, addresses, function, scope)
+    place: dict[str, Node] = {} if step.write is None else {"function": Hex(step.write, 2)}
+    if step.base is not None:
+        place["base"] = step.base
+    where = _place(step.space, addresses, place, scope)
     facts: dict[str, Node] = {}
     if step.within is not None:
         facts["within"] = number(Fraction(step.within, 1000), binary=True)

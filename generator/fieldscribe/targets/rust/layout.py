@@ -58,11 +58,11 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
 
 
 def array(item: Item, elements: list[str]) -> Lines:
-    """`item = &[elements];`: one line, else a line for each element; indented by 4 at most."""
+    """`item = &[elements];`: one line or two, else a line for each element; indented by 4 at most."""
     joined = ", ".join(elements)
-    if len(joined) <= _ARRAY_WIDTH:
+    if len(joined) <= _ARRAY_WIDTH and len(f"{item} = &[{joined}];") <= _WIDTH:
         return (f"{item} = &[{joined}];",)
-    if len(elements) == 1 and len(joined) + 12 <= _WIDTH:
+    if len(joined) <= _ARRAY_WIDTH or (len(elements) == 1 and len(joined) + 12 <= _WIDTH):
         return f"{item} =", f"    &[{joined}];"
     return (f"{item} = &[", *(f"    {element}," for element in elements), "];")
 

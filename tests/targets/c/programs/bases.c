@@ -88,6 +88,30 @@ static void rows(void)
     CHECK(fieldscribe_modbus_read_row(&device.unit, &firmware, &number) == FIELDSCRIBE_MODBUS_OK && number == 17);
 }
 
+/* The first two steps of `dim`: each says that it counts from a base, which moves it; one of `close` does not. */
+static void steps(void)
+{
+    const fieldscribe_modbus_base base = kitchen_blocks_slot_half_base(3U, 1U);
+    const uint16_t arguments[] = {50U};
+    const fieldscribe_modbus_step *step = kitchen_blocks_command_dim_steps;
+    fieldscribe_modbus_line line = {&kitchen_blocks_modbus_profile, NULL, 0U, NULL, NULL, NULL, 0U, 0U};
+    fieldscribe_modbus_unit unit = {&line, &ask, 1U, 0U, 0U, false};
+    uint16_t words[1] = {0U};
+    size_t at;
+    PUT(3021U, 405U, 0U, 0U, 0xFFF0U);
+    for (at = 0U; at < 2U; ++at, ++step) {
+        const fieldscribe_modbus_reading read = fieldscribe_modbus_reading_at(base, &step->read);
+        const fieldscribe_modbus_writing write = fieldscribe_modbus_writing_at(base, &step->write);
+        CHECK(step->based && step->conditional == (at == 1U));
+        CHECK(read.function == 0U ||
+            fieldscribe_modbus_read_words(&unit, &read, words, 1U) == FIELDSCRIBE_MODBUS_OK);
+        (void)fieldscribe_modbus_steps_fill(step, arguments, words);
+        CHECK(fieldscribe_modbus_write_words(&unit, &write, words, write.count) == FIELDSCRIBE_MODBUS_OK);
+    }
+    CHECK(held[3021] == 500U && held[3024] == 0xFFF1U);
+    CHECK(!kitchen_blocks_command_close_steps[1].based && kitchen_blocks_command_close_steps[2].based);
+}
+
 int main(void)
 {
     kitchen_blocks_device device = {{NULL, &ask, 1U, 0U, 0U, false}};
@@ -130,6 +154,7 @@ int main(void)
     PUT(0U, 1U);
     CHECK(find(7U, &base) == FIELDSCRIBE_MODBUS_UNKNOWN_VALUE && asked == 3U);
     rows();
+    steps();
     memset(there, 1, sizeof there);
     memset(held, 0, sizeof held);
     held[0] = 0x5375U;

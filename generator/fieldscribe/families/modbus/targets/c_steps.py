@@ -57,8 +57,8 @@ class SteppedView:
         for step in self.command.steps:
             place = f"{hexadecimal(step.address)}, {len(step.words)}U"
             ways = ", ".join(f"{{{unsigned(function or 0)}, {place}}}" for function in (step.read, step.write))
-            conditional = "true" if step.when else "false"
-            yield f"{{{ways}, &{self.steps}_words[{first}], {unsigned(step.within or 0)}, {conditional}}}"
+            whether = ", ".join("true" if fact else "false" for fact in (step.when, step.base))
+            yield f"{{{ways}, &{self.steps}_words[{first}], {unsigned(step.within or 0)}, {whether}}}"
             first += len(step.words)
 
     @property

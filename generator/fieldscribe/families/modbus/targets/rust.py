@@ -135,6 +135,7 @@ def _rows(command: SteppedCommand) -> Iterator[str]:
             for at in [numbers.get(word.argument or "", 0)]
         ]
         facts = *functions, f"0x{step.address:04X}", str(step.within or 0), "true" if step.when else "false"
+        facts = *facts, rust_string(step.base or "")
         yield f"{', '.join(facts)}: {', '.join(words)}"
 
 

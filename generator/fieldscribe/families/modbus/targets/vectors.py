@@ -19,7 +19,7 @@ KINDS = {
     "printed_build": "frame:note status:word bytes:bytes?",
     "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
     "step": "command:word index:int with:pairs? read:int? write:int? address:int held:ints words:ints within:int? "
-    "conditional:int",
+    "conditional:int base:word?",
     "block": "group:word space:word function:int address:int count:int",
 }
 """The kinds of vectors for frames and batched reads."""
@@ -181,7 +181,7 @@ def _steps(lines: Lines, command: SteppedCommand) -> None:
         for given, filled in itertools.product((ends[0], ends[1]) if command.arguments else ({},), (0x0000, 0xA5C3)):
             words = tuple(_word(word, given, f"{filled:016b}") for word in step.words)
             facts = step.read, step.write, step.address, (filled,) * len(words), words, step.within
-            lines.add("step", command.name, index, given or None, *facts, int(step.when is not None))
+            lines.add("step", command.name, index, given or None, *facts, int(step.when is not None), step.base)
 
 
 def _word(word: Word, given: Mapping[str, int], held: str) -> int:

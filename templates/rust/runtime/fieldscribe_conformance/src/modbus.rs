@@ -242,7 +242,8 @@ pub fn step(vector: &Vector, commands: &[SteppedCommand]) -> Outcome {
     same(vector.number("write"), step.write.map(i128::from))?;
     same(vector.raw("address"), step.address)?;
     same(vector.count::<u32>("within"), step.within)?;
-    same(vector.raw::<u8>("conditional") == 1, step.is_conditional)
+    same(vector.raw::<u8>("conditional") == 1, step.is_conditional)?;
+    same(vector.text("base"), step.base.to_owned())
 }
 
 /// A batched read.

@@ -151,8 +151,9 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// The same request, whose address counts from the base of that name.
-    pub(super) const fn counted_from(self, base: &'static str) -> Self {
+    /// The same request, whose address counts from the base of that name; an empty one is 0.
+    #[must_use]
+    pub const fn counted_from(self, base: &'static str) -> Self {
         Self {
             base: Base::named(base),
             ..self

@@ -8,7 +8,7 @@
 ///
 /// const CLOSE_BREAKER: SteppedCommand = fieldscribe_runtime::stepped! {
 ///     "close_breaker" "unit" 1 32;
-///     None, Some(16), 0x1008, 0, false: 0 1 0xFFFF 0, 2 0 0xFFFF 0, 0xFFFF 0xFFFF 0xFFFF 0;
+///     None, Some(16), 0x1008, 0, false, "": 0 1 0xFFFF 0, 2 0 0xFFFF 0, 0xFFFF 0xFFFF 0xFFFF 0;
 /// };
 /// assert!(CLOSE_BREAKER.takes(&[3]));
 /// for step in CLOSE_BREAKER.steps {
@@ -16,7 +16,8 @@
 ///     step.fill(&[3], &mut words);
 ///     assert_eq!(words, [3, 2, 65532]);
 ///     if let Some(function) = step.write {
-///         let _ = Request::write_values(1, function, step.address, &words);
+///         let request = Request::write_values(1, function, step.address, &words);
+///         let _ = request.counted_from(step.base); // which `client.set_base` says
 ///     }
 /// }
 /// ```
@@ -45,6 +46,8 @@ pub struct Step {
     pub within: u32,
     /// Whether the step is left out unless the condition in the documentation holds.
     pub is_conditional: bool,
+    /// The name of the base that the address counts from; empty if that is 0.
+    pub base: &'static str,
 }
 
 /// A word: constant + factor * argument, modulo 65536, in the bits of `mask`; the others stay.
@@ -98,7 +101,7 @@ impl StepWord {
 #[doc(hidden)]
 macro_rules! stepped {
     ($name:literal $($argument:literal $low:literal $high:literal),*;
-     $($read:expr, $write:expr, $address:literal, $within:literal, $conditional:literal:
+     $($read:expr, $write:expr, $address:literal, $within:literal, $conditional:literal, $base:literal:
        $($constant:literal $factor:literal $mask:literal $at:literal),*;)*) => {
         $crate::modbus::SteppedCommand {
             name: $name,
@@ -109,6 +112,7 @@ macro_rules! stepped {
                 address: $address,
                 within: $within,
                 is_conditional: $conditional,
+                base: $base,
                 words: &[$($crate::modbus::StepWord {
                     constant: $constant,
                     factor: $factor,
