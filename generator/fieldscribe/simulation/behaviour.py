@@ -6,12 +6,12 @@ a number that reaches what a condition compares it with, a delay that ends. Time
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import floor
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.codec import CodecError, encode, float_of, rule_in_force
+from fieldscribe.arithmetic.codec import CodecError, encode, rule_in_force, setting_of
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Amount, Pair, Ref, Rule, Rules, Step
@@ -36,6 +36,7 @@ class Behaviour:
     def __init__(self, rules: Rules) -> None:
         self.rules = rules
         self._memory: Memory
+        self._points: Mapping[str, Point] = {}
         self._rules: list[Rule] = []
         self._readers: dict[str, frozenset[int]] = {}
         self._started = False
@@ -62,12 +63,12 @@ class Behaviour:
         """Bring the memory to the time `now`, in seconds of the clock."""
         if not self._started:
             self._started, self._memory = True, device.memory
-            self._rules = _existing(self.rules.rules, device.memory.layout.points)
-            self._readers = _readers(self._rules, device.memory.layout.points)
+            self._points = device.memory.layout.points
+            self._rules = [rule for rule in self.rules.rules if rule.ref.name in {*self._points, *self.rules.plant}]
+            self._readers = _readers(self._rules, self._points)
             self.touch()
-            for name, value in self.rules.start.items():
-                if name in device.memory.layout.points:
-                    self._put(Ref(name, "value"), value)
+            for name in self.rules.start.keys() & self._points.keys():
+                self._put(Ref(name, "value"), self.rules.start[name])
         self._advance(_milliseconds(now) - self._origin)
 
     def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
@@ -146,12 +147,10 @@ class Behaviour:
         if step is not None:
             aim = self._aim(rule.ref, step, number)
         self._done.update(step for step in ready if step.once)
-        if aim != (number, self._slopes.get(rule.ref, ZERO)):
-            if aim[1]:
-                self._slopes[rule.ref] = aim[1]
-            else:
-                self._slopes.pop(rule.ref, None)
+        if aim != (number, self._slopes.pop(rule.ref, ZERO)):
             self._put(rule.ref, aim[0])
+        if aim[1]:
+            self._slopes[rule.ref] = aim[1]
 
     def _aim(self, ref: Ref, step: Step, number: Fraction) -> Pair:
         """Return what a number is now by a move, and its slope; it keeps still where there is no result."""
@@ -225,6 +224,8 @@ class Behaviour:
             return Fraction(self._now, 1000), Fraction(1)
         if ref.kind == "plant":
             return self._numbers.get(ref, self._plant[ref.name]), self._slopes.get(ref, ZERO)
+        if ref.name not in self._points:  # of another variant
+            return ZERO, ZERO
         held = self._raw(ref)
         if self._held.get(ref) == held:
             return self._numbers[ref], self._slopes.get(ref, ZERO)
@@ -241,11 +242,11 @@ class Behaviour:
 
     def _decoded(self, ref: Ref, held: int) -> Fraction:
         """Return the value of a raw number; a special code counts as a number."""
-        point = self._memory.layout.points[ref.name]
+        point = self._points[ref.name]
         if ref.kind != "value":
             return Fraction(held)
         if point.info.floating:
-            return Fraction(float_of(point, held))
+            return Fraction(setting_of(point, held))
         try:
             ratio, offset = rule_in_force(point, self._memory.settings)
         except CodecError:
@@ -260,7 +261,7 @@ class Behaviour:
         if ref.kind == "plant":
             self._plant[ref.name] = number
             return
-        point = self._memory.layout.points[ref.name]
+        point = self._points[ref.name]
         raw, flag = self._encoded(ref, point, number), ref.flag
         self._held[ref] = raw
         if flag is not None:
@@ -287,19 +288,6 @@ def _readers(rules: Sequence[Rule], points: Mapping[str, Point]) -> dict[str, fr
             for name in (ref.name, *needed):
                 readers.setdefault(name, set()).add(place)
     return {name: frozenset(places) for name, places in readers.items()}
-
-
-def _existing(rules: Iterable[Rule], points: Container[str]) -> list[Rule]:
-    """Return the rules about what this variant of the device has."""
-    return [
-        Rule(rule.ref, tuple([step for step in rule.steps if all(_exists(ref, points) for ref in step.refs)]))
-        for rule in rules
-        if _exists(rule.ref, points)
-    ]
-
-
-def _exists(ref: Ref, points: Container[str]) -> bool:
-    return ref.kind in ("plant", "time") or ref.name in points
 
 
 def _milliseconds(seconds: float) -> int:

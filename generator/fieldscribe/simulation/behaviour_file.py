@@ -19,8 +19,7 @@ from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
-from fieldscribe.language.units import factor_between
-from fieldscribe.model import Device, Flag, Point, Unit
+from fieldscribe.model import Device, Flag, Point
 from fieldscribe.resolve.values import FactError, formula_finding, number
 from fieldscribe.simulation.behaviour_rules import TIME, Amount, Quantity, Ref, Rule, Rules, Step, Test
 
@@ -67,7 +66,6 @@ class _Reader:
             if point.code is not None:
                 by_code.setdefault(point.code, []).append(point)
         self.by_code = {code: points for code, points in by_code.items() if code not in self.by_name}
-        self.units = {point.unit.symbol: point.unit for point in device.points}
         self.plant: dict[str, Quantity] = {}
 
     def rules(self) -> Rules:
@@ -183,26 +181,14 @@ class _Reader:
     def _with_unit(self, written: moves.Amount, span: Span, unit: str, *, per_second: bool) -> Amount:
         """Return a rate in `unit` a second, or a time in seconds. Raises FactError or FormulaError."""
         amount = self._amount(written, span)
-        wanted = f"{unit or '1'}/s" if per_second else "s"
-        if written.unit:
-            factor = self._factor(written.unit, unit, per_second=per_second)
-            problem = f"the unit `{written.unit}` does not fit: {wanted} is what is needed"
-        else:
-            factor = _factor_of(_dimension(amount.expression, amount.refs), unit, per_second=per_second)
-            problem = f"{wanted} is what is needed, and this is something else"
-        if factor is None:
-            raise FormulaError(problem, written.column, f"write the unit behind it, such as `10 {wanted}`")
-        return Amount(amount.expression, amount.refs, factor)
-
-    def _factor(self, typed: str, unit: str, *, per_second: bool) -> Fraction | None:
-        """Return the factor from a typed unit; None if it does not fit."""
-        if not per_second:
-            return _SECONDS.get(typed)
-        symbol, _, time = typed.rpartition("/")
-        if time not in _SECONDS:
-            return None
-        factor = Fraction(1) if symbol == unit else factor_between(symbol, self.units.get(unit, Unit(unit, "", "")))
-        return None if factor is None else factor / _SECONDS[time]
+        stated = _units_of(written.unit) if written.unit else _dimension(amount.expression, amount.refs)
+        for time, seconds in _SECONDS.items():
+            wanted = _units_of(f"{unit}/{time}" if per_second else time)
+            if stated == wanted:
+                return Amount(amount.expression, amount.refs, 1 / seconds if per_second else seconds)
+        wanted_text = f"{unit or '1'}/s" if per_second else "s"
+        hint = f"write that unit behind it, as in `10 {wanted_text}`"
+        raise FormulaError(f"this is not in {wanted_text}", written.column, hint)
 
     def _test(self, stated: conditions.Comparison, move: Move, span: Span) -> Test:
         """Return a comparison with what its words stand for. Raises FactError or FormulaError."""
@@ -293,12 +279,17 @@ def _names_of(point: Point, flag: Flag | None) -> dict[str, int]:
     return {entry.name: entry.raw for entry in entries} or ({"off": 0, "on": 1} if single else {})
 
 
+def _units_of(text: str) -> Dimension:
+    """Return the units of a symbol such as `Hz/s`, each with its power."""
+    above, _, below = text.partition("/")
+    return {symbol: power for symbol, power in ((above, 1), (below, -1)) if symbol not in ("", "1")}
+
+
 def _dimension(expression: Expression, refs: Mapping[Name, Ref]) -> Dimension:
     """Return the units of an expression; of a sum, those of a part that has any."""
     match expression:
         case Name():
-            unit, _, below = refs[expression].unit.partition("/")
-            return {symbol: power for symbol, power in ((unit, 1), (below, -1)) if symbol}
+            return _units_of(refs[expression].unit)
         case Negate(operand):
             return _dimension(operand, refs)
         case Binary(op, left, right):
@@ -309,12 +300,3 @@ def _dimension(expression: Expression, refs: Mapping[Name, Ref]) -> Dimension:
             powers = {unit: first.get(unit, 0) + sign * second.get(unit, 0) for unit in {**first, **second}}
             return {unit: power for unit, power in powers.items() if power}
     return {}
-
-
-def _factor_of(dimension: Dimension, unit: str, *, per_second: bool) -> Fraction | None:
-    """Return the factor from these units to `unit` a second, or to seconds; None if they are others."""
-    for symbol, seconds in _SECONDS.items():
-        wanted = {unit: 1, symbol: -1} if per_second else {symbol: 1}
-        if dimension == {name: power for name, power in wanted.items() if name}:
-            return 1 / seconds if per_second else seconds
-    return None
