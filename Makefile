@@ -65,7 +65,7 @@ audit-power:        ## change one fact of each manual at a time and list what th
 
 corpus:             ## measure the importers on a collection of files (FOLDER=templates of wb-mqtt-serial, models of SunSpec, DBC)
 	@sh generator/setup.sh tests
-	PYTHONPATH=tests nice $(PYTHON) -m corpus "$(FOLDER)"
+	PYTHONPATH=tests nice $(PYTHON) -m corpus "$(FOLDER)" $(VALUES)
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from random import Random
+from typing import Any, NamedTuple, TypeAlias
 
 from fieldscribe.importing.draft_text import DraftGroup, Head
 
@@ -16,9 +17,17 @@ class Drafted(NamedTuple):
     head: Head
 
 
+Points: TypeAlias = Sequence[Mapping[str, Any]]
+"""The points of a device as `export json` has them."""
+
+
 class Collection(NamedTuple):
-    """A kind of files: which of a folder, and what drafts one; it returns None for a file that it leaves out."""
+    """A kind of files: which of a folder, and what drafts one; it returns None for a file that it leaves out.
+
+    `expected` is the oracle: it yields names of points with vectors for so many random contents of each.
+    """
 
     name: str
     files: Callable[[Path], list[Path]]
     draft: Callable[[Path], Drafted | None]
+    expected: Callable[[Path, Points, Random, int], Iterator[tuple[str, Iterator[str]]]]

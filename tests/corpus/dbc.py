@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import random
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from cantools.database.errors import DecodeError
 from fieldscribe.cli.import_dbc import database_of, text_of
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.dbc import export
@@ -16,7 +20,8 @@ from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.pipeline import load_device
 
-from corpus.collection import Collection, Drafted
+from corpus.collection import Collection, Drafted, Points
+from corpus.registers import UnlikeError, names_of, nearest, real
 
 FRAMES = 20
 
@@ -75,4 +80,85 @@ def _values(message: Any, data: bytes) -> list[str]:
     return sorted(repr(float(value)) for value in values)
 
 
-DBC = Collection("dbc", _files, _draft)
+def expected(file: Path, points: Points, chance: random.Random, count: int) -> Iterator[tuple[str, Iterator[str]]]:
+    """Yield points with vectors for random frames, as cantools takes them apart."""
+    of_message: dict[str, dict[str, Mapping[str, Any]]] = {}
+    for point in points:
+        of_message.setdefault(point["source"]["section"], {})[point["title"]["en"]] = point
+    for message in database_of(text_of(file.read_bytes())).messages:
+        given = of_message.get(message.name, {})
+        known = [signal for signal in message.signals if _title(signal) in given]
+        taken: dict[str, list[tuple[bytes, float]]] = {}
+        for _ in range(count if known else 0):
+            data = _frame(message, chance)
+            try:
+                raws = message.decode(data, decode_choices=False, scaling=False)
+            except DecodeError:  # its multiplexer allows no such frame
+                continue
+            for name, raw in raws.items():
+                taken.setdefault(name, []).append((data, raw))
+        for signal in known:
+            if not (signal.is_float and (signal.scale, signal.offset) != (1, 0)):
+                point = given[_title(signal)]
+                yield point["name"], _vectors(message, signal, taken.get(signal.name, []), point)
+
+
+def _title(signal: Any) -> str:
+    return str(signal.name).replace("_", " ").strip() or str(signal.name)
+
+
+def _bits(signal: Any) -> list[int]:
+    """Return the bits of a signal from its lowest, counted from bit 0 of byte 0."""
+    if signal.byte_order == "little_endian":
+        return list(range(signal.start, signal.start + signal.length))
+    bits, at = [], signal.start
+    for _ in range(signal.length):
+        bits.append(at)
+        at = at - 1 if at % 8 else at + 15
+    return bits[::-1]
+
+
+def _frame(message: Any, chance: random.Random) -> bytes:
+    """Return a random frame, in which multiplexers more often have numbers that select something."""
+    data = bytearray(chance.randbytes(message.length))
+    for signal in message.signals:
+        ids = [
+            number
+            for other in message.signals
+            if other.multiplexer_signal == signal.name
+            for number in other.multiplexer_ids
+        ]
+        named = list(ids or signal.choices or ())
+        if named and chance.random() < 0.5:
+            raw = chance.choice(named)
+            for place, bit in enumerate(_bits(signal)):
+                data[bit // 8] = data[bit // 8] & ~(1 << bit % 8) | (raw >> place & 1) << bit % 8
+    return bytes(data)
+
+
+def _vectors(message: Any, signal: Any, taken: list[tuple[bytes, float]], point: Mapping[str, Any]) -> Iterator[str]:
+    ratio, offset = (Fraction(str(number)) for number in (signal.scale, signal.offset))
+    titles = {int(number): str(title) for number, title in (signal.choices or {}).items()}
+    names = names_of(point, titles) if point["enum"] else {}
+    yield f"telegram\t{point['telegram']}\t0"
+    for data, found in taken:
+        packed, raw = bytearray(len(data)), 0
+        for place, bit in enumerate(_bits(signal)):
+            packed[bit // 8] |= data[bit // 8] & 1 << bit % 8
+            raw |= (data[bit // 8] >> bit % 8 & 1) << place
+        raw = raw if signal.is_float else int(found)
+        yield f"can_signal\t{message.frame_id}\t{data.hex()}\tok\t{raw}\t{packed.hex()}"
+        if signal.is_float:
+            yield from [f"decode\t{raw}\tok\t{real(found)}"] if math.isfinite(found) else []
+        elif ratio == 1 and not offset:
+            yield from [f"decode_count\t{raw}\tok\t{raw}"] if raw < 1 << 63 else []
+            yield from [f"name\t{raw}" + (f"\t{names[raw]}" if raw in titles else "")] if names else []
+        else:
+            code = next((one for one in point["special"] if one["raw"][0] <= raw <= one["raw"][1]), None)
+            if (code is None) != (raw not in titles):
+                raise UnlikeError(f"{raw} is no special code, or should be one")
+            value = f"special\t-\t{code['name']}" if code else f"ok\t{real(nearest(raw * ratio + offset))}"
+            yield f"decode\t{raw}\t{value}"
+
+
+DBC = Collection("dbc", _files, _draft, expected)

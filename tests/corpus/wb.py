@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
+from random import Random
+from typing import Any
 
 from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.importing.wb import draft
 from fieldscribe.importing.wb.templates import read_template
+from jinja2 import FileSystemLoader
+from jinja2.sandbox import SandboxedEnvironment
 
-from corpus.collection import Collection, Drafted
+from corpus.collection import Collection, Drafted, Points
+from corpus.registers import Register
 
 
 def _files(folder: Path) -> list[Path]:
@@ -28,4 +37,90 @@ def _draft(file: Path) -> Drafted | None:
     return Drafted(drafted.groups, drafted.head)
 
 
-WB = Collection("wb", _files, _draft)
+def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator[tuple[str, Iterator[str]]]:
+    """Yield points with vectors for random contents of their registers, which the template is read for once more."""
+    text = file.read_text("utf-8-sig")
+    if file.suffix == ".jinja":
+        text = SandboxedEnvironment(loader=FileSystemLoader(file.parent)).from_string(text).render()
+    plain = re.sub(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', lambda match: match[1] or "", text, flags=re.DOTALL)
+    body = json.loads(plain, parse_float=Fraction)["device"]
+    english = body.get("translations", {}).get("en", {})
+    parameters = body.get("parameters", [])
+    parameters = list(parameters.values()) if isinstance(parameters, dict) else parameters
+    items = [item for item in parameters if "address" in item and not item.get("readonly")]
+    for channel in body.get("channels", []):
+        parts = channel.get("consists_of", [])
+        items += [channel] if not parts else []
+        items += [
+            {**channel, **part, "type": "", "name": f"{channel['name']} {number}"}
+            for number, part in enumerate(parts, 1)
+        ]
+    places: dict[Any, list[Mapping[str, Any]]] = {}
+    for item in items:
+        if item.get("address") is not None:
+            places.setdefault(_place(item), []).append(item)
+    given: dict[Any, list[Mapping[str, Any]]] = {}
+    for point in points:
+        if point["access"] != "w":
+            given.setdefault((point["space"], point["address"], tuple(point["bits"] or ())), []).append(point)
+    for place, here in places.items():
+        for item, point in _pairs(here, given.get(place, []), english):
+            yield point["name"], _register(item, english).vectors(point, chance, count)
+
+
+def _pairs(
+    items: Sequence[Mapping[str, Any]], points: Points, english: Mapping[str, str]
+) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
+    """Yield the items of one place, each with its point: the only one, or the only one with its title."""
+    if len(items) == len(points) == 1:
+        yield items[0], points[0]
+        return
+    for item in items:
+        title = str(item.get("title") or item.get("name") or item.get("id"))
+        found = [point for point in points if point["title"]["en"] == english.get(title, title)]
+        alike = [other for other in items if other.get("title") or other.get("name") == title]
+        if len(found) == len(alike) == 1:
+            yield item, found[0]
+
+
+def _place(item: Mapping[str, Any]) -> tuple[str, int, tuple[int, ...]]:
+    number, _, bits = str(item["address"]).partition(":")
+    low, _, width = bits.partition(":")
+    space = {"input": "input", "press_counter": "input", "coil": "coil", "discrete": "discrete"}
+    held = (int(low), int(width)) if width and int(width) < 16 else ()
+    if not held and item.get("format") in ("u8", "s8", "char8"):
+        held = (0, 8)
+    place = space.get(str(item.get("reg_type")), "holding"), int(number, 0)
+    return (*place, (held[0] + held[1] - 1, held[0]) if held else ())
+
+
+def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
+    form, (space, _, bits) = str(item.get("format", "u16")), _place(item)
+    if space in ("coil", "discrete"):
+        return Register("u", 1)
+    if form in ("string", "string8"):
+        return Register("t", 16 * int(item["string_data_size"]), per_word=1 if form == "string" else 2)
+    kind, width = {"float": ("f", 32), "double": ("f", 64), "char8": ("u", 8)}.get(form) or (
+        form[0],
+        int(re.sub("[a-z]+", "", form)),
+    )
+    one = Register(kind, width, (bits[1], bits[0] - bits[1] + 1) if bits else None)
+    one.low_word_first = item.get("word_order") == "little_endian"
+    one.low_byte_first = item.get("byte_order") == "little_endian"
+    one.clears = width == 8 and "readonly" not in item and ":" not in str(item["address"])
+    ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
+    for key, name in (("unsupported_value", "unsupported"), ("error_value", "error")):
+        if key in item:
+            code = item[key]
+            one.codes = {**one.codes, (int(code, 0) if isinstance(code, str) else int(code)) & (1 << width) - 1: name}
+    if "enum" in item:
+        raws = [(Fraction(str(value)) - offset) / ratio for value in item["enum"]]
+        titles = item.get("enum_titles", [])
+        titles = [str(title) for title in (titles if len(titles) == len(raws) else item["enum"])]
+        one.names = {int(raw): english.get(title, title) for raw, title in zip(raws, titles, strict=True)}
+    elif item.get("type") not in ("switch", "alarm") and not (item.get("type") == "pushbutton" and "on_value" in item):
+        one.ratio, one.offset = ratio, offset
+    return one
+
+
+WB = Collection("wb", _files, _draft, expected)

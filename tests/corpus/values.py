@@ -1,0 +1,164 @@
+"""Values of random imported devices in C, Python and Rust, against what their collection's own files say.
+
+So many random files are imported, compiled to all languages, and given about so many random contents in all; the oracle
+of the collection says what these mean.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.export import export_model
+from fieldscribe.importing import compilable
+from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.pipeline import load_device
+from support.places import TESTS
+from support.rust_crates import without_registry
+from support.rust_workspace import RUNTIMES, WORKSPACE
+
+from corpus.collection import Collection
+from corpus.registers import KINDS, UnlikeError
+
+LANGUAGES = ("c", "python", "rust")
+
+
+class Compared(NamedTuple):
+    """A device: its points, those that the oracle knows, its vectors, and what is unlike the oracle."""
+
+    name: str
+    file: Path
+    points: int
+    known: int
+    vectors: int
+    unlike: Sequence[str]
+
+
+def compare(collections: Sequence[Collection], folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
+    """Print a line of counts for each collection, and what differs; return how much that is."""
+    print("| collection | devices | points | compared | values in each language | wrong in C | Python | Rust |")
+    print("|---|---|---|---|---|---|---|---|", flush=True)
+    different = 0
+    for collection in collections:
+        files = collection.files(folder)
+        if files:
+            with TemporaryDirectory(prefix="fieldscribe-values-") as out:
+                chance = random.Random(seed)
+                chance.shuffle(files)
+                made = _made(collection, files, devices, Path(out))
+                different += _compare(collection, made, values // len(LANGUAGES), chance, Path(out))
+    return different
+
+
+def _made(collection: Collection, files: Sequence[Path], devices: int, out: Path) -> list[tuple[str, Path]]:
+    """Import files until there are so many devices, and compile these."""
+    made: list[tuple[str, Path]] = []
+    with ProcessPoolExecutor(os.cpu_count()) as pool:
+        for at in range(0, len(files), 4):
+            part = files[at : at + 4]
+            texts = zip(part, pool.map(_imported, [collection] * 4, part), strict=True)
+            for file, text in [each for each in texts if each[1]][: devices - len(made)]:
+                name = f"{collection.name}_{len(made) + 1}"
+                place = out / "descriptions" / name / "device.yaml"
+                place.parent.mkdir(parents=True)
+                place.write_text(re.sub(r"(?m)^device: \w+$", f"device: {name}", text, count=1), "utf-8")
+                made.append((name, file))
+            if len(made) == devices:
+                break
+    command = (sys.executable, "-m", "fieldscribe", "generate", str(out / "descriptions"), "--out", str(out))
+    done = subprocess.run((*command, "--target", "c,python,rust,vectors"), capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stdout[-2000:] + done.stderr[-2000:])
+    return made
+
+
+def _imported(collection: Collection, file: Path) -> str:
+    """Return the description of a file; empty where there is none."""
+    try:
+        drafted = collection.draft(file)
+    except (UnreadableError, ValueError):  # `make corpus` reports it
+        return ""
+    return "" if drafted is None else compilable(drafted.groups, drafted.head, with_head=True)
+
+
+def _compare(
+    collection: Collection, made: Sequence[tuple[str, Path]], values: int, chance: random.Random, out: Path
+) -> int:
+    compared = [_asked(collection, one, values // len(made), chance, out) for one in made]
+    without_registry(out / "rust")
+    crates = [*RUNTIMES, *(one.name for one in compared), *(f"{one.name}/conformance" for one in compared)]
+    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", json.dumps(crates)), "utf-8")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ran = list(pool.map(lambda one: [_run(language, one, out) for language in LANGUAGES], compared))
+    points, known, vectors = (sum(getattr(one, key) for one in compared) for key in ("points", "known", "vectors"))
+    wrong = Counter({name: sum(counts[at] for counts in ran) for at, name in enumerate(LANGUAGES)})
+    columns = (collection.name, len(made), points, known, vectors, *wrong.values())
+    print(f"| {' | '.join(map(str, columns))} |", flush=True)
+    for one in compared:
+        for text in one.unlike:
+            print(f"  {one.file.name}: {text}", flush=True)
+    return wrong.total() + sum(len(one.unlike) for one in compared)
+
+
+def _asked(collection: Collection, made: tuple[str, Path], values: int, chance: random.Random, out: Path) -> Compared:
+    """Write the vectors of a device over its own."""
+    name, file = made
+    device = load_device(out / "descriptions" / name / "device.yaml", Report())
+    assert device is not None
+    points = [point for point in export_model(device)["points"] if point["generated"]]
+    lines: list[str] = []
+    counts: Counter[str] = Counter()
+    unlike, known = [], 0
+    for point, vectors in collection.expected(file, points, chance, -(-values // (2 * max(1, len(points))))):
+        lines.append(f"point\t{point}")
+        known += 1
+        try:
+            for line in vectors:
+                lines.append(line)
+                counts[line.partition("\t")[0]] += 1
+        except UnlikeError as error:
+            unlike.append(f"{point}: {error}")
+    del counts["with"], counts["telegram"]
+    place = out / "vectors" / f"{name}.txt"
+    head = [line for line in place.read_text("utf-8").split("\n") if line.startswith(("vectors\t", "set\t"))]
+    kinds = ["\t".join(("kind", kind, str(count), *KINDS[kind].split())) for kind, count in counts.items()]
+    place.write_text("\n".join((*head, *kinds, *lines, "")), "utf-8")
+    return Compared(name, file, len(points), known, counts.total(), unlike)
+
+
+def _run(language: str, one: Compared, out: Path) -> int:
+    """Return how many vectors a language answers otherwise; all of them where it does not build."""
+    vectors, program = out / "vectors" / f"{one.name}.txt", out / one.name
+    if language == "c":
+        source = out / "c" / "conformance" / f"{one.name}_conformance.c"
+        done = _done(out, "clang", "-std=c99", "-O0", "-o", str(program), str(source), "-lm")
+        done = _done(out, str(program), str(vectors)) if done.returncode == 0 else done
+    elif language == "python":
+        done = _done(out, sys.executable, str(TESTS / "conformance"), str(out / "python"), one.name, str(vectors))
+    else:
+        command = ("cargo", "--offline", "test", "--quiet", "-p", f"{one.name}_conformance", "--test", "conformance")
+        done = _done(out / "rust", *command, vectors=vectors)
+    counts = {kind: (int(good), int(bad)) for kind, good, bad in re.findall(_COUNTS, done.stdout)}
+    passed = sum(good for kind, (good, _) in counts.items() if kind in KINDS)
+    if passed < one.vectors:
+        print(f"  {one.file.name} in {language}: {done.stderr[-3000:]}", flush=True)
+    return one.vectors - passed
+
+
+_COUNTS = re.compile(r"(?m)^(\w+) (\d+) passed, (\d+) failed")
+
+
+def _done(folder: Path, *command: str, vectors: Path | None = None) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | ({} if vectors is None else {"FIELDSCRIBE_VECTORS": str(vectors)})
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
