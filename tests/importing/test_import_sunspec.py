@@ -20,7 +20,7 @@ FOLDER = Path(__file__).parent / "sunspec"
 DRAFTS = {
     "inverter": ["--models", "1,103,160"],
     "curves": ["--models", "707", "--most", "2"],
-    "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3"],
+    "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3", "--exponents", "4"],
     "all_types": ["--models", "63001"],
 }
 """The drafts in the folder `sunspec`, with the options that they are made with."""

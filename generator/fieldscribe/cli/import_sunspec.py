@@ -26,6 +26,8 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
     what = "how many elements of a group are described, if the device says how many there are (default: 10)"
     parser.add_argument("--most", type=int, choices=range(1, 1001), default=10, metavar="N", help=what)
+    what = "how far scale factors lie from 0 at most (default: 10): with 6, points of 16 bits have integer counts"
+    parser.add_argument("--exponents", type=int, choices=range(1, 11), default=10, metavar="N", help=what)
     what = "what a point that counts elements holds in the device, for what lies behind them"
     add_repeated(parser, "--count", "POINT=N", what, type=_count)
 
@@ -34,7 +36,8 @@ def run(arguments: Namespace) -> int:
     """Import, and return the exit code."""
     try:
         models = read_models(arguments.file, arguments.models)
-        imported = draft_models(models, arguments.device or "sunspec", arguments.most, dict(arguments.count))
+        name, counts = arguments.device or "sunspec", dict(arguments.count)
+        imported = draft_models(models, name, arguments.most, counts, arguments.exponents)
     except UnreadableError as error:
         raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
     write_draft(compilable(imported.groups, imported.head, with_head=True), arguments.out)

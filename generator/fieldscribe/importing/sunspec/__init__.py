@@ -15,7 +15,7 @@ from typing import NamedTuple
 from fieldscribe.families import families
 from fieldscribe.importing.draft_text import Document, DraftGroup, DraftPoint, Head, Names, snake
 from fieldscribe.importing.sunspec.models import Group, Model
-from fieldscribe.importing.sunspec.points import Facts, note_of
+from fieldscribe.importing.sunspec.points import MOST_EXPONENT, Facts, note_of
 
 _FOUND = "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
 _LONGEST_TITLE, _LONGEST_NAME, _LONGEST_CODE = 120, 78, 40
@@ -39,13 +39,16 @@ class Imported(NamedTuple):
         return Counter(text.partition(":")[0] for text in (*questions, *comments))
 
 
-def draft_models(models: Sequence[Model], device: str, most: int, counts: Mapping[str, int]) -> Imported:
+def draft_models(
+    models: Sequence[Model], device: str, most: int, counts: Mapping[str, int], exponents: int = MOST_EXPONENT
+) -> Imported:
     """Return the draft of a device with these models, with the first `most` elements of what repeats.
 
     `counts` are the numbers that points of the device hold, by their names: what lies behind so many elements has a
-    place then.
+    place then. Scale factors lie within `exponents` of 0.
     """
-    drafter = _Drafter(Counter(name for model in models for name in _names(model.group)), most, counts)
+    names = Counter(name for model in models for name in _names(model.group))
+    drafter = _Drafter(names, most, counts, Facts(exponents))
     for model in models:
         drafter.add_model(model)
     documents = [
@@ -133,9 +136,9 @@ class _Place:
 class _Drafter:
     """Drafts models one after another."""
 
-    def __init__(self, names: Counter[str], most: int, counts: Mapping[str, int]) -> None:
+    def __init__(self, names: Counter[str], most: int, counts: Mapping[str, int], facts: Facts) -> None:
         self.groups: list[DraftGroup] = []
-        self.facts = Facts()
+        self.facts = facts
         self._doubles = {name for name, times in names.items() if times > 1}
         self._group_names, self._names = Names(), Names()
         self._most, self._counts = most, counts

@@ -19,12 +19,14 @@ _TYPES = {
 }
 """The types of descriptions for those of SunSpec that are plain numbers."""
 _FORMATS = {
-    "sunssf": "{type: s16, range: -10..10}",
+    "sunssf": "{type: s16, range: -%d..%d}",
     "acc16": "{type: u16, special: {0FFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
     "acc32": "{type: u32, special: {0FFFFFFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
     "acc64": "{type: u64, special: {0FFFFFFFFFFFFFFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
 }
 """Those that are more."""
+MOST_EXPONENT = 10
+"""The scale factors of SunSpec are exponents from -10 to 10."""
 _NOT_IMPLEMENTED = {
     **{f"u{bits}": f"0{'F' * (bits // 4)}h" for bits in (16, 32, 64)},
     **{f"s{bits}": f"8{'0' * (bits // 4 - 1)}h" for bits in (16, 32, 64)},
@@ -54,10 +56,11 @@ _LONGEST_NOTE, _LONGEST_UNIT = 300, 20
 
 
 class Facts:
-    """States the facts of points, and what they share."""
+    """States the facts of points, and what they share; `exponents` is how far scale factors lie from 0."""
 
-    def __init__(self) -> None:
+    def __init__(self, exponents: int) -> None:
         self._units: dict[str, str] = {}
+        self._formats = _FORMATS | {"sunssf": _FORMATS["sunssf"] % (exponents, exponents)}
 
     def state(self, point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:
         """State the facts of a point."""
@@ -99,7 +102,7 @@ class Facts:
         if types & _OF_TYPES.keys():
             yield from ("types:", *(f"  {kind}: {fact}" for kind, fact in _OF_TYPES.items() if kind in types))
         if formats:
-            yield from ("formats:", *(f"  {name}: {_FORMATS[name]}" for name in sorted(formats)))
+            yield from ("formats:", *(f"  {name}: {self._formats[name]}" for name in sorted(formats)))
         if self._units:
             yield "units:"
             yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
@@ -123,7 +126,7 @@ def _state_type(point: Point, drafted: DraftPoint) -> None:
 def _state_factor(point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:
     """State the scale: by a point that holds an exponent of 10, or by the exponent itself."""
     factor = point.factor
-    if isinstance(factor, int) and abs(factor) <= 10:
+    if isinstance(factor, int) and abs(factor) <= MOST_EXPONENT:
         drafted.facts["scale"] = f"value = raw * {number_text(Fraction(10) ** factor)}"
     elif isinstance(factor, str) and factor in scope:
         drafted.facts["scale"] = f"value = raw * 10 ** {scope[factor].name}"
