@@ -48,6 +48,9 @@ def check(analysis: Analysis) -> None:
         if shape.type == "bit" and facts.get("special") is not None and "type" not in facts.failed:
             message = f"`{facts.name}` is a single bit, which has no room for a special code"
             analysis.report.error("two-meanings", message, facts.span("special"), "name its two states by an `enum`")
+        if shape.type == "bit" and facts.get("scale") is not None and "type" not in facts.failed:
+            message = f"`{facts.name}` is a single bit, which is 0 or 1 and has no scale"
+            analysis.report.error("two-meanings", message, facts.span("scale"), "name its two states by an `enum`")
         if facts.get("fixed") is not None and not shape.writable:
             message = f"`fixed` says what is written, and `{facts.name}` is only read"
             analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
