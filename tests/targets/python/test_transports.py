@@ -286,7 +286,13 @@ def test_a_can_bus(bus: tuple[can.BusABC, can.BusABC]) -> None:
         line.send(frames.Frame(0x345, bytes(range(8))))
         heard = far.recv(1)
         assert heard is not None
-        assert (heard.arbitration_id, bytes(heard.data)) == (0x345, bytes(range(8)))
+        assert (heard.arbitration_id, bytes(heard.data), heard.is_fd) == (0x345, bytes(range(8)), False)
+        line.send(frames.Frame(0x345, bytes(range(64))))
+        heard = far.recv(1)
+        assert heard is not None
+        assert (bytes(heard.data), heard.is_fd) == (bytes(range(64)), True)
+        far.send(heard)
+        assert line.receive() == frames.Frame(0x345, bytes(range(64)))
         assert line.receive_waiting() is None
         far.send(NOISE)
         far.send(BACK)

@@ -7,6 +7,8 @@
     with CanLine(can.Bus("can0", interface="socketcan")) as line:
         genset = WoodwardMpu2s(line, unit=1)
 
+Messages of more than 8 bytes go as CAN FD, which the bus must be opened for, as with `fd=True`.
+
 Several devices, in threads or tasks of their own, may share a line: each hears every frame of the bus, and so does a
 program that calls `receive` itself.
 """
@@ -34,7 +36,7 @@ except ModuleNotFoundError as missing:
 if TYPE_CHECKING:
     from typing import Self
 
-_PLAIN_BITS = 11
+_PLAIN_BITS, _PLAIN_LENGTH = 11, 8
 _LATE = 64
 """So many messages are taken off the bus when time is over: a flood of such that are no frames ends, too."""
 _KEPT = 4096
@@ -43,7 +45,8 @@ _KEPT = 4096
 
 def _message(frame: Frame) -> can.Message:
     extended = frame.id >> _PLAIN_BITS > 0
-    return can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=extended)
+    is_fd = len(frame.data) > _PLAIN_LENGTH
+    return can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=extended, is_fd=is_fd)
 
 
 def _frame(message: can.Message) -> Frame | None:
