@@ -61,11 +61,11 @@ class Register:
     codes: Mapping[int, str] = field(default_factory=dict)
     per_word: int = 2
     clears: bool = False
-    """Whether the bits beside its own are written as 0."""
+    """Whether the bits beside its own are written as 0, if it is written."""
 
     def vectors(self, point: Mapping[str, Any], chance: Random, count: int) -> Iterator[str]:
         """Yield vectors for so many random contents, for a point of the export. Raises UnlikeError."""
-        words = -(-self.width // 16)
+        words, self.clears = -(-self.width // 16), self.clears and "w" in point["access"]
         if (words, self.address or point["address"]) != (point["words"], point["address"]):
             raise UnlikeError(f"{point['words']} words at {point['address']}, not {words} at {self.address}")
         given = names_of(point, self.names, self.has_flags)

@@ -71,16 +71,25 @@ def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator
 def _pairs(
     items: Sequence[Mapping[str, Any]], points: Points, english: Mapping[str, str]
 ) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
-    """Yield the items of one place, each with its point: the only one, or the only one with its title."""
+    """Yield the items of one place, each with its point: the only one, or those with its title in the same order."""
     if len(items) == len(points) == 1:
         yield items[0], points[0]
         return
-    for item in items:
-        title = str(item.get("title") or item.get("name") or item.get("id"))
-        found = [point for point in points if point["title"]["en"] == english.get(title, title)]
-        alike = [other for other in items if other.get("title") or other.get("name") == title]
-        if len(found) == len(alike) == 1:
-            yield item, found[0]
+    for form in (str, _without_numbers):
+        named: dict[str, list[Mapping[str, Any]]] = {}
+        for item in items:
+            title = str(item.get("title") or item.get("name") or item.get("id"))
+            named.setdefault(form(english.get(title, title)), []).append(item)
+        for title, alike in named.items():
+            found = [point for point in points if form(point["title"]["en"]) == title]
+            if len(found) == len(alike):
+                yield from zip(alike, found, strict=True)
+                items = [item for item in items if item not in alike]
+                points = [point for point in points if point not in found]
+
+
+def _without_numbers(title: str) -> str:
+    return re.sub(r"\(index \d+\)|[\W\d]", "", title)
 
 
 def _place(item: Mapping[str, Any]) -> tuple[str, int, tuple[int, ...]]:
@@ -107,7 +116,7 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     one = Register(kind, width, (bits[1], bits[0] - bits[1] + 1) if bits else None)
     one.low_word_first = item.get("word_order") == "little_endian"
     one.low_byte_first = item.get("byte_order") == "little_endian"
-    one.clears = width == 8 and "readonly" not in item and ":" not in str(item["address"])
+    one.clears = width == 8 and ":" not in str(item["address"])
     ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
     for key, name in (("unsupported_value", "unsupported"), ("error_value", "error")):
         if key in item:
