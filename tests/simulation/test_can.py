@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import random
+import select
+import subprocess
+import sys
+import threading
+import tty
 from collections import deque
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import can
@@ -194,3 +201,50 @@ def test_over_a_virtual_bus(package: Any) -> None:
         assert client.generator_frequency.read() == 50
         assert client.generator_active_power.read() == 90_000
         assert client.control_register_2.read().generator_breaker_closed
+
+
+@pytest.mark.full(seconds=8)
+def test_between_processes(package: Any) -> None:
+    """`fieldscribe simulate --can` at one end of a serial line with slcan, the generated client at the other."""
+    from fieldscribe_runtime.transports.can import CanLine
+
+    with null_modem() as (ours, theirs):
+        command = [sys.executable, "-m", "fieldscribe", "simulate", "woodward_mpu2s@7", "--can", f"slcan:{theirs}"]
+        served = subprocess.Popen([*command, "--variant", VARIANT, "--still"], stdout=subprocess.PIPE, text=True)
+        try:
+            assert served.stdout is not None
+            assert "answers as unit 7" in served.stdout.readline()
+            with CanLine(can.Bus(ours, interface="slcan", sleep_after_open=0.1), timeout=5.0) as line:
+                client = package.WoodwardMpu2s(line, 7, voltage="400V")
+                client.generator_power_setpoint_1.write(-1234)
+                assert client.generator_power_setpoint_1.read() == -1234
+                assert client.battery_voltage.read() > 0
+        finally:
+            served.terminate()
+            assert served.wait(10) == 0
+
+
+@contextmanager
+def null_modem() -> Iterator[tuple[str, str]]:
+    """The names of two serial ports that are joined."""
+    ends = [os.openpty(), os.openpty()]
+    for end in ends:
+        for descriptor in end:
+            tty.setraw(descriptor)
+    masters, done = [master for master, _ in ends], threading.Event()
+
+    def carry() -> None:
+        while not done.is_set():
+            for master in select.select(masters, (), (), 0.05)[0]:
+                os.write(masters[1 - masters.index(master)], os.read(master, 4096))
+
+    thread = threading.Thread(target=carry)
+    thread.start()
+    try:
+        yield os.ttyname(ends[0][1]), os.ttyname(ends[1][1])
+    finally:
+        done.set()
+        thread.join()
+        for end in ends:
+            for descriptor in end:
+                os.close(descriptor)
