@@ -21,6 +21,7 @@ from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.simulation import core_of
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line
 from fieldscribe.simulation.making import layout_of
@@ -41,20 +42,21 @@ def package() -> Iterator[Any]:
 class Direct:
     """A transport that leads to a bus of simulated devices; where nothing waits, time passes up to the next frame."""
 
-    def __init__(self, *devices: SimulatedDevice) -> None:
+    def __init__(self, *devices: SimulatedDevice, silent: bool = False) -> None:
+        self.silent = silent
         self.line = Line(core_of(devices), devices[0].clock)
         self._waiting: deque[bytes] = deque()
 
     def send(self, frame: Any) -> None:
         """Send a frame."""
         data = frame.id.to_bytes(4, "big") + frame.data
-        self._waiting.extend(outcome.data for outcome in self.line.answer(data) if outcome.data)
+        self._waiting.extend(outcome.data for outcome in self.line.answer(data) if len(outcome.data) >= 4)
 
     def receive(self) -> Any:
         """Return the next frame; raises TimeoutError if none comes."""
         from fieldscribe_runtime.can import Frame
 
-        if not self._waiting:
+        if not self._waiting and not self.silent:
             self.line.clock.advance(0.1)
             self._waiting.extend(self.line.due()[0])
         if not self._waiting:
@@ -173,6 +175,20 @@ def test_refused_requests_stay_without_an_answer(package: Any) -> None:
     client.password_level_2.write_raw(device.memory.raw("password_level_2"))
     client.generator_power_setpoint_1.write_raw(7)
     assert device.values["generator_power_setpoint_1"] == 7
+
+
+def test_each_fault_at_each_byte(package: Any) -> None:
+    """A client never takes a spoiled answer for a good one, and its next request works."""
+    device = genset()
+    client = package.WoodwardMpu2s(line := Direct(device, silent=True), device.unit, voltage="400V")
+    client.retries, client.patience = 0, 0.02
+    device.memory.put("generator_rated_power", 200)
+    places = [f"{kind} {at}" for kind in ("cut", "damaged", "noise") for at in range(12)]
+    for fault in ("silent", "check", "unit", "function", *places):
+        line.line.faults.add(Fault.of(f"{fault} x1"))
+        with pytest.raises(Exception, match="answer"):
+            client.generator_rated_power.read_raw()
+        assert client.generator_rated_power.read_raw() == 200, fault
 
 
 def test_any_frames_are_safe() -> None:

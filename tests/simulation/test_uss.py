@@ -14,6 +14,7 @@ from fieldscribe.families.uss.telegrams import Request, broadcast, build, parse,
 from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line, Stream
 from fieldscribe.simulation.making import layout_of, rules_of
@@ -34,7 +35,7 @@ class Direct:
     """A transport that leads to a line without any bus."""
 
     def __init__(self, line: Line) -> None:
-        self._stream = Stream(line)
+        self.line, self._stream = line, Stream(line)
 
     def exchange(self, request: bytes) -> bytes:
         """Return the reply; raises TimeoutError without one."""
@@ -198,6 +199,20 @@ def test_process_data_and_broadcast(package: Any) -> None:
     assert {complaint.rule for complaint in units[1].complaints} == {"constant bits"}
     drive = opened(package, inverter(behaviour=Behaviour(rules_of("siemens_mm4"))))
     assert drive.status_word.read() & 1
+
+
+def test_each_fault_at_each_byte(package: Any) -> None:
+    """A client never takes a spoiled answer for a good one, and its next request works."""
+    device = inverter()
+    drive = opened(package, device)
+    device.memory.put("uss_baud_rate_index_0", 6)
+    drive.retries = drive.repeats = 0
+    places = [f"{kind} {at}" for kind in ("cut", "damaged", "noise") for at in range(14)]
+    for fault in ("silent", "check", "unit", "function", "exception", *places):
+        drive.transport.line.faults.add(Fault.of(f"{fault} x1"))
+        with pytest.raises(Exception, match=r"reply|answer|refus|telegram|unit|byte|error"):
+            drive.uss_baud_rate_index_0.read_raw()
+        assert drive.uss_baud_rate_index_0.read_raw() == 6, fault
 
 
 def test_any_bytes_are_safe() -> None:

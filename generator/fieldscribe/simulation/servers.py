@@ -219,7 +219,9 @@ class _CanEnd:
     def _send(self, data: bytes) -> None:
         import can
 
-        identifier = int.from_bytes(data[:4], "big")
+        if len(data) < _HEAD:  # a fault left no whole identifier
+            return
+        identifier = int.from_bytes(data[:_HEAD], "big")
         extended = bool(identifier & _EXTENDED)
         long = len(data) > _HEAD + 8
         message = can.Message(
@@ -227,5 +229,5 @@ class _CanEnd:
         )
         try:
             self._bus.send(message)
-        except can.CanError:  # nobody takes the frame: a device would try again
+        except (can.CanError, ValueError):  # nobody takes the frame: a device would try again
             return

@@ -43,8 +43,8 @@ class CanCore:
         """Return what a frame leads to; None if it is for no device of this bus."""
         number = int.from_bytes(request[:4], "big")
         frame, extended = CanFrame(number & ~_EXTENDED, request[4:]), bool(number & _EXTENDED)
-        answers = (unit.answer(frame, extended=extended) for unit in self._units)
-        return next((answer for answer in answers if answer is not None), None)
+        answers = [answer for unit in self._units if (answer := unit.answer(frame, extended=extended))]
+        return next((answer for answer in answers if answer.data), answers[0] if answers else None)
 
     def spoiled(self, answer: bytes, what: str) -> bytes:
         """Return an answer that is wrong in one way; the sums of its bytes are right, unless they are meant."""
