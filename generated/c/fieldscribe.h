@@ -1352,6 +1352,28 @@ static inline size_t fieldscribe_packed_text_of_words(
     return length;
 }
 
+/* Bytes in words as characters in other layouts, and back; what stands beside a single one is 0. */
+static inline void fieldscribe_bytes_of_words(
+    const uint16_t *words, size_t count, size_t in_word, bool low_first, uint8_t *bytes)
+{
+    size_t at;
+    for (at = 0U; at < count; ++at) {
+        const uint32_t shift = fieldscribe_packed_shift(at, in_word, low_first);
+        bytes[at] = (uint8_t)(((uint32_t)words[at / in_word] >> shift) & 0xFFU);
+    }
+}
+
+static inline void fieldscribe_words_of_bytes(
+    const uint8_t *bytes, size_t count, size_t in_word, bool low_first, uint16_t *words)
+{
+    size_t at;
+    for (at = 0U; at < count; ++at) {
+        const uint32_t other = ((at % in_word) == 0U) ? 0U : words[at / in_word];
+        const uint32_t shift = fieldscribe_packed_shift(at, in_word, low_first);
+        words[at / in_word] = (uint16_t)(other | ((uint32_t)bytes[at] << shift));
+    }
+}
+
 /* ---- UTF-8 and UTF-16 ---- */
 
 /* How many bytes a character has. */

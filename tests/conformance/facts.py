@@ -53,7 +53,7 @@ def facts(package: Package, vector: Vector) -> bool:
     found["only_for"] = [facts.only_for[0], *facts.only_for[1]] if facts.only_for else []
     apart = facts.write_at
     found |= {"write_space": apart and apart.space, "write_addresses": list(apart.addresses) if apart else []}
-    typed = vector["type"] == "text" or _is_wire(package.runtime, point.wire, vector["type"])
+    typed = vector["type"] in ("text", "bytes") or _is_wire(package.runtime, point.wire, vector["type"])
     return typed and _chosen(package, point) and all(vector[key] == value for key, value in found.items())
 
 

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from datetime import datetime
 from typing import Any
 
 from support.vector_file import Vector
 
 from conformance.package import Check, Package, pattern, raws_of
 
+_MICROSECOND = 1e-6
+_MOST_SECONDS = 200e9
+"""Seconds of more than six thousand years."""
+
 
 def decode(package: Package, vector: Vector) -> bool:
     """A raw number to a value."""
-    status, value = package.outcome(package.point(vector).decode, vector["raw"], raws_of(vector))
+    point = package.point(vector)
+    status, value = package.outcome(point.decode, vector["raw"], raws_of(vector))
+    if isinstance(value, datetime):
+        seconds = (value - _form(point).epoch).total_seconds()
+        return bool(vector["status"] == "ok" and abs(seconds - vector["value"]) < _MICROSECOND)
+    if status == "malformed":  # Python knows no later year
+        return isinstance(_form(point), package.runtime.Time) and abs(vector["value"]) > _MOST_SECONDS
     if status == "special":
         return bool(vector["status"] == status and str(value) == vector["special"] and value.raw == vector["raw"])
     return status == vector["status"] and (status != "ok" or pattern(value) == pattern(vector["value"]))
@@ -67,6 +78,16 @@ def _is_only_decoded(package: Package, point: Any, raw: int) -> bool:
     return not getattr(point._form, "encodes", True)
 
 
+def _form(point: Any) -> Any:
+    """What a point means apart from special codes."""
+    return point._form.form if point.special else point._form
+
+
+def epoch(package: Package, vector: Vector) -> bool:
+    """The date of a time, as seconds after 1970-01-01."""
+    return bool(_form(package.point(vector)).epoch.timestamp() == vector["seconds"])
+
+
 CHECKS: Mapping[str, Check] = {
     "decode": decode,
     "encode": encode,
@@ -74,5 +95,6 @@ CHECKS: Mapping[str, Check] = {
     "encode_count": encode_count,
     "check": check,
     "told": told,
+    "epoch": epoch,
 }
 """The checks of this theme by the kind of vector."""

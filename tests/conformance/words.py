@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from support.vector_file import Vector
 
@@ -26,9 +27,13 @@ def words(package: Package, vector: Vector) -> bool:
 def text_decode(package: Package, vector: Vector) -> bool:
     """Words to a text."""
     point = package.point(vector)
+    return bool(point.decode(_raw(point, vector)).encode("latin-1") == vector["text"])
+
+
+def _raw(point: Any, vector: Vector) -> Any:
+    """The raw number of words that are in the order of their characters."""
     by_address = dict(zip(point.facts.at.addresses, vector["words"], strict=True))
-    raw = point.from_words([by_address[address] for address in sorted(by_address)])
-    return bool(point.decode(raw).encode("latin-1") == vector["text"])
+    return point.from_words([by_address[address] for address in sorted(by_address)])
 
 
 def text_encode(package: Package, vector: Vector) -> bool:
@@ -57,6 +62,14 @@ def unicode_encode(package: Package, vector: Vector) -> bool:
     return bool(status == vector["status"] and (status != "ok" or point.to_words(raw) == tuple(vector["words"])))
 
 
+def notation(package: Package, vector: Vector) -> bool:
+    """Bytes as people write them, and back."""
+    point = package.point(vector)
+    status, raw = package.outcome(point.encode, vector["text"]) if hasattr(point, "encode") else ("ok", None)
+    decoded = not hasattr(point, "decode") or point.decode(_raw(point, vector)) == vector["text"]
+    return bool(decoded and status == "ok" and raw in (None, _raw(point, vector)))
+
+
 def digits(package: Package, vector: Vector) -> bool:
     """A word to its digits."""
     status, found = package.outcome(package.point(vector).decode, vector["raw"])
@@ -78,6 +91,7 @@ CHECKS: Mapping[str, Check] = {
     "text_encode": text_encode,
     "unicode_decode": unicode_decode,
     "unicode_encode": unicode_encode,
+    "notation": notation,
     "digits": digits,
     "digits_encode": digits_encode,
 }

@@ -271,6 +271,10 @@ void prove_text(void)
     (void)fieldscribe_packed_shift(TEXT, 2U, coin != 0U);
     (void)fieldscribe_packed_text_of_words(words, TEXT, 1U, coin != 0U, a_u8, text);
     (void)fieldscribe_packed_text_of_words(words, 2U * TEXT - 1U, 2U, coin != 0U, a_u8, text);
+    fieldscribe_bytes_of_words(words, TEXT, 1U, coin != 0U, (uint8_t *)text);
+    fieldscribe_bytes_of_words(words, 2U * TEXT - 1U, 2U, coin != 0U, (uint8_t *)text);
+    fieldscribe_words_of_bytes((const uint8_t *)given, TEXT, 1U, coin != 0U, words);
+    fieldscribe_words_of_bytes((const uint8_t *)given, 2U * TEXT - 1U, 2U, coin != 0U, words);
     (void)status;
 }
 

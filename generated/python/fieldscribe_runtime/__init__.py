@@ -78,6 +78,7 @@ from .modbus import (
     Transport,
 )
 from .named import NamedNumber, renamed_classes
+from .notations import Bytes, Time
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -116,6 +117,7 @@ __all__ = [
     "Block",
     "BlockError",
     "ByVariant",
+    "Bytes",
     "Case",
     "Chain",
     "CodecError",
@@ -167,6 +169,7 @@ __all__ = [
     "Telegram",
     "TelegramError",
     "Text",
+    "Time",
     "Transport",
     "Type",
     "UnknownValueError",

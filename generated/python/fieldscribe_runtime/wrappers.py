@@ -27,7 +27,7 @@ _AS_IN_THE_FORM = (
 )
 
 
-class _Around(Form[R, W]):
+class Around(Form[R, W]):
     """Another form as it is, but for what a subclass defines."""
 
     def __init__(self, form: Form[Any, W]) -> None:
@@ -46,7 +46,7 @@ class _Around(Form[R, W]):
         return self.form.converted(value, raws)
 
 
-class _Coded(_Around[R | Special, W]):
+class _Coded(Around[R | Special, W]):
     """Another form beside special codes."""
 
     form: Form[Any, Any]
@@ -131,7 +131,7 @@ def with_fixed(form: Form[Any, Any], mask: int, bits: int) -> Form[Any, Any]:
     return FixedBits(form, mask, bits)
 
 
-class FixedBits(_Around[R, W]):
+class FixedBits(Around[R, W]):
     """Another form, of a whole word in which some bits are always written as a constant."""
 
     def __init__(self, form: Form[R, W], mask: int, bits: int) -> None:

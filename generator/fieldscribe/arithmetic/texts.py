@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fieldscribe.arithmetic.notations import bytes_of, notated
 from fieldscribe.model import Text
 
 _BLANK = " "
@@ -12,6 +13,8 @@ def text_of(layout: Text, pattern: int) -> str:
     """Return the text that all words as one number hold, without what fills it up. Raises UnicodeDecodeError."""
     data, size = _swapped(layout, pattern.to_bytes(2 * layout.words, "big")), _size(layout)
     codes = (data if layout.per_word * size > 1 else data[1::2])[: layout.characters * size]
+    if layout.is_bytes:
+        return notated(layout.encoding, codes)
     ends = (at for at in range(0, len(codes), size) if not (layout.padding or any(codes[at : at + size])))
     return codes[: next(ends, len(codes))].decode(_codec(layout)).rstrip(_BLANK)
 
@@ -23,6 +26,8 @@ def length_of(layout: Text, text: str) -> int:
 
 def fits(layout: Text, text: str) -> bool:
     """Return True if the encoding has all characters of a text, and there is room for them."""
+    if layout.is_bytes:
+        return bytes_of(layout.encoding, text, layout.characters) is not None
     try:
         return length_of(layout, text) <= layout.characters
     except UnicodeEncodeError:
@@ -32,7 +37,8 @@ def fits(layout: Text, text: str) -> bool:
 def pattern_of_text(layout: Text, text: str) -> int:
     """Return all words of a text that fits as one number, filled up."""
     size = _size(layout)
-    codes = text.rstrip(_BLANK).encode(_codec(layout))
+    codes = bytes_of(layout.encoding, text, layout.characters) if layout.is_bytes else None
+    codes = text.rstrip(_BLANK).encode(_codec(layout)) if codes is None else codes
     codes += layout.padding.to_bytes(size, "big") * (layout.per_word * layout.words - len(codes) // size)
     data = codes if layout.per_word * size > 1 else b"".join(bytes((0, code)) for code in codes)
     return int.from_bytes(_swapped(layout, data), "big")

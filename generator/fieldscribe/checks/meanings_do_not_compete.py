@@ -66,10 +66,12 @@ def check(analysis: Analysis) -> None:
 def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:
     """Return the keys that a text or a floating-point number cannot have, what it is, and why; None for the others."""
     if facts.floating:
-        return _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
+        return _OF_INTEGERS, "a floating-point number", "the device sends the value itself in the unit"
     if facts.pattern_bits:
-        return _OF_PATTERNS, "floating-point number", "its enum names all that may be written"
-    return (_OF_NUMBERS, "text", "its characters are all that it means") if facts.text else None
+        return _OF_PATTERNS, "a floating-point number", "its enum names all that may be written"
+    if facts.bytes:
+        return _OF_NUMBERS, "made of bytes", "its `notation` is all that it means"
+    return (_OF_NUMBERS, "a text", "its characters are all that it means") if facts.text else None
 
 
 def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
@@ -97,5 +99,5 @@ def _alien(analysis: Analysis, facts: PointFacts, keys: tuple[str, ...], what: s
     rule = "text-fact" if facts.text else "float-fact"
     for key in keys:
         if facts.get(key) is not None and facts.layer(key) is not facts.group:
-            message = f"`{key}` is for {'' if facts.text else 'whole '}numbers, and `{facts.name}` is a {what}"
+            message = f"`{key}` is for {'' if facts.text else 'whole '}numbers, and `{facts.name}` is {what}"
             analysis.report.error(rule, message, facts.span(key), f"{why}: leave it out")

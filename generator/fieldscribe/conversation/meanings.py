@@ -11,6 +11,7 @@ from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.exact import float_of, pattern_of
+from fieldscribe.arithmetic.notations import date_of
 from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure
@@ -81,6 +82,8 @@ class Meanings:
             text = rounded(value.numerator, value.denominator, point.display)
         else:
             text = _float_text(point, raw) if point.info.floating else amount(value)
+        if point.epoch and (time := date_of(point.epoch, value)):
+            return Meaning(time, number_text(value))
         return Meaning(wording.with_unit(text, point), number_text(value))
 
 
@@ -107,7 +110,7 @@ def _text_meaning(layout: Text, raw: int) -> Meaning:
         text = text_of(layout, raw)
     except UnicodeDecodeError:
         return Meaning(f"not known: the words are no {layout.encoding}")
-    return Meaning(quoted_text(text), text)
+    return Meaning(text if layout.is_bytes else quoted_text(text), text)
 
 
 class FlagTexts:

@@ -11,6 +11,7 @@ from fractions import Fraction
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.notations import seconds_of
 from fieldscribe.arithmetic.texts import fits, length_of, pattern_of_text
 from fieldscribe.arithmetic.words import mask_of, with_fixed
 from fieldscribe.conversation.refusals import refusal
@@ -51,6 +52,9 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
     raw = _named(point, text) if raw is None else raw
     if raw is not None:
         return Typed(None, raw)
+    seconds = seconds_of(point.epoch, text) if point.epoch and not text.isdigit() else None
+    if seconds is not None:
+        return Typed(seconds, 0)
     try:
         number = _number(point, text)
     except NumberError as error:
@@ -243,6 +247,11 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     """Return the words of a typed text as one number, the first characters in the highest bits. Raises RefusedError."""
     layout = point.text
     assert layout is not None
+    if layout.is_bytes:
+        if not fits(layout, typed):
+            message = f"`{shortened(typed)}` is not {wording.characters_text(layout)}"
+            raise RefusedError("out_of_range", message)
+        return pattern_of_text(layout, typed)
     spans = _CHARACTERS[layout.encoding]
     strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
     if strange is not None:

@@ -227,7 +227,7 @@ def written_view(point: Exported) -> object:
 
 def length_view(point: Exported) -> object:
     """Return how many words a text or a point without a type has; of others the type says it."""
-    return point["words"] if point["type"] in (None, "text") else None
+    return point["words"] if point["type"] in (None, "text", "bytes") else None
 
 
 def range_view(point: Exported) -> object:

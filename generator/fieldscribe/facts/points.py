@@ -439,6 +439,18 @@ POINT: FactTable = (
         remark="shown with {}",
     ),
     Fact(
+        "epoch",
+        "The date from which the value counts seconds; null if it is no time.",
+        TEXT_OR_NULL,
+        BEHAVIOUR,
+        shared="shape",
+        value=lambda point, _: point.epoch or None,
+        yaml=("notation",),
+        label="Time",
+        text=lambda point, _: wording.epoch_text(point),
+        remark="{}",
+    ),
+    Fact(
         "decimals",
         "k of the integer path, which counts 10^-k units; null where the point has none.",
         INTEGER_OR_NULL,
@@ -538,12 +550,13 @@ POINT: FactTable = (
     ),
     Fact(
         "encoding",
-        "The encoding of a text.",
+        "The encoding of a text, or the notation of bytes.",
         TEXT_OR_NULL,
         WIRE,
         shared="shape",
         value=lambda point, _: None if point.text is None else point.text.encoding,
         follows=("type",),
+        yaml=("encoding", "notation"),
     ),
     Fact(
         "layout",

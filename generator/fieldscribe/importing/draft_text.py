@@ -23,8 +23,8 @@ _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
     *("at", "bits", "write_at", "view_of", "access", "format", "type", "untyped", "length", "words", "bytes", "coding"),
-    *("characters", "per_word", "padding", "range", "range_in_units", "scale", "unit", "display", "default"),
-    *("default_in_units", "enum", "open", "flags", "special", "fixed", "changes", "when", "since", "sets"),
+    *("notation", "characters", "per_word", "padding", "range", "range_in_units", "scale", "unit", "display"),
+    *("default", "default_in_units", "enum", "open", "flags", "special", "fixed", "changes", "when", "since", "sets"),
     *("indices", "most", "each", "reserved", "note"),
 )
 """The order of a point's facts."""

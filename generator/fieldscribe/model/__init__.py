@@ -24,6 +24,7 @@ from fieldscribe.model.device import (
     Version,
 )
 from fieldscribe.model.numbers import (
+    NOTATIONS,
     TYPE_PATTERN,
     TYPES,
     Digits,

@@ -28,13 +28,24 @@ TYPES: Mapping[str, TypeInfo] = {
 }
 """The types that code has. The width of a text is that of one word; `Shape.text` has the number of its characters."""
 
-TYPE_PATTERN = "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text)$"
-"""The names of wire types: those of `TYPES`, and a sign with any width up to 64 bits."""
+TYPE_PATTERN = "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text|bytes)$"
+"""The names of wire types: those of `TYPES`, bytes, and a sign with any width up to 64 bits."""
+
+NOTATIONS: Mapping[str, int] = {
+    "hex": 0,
+    "version": 0,
+    "version of nibbles": 0,
+    "ipv4": 4,
+    "ipv6": 16,
+    "eui48": 6,
+    "eui64": 8,
+}
+"""How people write bytes, with the number of bytes; 0 for any."""
 
 
 def type_info(name: str) -> TypeInfo:
     """Return what a wire type is, by its name: one of `TYPES`, or a sign and a width such as `u24`. Raises KeyError."""
-    known = TYPES.get(name)
+    known = TYPES.get("text" if name == "bytes" else name)
     if known is None and re.search(TYPE_PATTERN, name) is None:
         raise KeyError(name)
     return known or TypeInfo(int(name[1:]), name[0] == "s", False)
@@ -94,7 +105,7 @@ class Text:
     """How the characters of a text stand in words, the first one in the first word.
 
     A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. `padding` fills the
-    rest: a blank, or a 0, which ends the text.
+    rest: a blank, or a 0, which ends the text. Plain bytes have their notation as `encoding`, and no rest.
     """
 
     characters: int
@@ -107,6 +118,11 @@ class Text:
     def words(self) -> int:
         """Return how many words the text takes."""
         return -(-self.characters // self.per_word)
+
+    @property
+    def is_bytes(self) -> bool:
+        """Return True for plain bytes, which are no characters."""
+        return self.encoding in NOTATIONS
 
     @property
     def is_unicode(self) -> bool:

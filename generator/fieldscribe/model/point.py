@@ -191,6 +191,7 @@ class Point:
     patterns = _Shared(lambda point: point.shape.patterns)
     swapped = _Shared(lambda point: point.shape.swapped)
     coding = _Shared(lambda point: point.shape.coding)
+    epoch = _Shared(lambda point: point.shape.epoch)
     fixed = _Shared(lambda point: point.shape.fixed)
     info = _Shared(lambda point: point.shape.info)
     form = _Shared(lambda point: point.shape.form)

@@ -23,7 +23,7 @@ class Shape:
     if the description gives none; no computation depends on it. `patterns` is True if an enum names floating-point
     numbers: raw numbers are their patterns. `swapped` is True if the low byte of each word comes first.
     `coding` says how the bits hold the raw number if that is neither plain nor two's complement: `bcd` or `sign and
-    magnitude`.
+    magnitude`. `epoch` is the date (`1970-01-01`) from which the value counts seconds, empty if it does not.
 
     Equal shapes are one object, so that the facts derived below are computed once.
     """
@@ -46,6 +46,7 @@ class Shape:
     patterns: bool = False
     swapped: bool = False
     coding: str = ""
+    epoch: str = ""
 
     def __hash__(self) -> int:
         """Hash the facts that usually differ, because titles have no hash; equality compares all facts."""
@@ -68,6 +69,8 @@ class Shape:
         """Return the type on the wire; code may hold it in a wider one (`u24`), or as a pattern (`f32`)."""
         if self.patterns:
             return f"f{self.width}"
+        if self.text is not None and self.text.is_bytes:
+            return "bytes"
         return f"{self.type[0]}{self.width}" if self.narrow else self.type
 
     @cached_property

@@ -216,9 +216,10 @@ class Places:
             first = self._address(facts, raw, key)
             words = tuple(range(first, first + layout.words))
         if len(words) != layout.words:
-            message = f"{len(words)} words hold {layout.per_word * len(words)} characters, not {layout.characters}"
-            stand = "two characters stand" if layout.per_word > 1 else "one character stands"
-            hint = f"{stand} in a word: correct `{key}` or `characters`"
+            what, count = ("byte", "length") if layout.is_bytes else ("character", "characters")
+            message = f"{len(words)} words hold {layout.per_word * len(words)} {what}s, not {layout.characters}"
+            stand = f"two {what}s stand" if layout.per_word > 1 else f"one {what} stands"
+            hint = f"{stand} in a word: correct `{key}` or `{count}`"
             raise FactError("text-length", message, facts.span(key), hint)
         return words
 

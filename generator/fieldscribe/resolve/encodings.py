@@ -143,7 +143,7 @@ def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] 
         return _type_of_signal(scope, facts)
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    type_name = str(facts.get("type") or default) if facts.untyped is None else default
+    type_name = "text" if facts.text else str(facts.get("type") or default) if facts.untyped is None else default
     fault = None if "space" in facts.failed else _type_fault(type_name, space, single, width, default)
     fault = fault or (None if bits else _carrier_fault(scope, type_name, space))
     if fault is None:
@@ -157,7 +157,7 @@ def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] 
 def _type_of_signal(scope: Scope, facts: PointFacts) -> str:
     """Return the wire type of a signal; report a missing one, and one that has no bits of its own."""
     stated = facts.get("type")
-    if stated is not None and stated not in ("bit", "text"):
+    if stated is not None and stated not in ("bit", "text", "bytes"):
         return str(stated)
     if facts.untyped is None and not facts.failed & {"type", "space"}:
         facts.failed.add("type")
@@ -193,7 +193,7 @@ def _type_fault(
     """Return rule, message and hint for a type that does not fit space and bits; None if it fits."""
     info = type_info(type_name)
     if type_name == "text" and (single or width is not None):
-        return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
+        return "type-outside-space", "texts and bytes take whole words", "leave `bits` out, and choose a space of words"
     if width is not None:
         if width <= info.bits <= 16 and not info.floating:
             return None

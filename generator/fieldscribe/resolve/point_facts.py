@@ -154,8 +154,13 @@ class PointFacts:
 
     @property
     def text(self) -> bool:
-        """Return True if the type is `text`."""
-        return bool(self.get("type") == "text")
+        """Return True if the type is `text`, or `bytes`, which are held as one."""
+        return self.get("type") in ("text", "bytes")
+
+    @property
+    def bytes(self) -> bool:
+        """Return True if the type is `bytes`."""
+        return bool(self.get("type") == "bytes")
 
     @property
     def untyped(self) -> str | None:

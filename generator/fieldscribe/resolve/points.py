@@ -170,7 +170,7 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{facts.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif facts.untyped is None and "length" in facts.node and not facts.failed & {"type", "untyped"}:
+    elif facts.untyped is None and "length" in facts.node and not (facts.bytes or facts.failed & {"type", "untyped"}):
         hint = "its type says how many words it takes: leave `length` out"
         scope.report.error("two-meanings", f"`{facts.name}` has a type", facts.span("length"), hint)
     return facts.untyped

@@ -17,6 +17,7 @@ from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
+from fieldscribe.resolve.notations import epoch_of
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scope import Scope, humanised
@@ -120,7 +121,8 @@ class Shapes:
             coding=encoding.coding,
             fixed=fixed_of(scope, facts, encoding.bits, encoding.width) if "w" in access else None,
         )
-        shape = self._interner.shape(replace(shape, display=_display_of(facts, shape, bounds)))
+        display, epoch = _display_of(facts, shape, bounds), epoch_of(scope, facts, shape)
+        shape = self._interner.shape(replace(shape, display=display, epoch=epoch))
         free = ranged and _is_free(facts, shape, encoding)
         return ShapeAndLimits(shape, self._interner.allowed(allowed), paths.raw_alone, free)
 

@@ -13,6 +13,7 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Text
+from fieldscribe.resolve.notations import checked_bytes, layout_of_bytes
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import bit_range, integer, number, pattern
@@ -134,6 +135,8 @@ class Taken:
 
 def text_of(scope: Scope, facts: PointFacts) -> Text | None:
     """Return the layout of a text; None for another type, or after a finding."""
+    if facts.bytes:
+        return checked_bytes(scope, facts, layout_of(scope, facts))
     if not facts.text:
         for key in _OF_TEXTS:
             inherited = facts.layer(key) is facts.group
@@ -165,12 +168,15 @@ def layout_of(scope: Scope, facts: PointFacts) -> Text:
 
     Without `characters` it has none.
     """
-    holders = [holder.get("types", {}).get("text", {}) for holder in (facts.group, scope.header)]
+    kind = str(facts.get("type"))
+    holders = [holder.get("types", {}).get(kind, {}) for holder in (facts.group, scope.header)]
     found = {key: value for holder in reversed(holders) for key, value in holder.items()}
     found |= {key: facts.get(key) for key in ("bytes", *_OF_TEXTS) if facts.get(key) is not None}
     order = None if scope.bus is None else scope.bus.get("bytes")
-    swapped = found.get("bytes") or (order.get("text") if isinstance(order, Map) else order)
+    swapped = found.get("bytes") or (order.get(kind) if isinstance(order, Map) else order)
     padding, low_first = int(found.get("padding", "20h")[:2], 16), swapped == "low first"
+    if facts.bytes:
+        return layout_of_bytes(facts, low_first=low_first)
     encoding = str(found.get("encoding", _DEFAULT_ENCODING))
     per_word = 1 if encoding == "utf-16" else int(found.get("per_word", 2))
     return Text(found.get("characters", 0), encoding, per_word, padding, low_first)

@@ -69,7 +69,7 @@ def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
     if len(addresses) == 2:
         return f"{address_text(addresses[0])} high, {address_text(addresses[1])} low"
     if point.text is not None:
-        return f"{address_text(addresses[0])} to {address_text(addresses[-1])} (first characters first)"
+        return f"{address_text(addresses[0])} to {address_text(addresses[-1])} (first {_parts(point.text)} first)"
     return ", ".join(map(address_text, addresses)) + " (high part first)"
 
 
@@ -78,7 +78,7 @@ def order_text(point: Point) -> str:
     first, *others = point.addresses or (0,)
     if not others or point.untyped is not None:
         return ""
-    what = "characters" if point.text is not None else "word"
+    what = "word" if point.text is None else _parts(point.text)
     rising = all(address == first + number for number, address in enumerate(others, 1))
     falling = all(address == first - number for number, address in enumerate(others, 1))
     if rising or falling:
@@ -86,6 +86,10 @@ def order_text(point: Point) -> str:
         return f"{names[falling]} {what} first"
     words = " ".join(map(hex_text, point.addresses))
     return f"{words}, {'first' if point.text is not None else 'high'} {what} first"
+
+
+def _parts(layout: Text) -> str:
+    return "bytes" if layout.is_bytes else "characters"
 
 
 def with_unit(text: str, point: Point) -> str:
@@ -105,7 +109,7 @@ def type_text(point: Point) -> str:
     if point.untyped is not None:
         return point.untyped or "not settled by the manual"
     if point.text is not None:
-        return f"text, {characters_text(point.text)}"
+        return f"{'' if point.text.is_bytes else 'text, '}{characters_text(point.text)}"
     if point.place.bit is not None:
         return f"{point.shape.wire_type[0]}{point.width}"
     if point.digits is not None:
@@ -115,7 +119,8 @@ def type_text(point: Point) -> str:
 
 def characters_text(layout: Text) -> str:
     """Return what a text holds: `16 characters, ascii`, and how they stand in words if that is not usual."""
-    what = {"utf-8": "byte", "utf-16": "word"}.get(layout.encoding, "character")
+    usual_what = "byte" if layout.is_bytes else "character"
+    what = {"utf-8": "byte", "utf-16": "word"}.get(layout.encoding, usual_what)
     usual, single = (
         layout.per_word > 1 or what == "word",
         "one in the high byte" if layout.low_first else "one in the low byte",
@@ -173,6 +178,11 @@ def decimals_text(point: Point) -> str:
     if point.display is None:
         return ""
     return f"{point.display or 'no'} decimal{'' if point.display == 1 else 's'}"
+
+
+def epoch_text(point: Point) -> str:
+    """Return the date from which a time counts: `seconds since 1970-01-01`; empty for what is no time."""
+    return f"seconds since {point.epoch}" if point.epoch else ""
 
 
 def meaning_text(point: Point, raw: int) -> str:

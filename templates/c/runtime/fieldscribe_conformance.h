@@ -650,6 +650,11 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DISPLAY_DECIMALS));              \
     }
 
+#define FIELDSCRIBE_EPOCH(macro)                                                                 \
+    if (fieldscribe_asks(v, "epoch")) {                                                          \
+        fieldscribe_is_number(v, "seconds", (uint64_t)(macro##_EPOCH));                          \
+    }
+
 #define FIELDSCRIBE_FIXED(macro)                                                                 \
     if (fieldscribe_asks(v, "fixed")) {                                                          \
         fieldscribe_is_number(v, "mask", (uint64_t)(macro##_FIXED_MASK));                        \
@@ -699,6 +704,30 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, count == macro##_WORDS && length <= (bytes) && text[length] == '\0'); \
         fieldscribe_untouched(v, text + (bytes) + 1U, 1U);                                       \
         fieldscribe_is_bytes(v, "text", text, status == 0 ? length : 0U);                        \
+    }
+
+#define FIELDSCRIBE_BYTES_DECODE(function, macro)                                                \
+    if (fieldscribe_asks(v, "bytes_decode")) {                                                   \
+        uint16_t words[macro##_WORDS];                                                           \
+        uint8_t bytes[macro##_BYTES + 1U];                                                       \
+        const size_t count = fieldscribe_numbers(v, "words", words, macro##_WORDS);              \
+        fieldscribe_fill(bytes, sizeof bytes);                                                   \
+        function##_decode(words, bytes);                                                         \
+        fieldscribe_agree(v, count == macro##_WORDS);                                            \
+        fieldscribe_untouched(v, bytes + macro##_BYTES, 1U);                                     \
+        fieldscribe_is_bytes(v, "bytes", (const char *)bytes, macro##_BYTES);                    \
+    }
+
+#define FIELDSCRIBE_BYTES_ENCODE(function, macro)                                                \
+    if (fieldscribe_asks(v, "bytes_encode")) {                                                   \
+        uint8_t bytes[macro##_BYTES] = {0U};                                                     \
+        uint16_t words[macro##_WORDS + 1U];                                                      \
+        const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);                \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        function##_encode(bytes, words);                                                         \
+        fieldscribe_agree(v, length == sizeof bytes);                                            \
+        fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
+        fieldscribe_is_words(v, "words", words, macro##_WORDS);                                  \
     }
 
 #define FIELDSCRIBE_DIGITS(function, digit_type, macro)                                          \

@@ -229,6 +229,13 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
         fieldscribe_agree(v, strcmp(text, group.item##_text) == 0);                              \
     }
 
+#define FIELDSCRIBE_MEMBER_BYTES(device, item)                                                   \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), #item)) {                             \
+        uint8_t bytes[sizeof group.item##_bytes];                                                \
+        device##_##item##_decode(words, bytes);                                                  \
+        fieldscribe_agree(v, memcmp(bytes, group.item##_bytes, sizeof bytes) == 0);              \
+    }
+
 /* A character of words that hold two each, the first in the high byte. */
 static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)
 {

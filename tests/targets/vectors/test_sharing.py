@@ -159,6 +159,7 @@ PAIRS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"scale": DEPENDENT, "decimals": 1, "type": "u32", "most_raw": 1000},
         {"scale": DEPENDENT, "decimals": 1, "type": "u32"},
     ),
+    "epoch": ({"type": "u32", "epoch": "1970-01-01"}, {"type": "u32", "epoch": "2000-01-01"}),
     "coding": ({"type": "u16"}, {"type": "u16", "coding": "bcd"}),
     "swapped": ({"type": "u16"}, {"type": "u16", "swapped": True}),
     "patterns": ({"type": "u32", "enum": ENUM}, {"type": "u32", "enum": ENUM, "patterns": True}),

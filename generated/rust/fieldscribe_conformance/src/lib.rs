@@ -914,6 +914,11 @@ pub fn fixed<P: Point>(vector: &Vector) -> Outcome {
     same(vector.raw("bits"), P::FIXED_BITS)
 }
 
+/// From when a time counts.
+pub fn epoch<P: Point>(vector: &Vector) -> Outcome {
+    same(vector.number("seconds"), P::EPOCH.map(i128::from))
+}
+
 /// Words to a text.
 pub fn text_decode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
 where
@@ -974,6 +979,31 @@ where
     };
     same(vector.text("status").as_str(), status)?;
     same(vector.numbers("words"), words)
+}
+
+/// Words to bytes.
+pub fn bytes_decode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Readable<Raw = [u16; W], Value = [u8; N], Factors = ()>,
+{
+    let mut raw = [0; W];
+    raw.copy_from_slice(&vector.numbers::<u16>("words"));
+    same(
+        Ok(vector.bytes("bytes")),
+        P::decode(raw).into_result().map(Vec::from),
+    )
+}
+
+/// Bytes to words.
+pub fn bytes_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Encodable<Raw = [u16; W], Value = [u8; N], With = ()> + Whole,
+{
+    let bytes = vector
+        .bytes("bytes")
+        .try_into()
+        .map_err(|_| "other bytes")?;
+    same(Ok(vector.numbers("words")), P::encode(bytes).map(Vec::from))
 }
 
 /// A number to its digits.

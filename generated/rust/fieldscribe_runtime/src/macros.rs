@@ -14,7 +14,7 @@
 ///   the bits of the word that are always the same, and what they are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
 /// - `[unit "Hz"]`, `[decimals 1]` of counts, `[display 2]`: with how many decimals people see the value,
-///   `[raw 30..=4000]`: the least and the greatest raw number;
+///   `[epoch 0]`: from when it counts seconds, `[raw 30..=4000]`: the least and the greatest raw number;
 /// - `=>` what decoding gives (`value`, a `reading` beside special codes, or either `_or_error`), its type, and the
 ///   [form](crate::form) with its own facts;
 /// - `[codes ...]`: the special codes, or where they are;
@@ -65,6 +65,7 @@ macro_rules! point {
         $(unit $unit:literal;)?
         $(decimals $decimals:literal;)?
         $(display $display:literal;)?
+        $(epoch $epoch:literal;)?
         $(raw $low:literal..=$high:literal;)?
         => $kind:ident $value:ty as $form:ident $facts:tt;
         $(codes $codes:tt;)?
@@ -98,6 +99,7 @@ macro_rules! point {
             $(const UNIT: &'static str = $unit;)?
             $(const DECIMALS: u32 = $decimals;)?
             $(const DISPLAY_DECIMALS: Option<u32> = Some($display);)?
+            $(const EPOCH: Option<i64> = Some($epoch);)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
             const ACCESS: $crate::Access = $crate::point!(@access $(r $read)? $(w $write)?);
             const FACTS: &'static $crate::data::PointFacts = &$crate::data::PointFacts::of::<Self>()

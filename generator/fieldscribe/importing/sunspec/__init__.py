@@ -15,7 +15,7 @@ from typing import NamedTuple
 from fieldscribe.families import families
 from fieldscribe.importing.draft_text import Document, DraftGroup, DraftPoint, Head, Names, snake
 from fieldscribe.importing.sunspec.models import Group, Model
-from fieldscribe.importing.sunspec.points import MOST_EXPONENT, Facts, note_of
+from fieldscribe.importing.sunspec.points import MOST_EXPONENT, Facts, empty_words, note_of
 
 _FOUND = "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]}}"
 _LONGEST_TITLE, _LONGEST_NAME, _LONGEST_CODE = 120, 78, 40
@@ -176,7 +176,7 @@ class _Drafter:
             if place.start is None:
                 drafted.questions.append("place: it lies behind elements whose number a point holds; `--count` says it")
             else:
-                drafted.facts |= {"at": str(place.start.fixed + words), **place.repeats}
+                drafted.facts |= {"at": str(place.start.fixed + words + empty_words(point)), **place.repeats}
             words += point.size
             scope[point.name] = drafted
             draft.points.append(drafted)

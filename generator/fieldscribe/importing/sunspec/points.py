@@ -42,8 +42,8 @@ _OF_TYPES = {
     "text": "{padding: 00h}",
 }
 """The facts that all points of a type share."""
-_BYTES = {"eui48": "EUI-48", "ipaddr": "IPv4 address", "ipv6addr": "IPv6 address"}
-"""Types that are no numbers: their words can be read raw."""
+_BYTES = {"eui48": ("eui48", 4), "ipaddr": ("ipv4", 2), "ipv6addr": ("ipv6", 8)}
+"""Types that are bytes: their notation, and the number of their words. Of an eui48 the first word is empty."""
 _WORDS = {"16": 1, "32": 2, "64": 4}
 _OTHER_UNITS = (
     "Secs=s Sec=s Tms=s Tmh=h Tmd=d mSecs=ms C=°C Pct=% Degrees=° deg=° Var=var Varh=varh AH=Ah kAH=kAh WH=Wh "
@@ -108,6 +108,11 @@ class Facts:
             yield from (f"  {unit}: {{name: {unit}, quantity: as SunSpec has it}}" for unit in self._units.values())
 
 
+def empty_words(point: Point) -> int:
+    """Return how many of its words stand before what a point holds."""
+    return int(point.type == "eui48" and point.size == _BYTES["eui48"][1])
+
+
 def _state_type(point: Point, drafted: DraftPoint) -> None:
     facts = drafted.facts
     kind = _TYPES.get(point.type)
@@ -117,9 +122,10 @@ def _state_type(point: Point, drafted: DraftPoint) -> None:
         facts["format"] = point.type
     elif point.type == "string":
         facts |= {"type": "text", "characters": str(point.size * 2)}
+    elif point.type in _BYTES and _BYTES[point.type][1] == point.size:
+        facts |= {"type": "bytes", "notation": _BYTES[point.type][0]}
     else:
-        open_type = {"untyped": _BYTES[point.type]} if point.type in _BYTES else {"type": "~"}
-        facts |= {**open_type, "length": str(point.size)}
+        facts |= {"type": "~", "length": str(point.size)}
         drafted.questions.append(f"type {point.type}: {point.size} words")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.model import TYPE_PATTERN
+from fieldscribe.model import NOTATIONS, TYPE_PATTERN
 from fieldscribe.schema_types import Form
 
 _WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
@@ -70,7 +70,12 @@ SHA256 = Form(
 TYPE = Form(
     TYPE_PATTERN,
     "a type",
-    "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit and text",
+    "types are u or s with the number of bits (u16, s32, u24, s48), f32, f64, bit, text and bytes",
+)
+NOTATION = Form(
+    f"^({'|'.join(NOTATIONS)}|time since [0-9]{{4}}-[0-9]{{2}}-[0-9]{{2}})$",
+    "a notation",
+    f"write one of {', '.join(NOTATIONS)}; or the date from which seconds count: time since 1970-01-01",
 )
 WORD_ORDER = Form("^(high|low) first$", "an order", "write `high first` or `low first`")
 _TIME = "[1-9][0-9]{0,5} (ms|s|min)"

@@ -32,7 +32,7 @@ KEYS = (
         "The type on the wire; u16 by default. A number without (u) or with a sign (s) has up to 64 bits (u24, s48), "
         "right-aligned in as many words as it needs. ~ if the manual leaves it open: the point is then documented and "
         "not generated.",
-        ["u16", "s16", "u32", "f32", "u48", "text"],
+        ["u16", "s16", "u32", "f32", "u48", "text", "bytes"],
         Text(form=forms.TYPE),
         NOTHING,
     ),
@@ -47,7 +47,7 @@ KEYS = (
     Key(
         "length",
         FACTS,
-        "The number of words of a point that is `untyped` or whose type is open; 1 by default.",
+        "The number of words of bytes, or of a point that is `untyped` or whose type is open; 1 by default.",
         [3],
         Whole(1, 125),
     ),
@@ -59,6 +59,13 @@ KEYS = (
         ["bcd", "sign and magnitude"],
         one_of("bcd", "sign and magnitude"),
         of=WHOLE_NUMBERS,
+    ),
+    Key(
+        "notation",
+        FACTS,
+        "How people write bytes, hex by default; or the date from which a whole number counts seconds.",
+        ["ipv4", "ipv6", "eui48", "eui64", "hex", "version", "version of nibbles", "time since 1970-01-01"],
+        Text(form=forms.NOTATION),
     ),
     Key("words", _GROUPED, "The order of the words of a value that has several.", ["low first"], WORD_ORDER),
     Key(
@@ -159,7 +166,7 @@ KEYS = (
     Key(
         "per_word",
         _OF_TEXTS,
-        "How many characters of a text stand in a word: 2, or 1 in the low byte beside a 00h.",
+        "How many characters of a text, or bytes, stand in a word: 2, or 1 in the low byte beside a 00h.",
         [1],
         Whole(1, 2),
         of=TEXTS,

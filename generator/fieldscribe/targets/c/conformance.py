@@ -155,6 +155,10 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
 
 
 def _text_cases(view: PointView) -> Iterator[str]:
+    if view.point.text is not None and view.point.text.is_bytes:
+        yield from [f"BYTES_DECODE({view.function}, {view.macro})"] * view.point.readable
+        yield from [f"BYTES_ENCODE({view.function}, {view.macro})"] * view.point.writable
+        return
     if view.point.text is not None and view.point.text.is_unicode:
         size = f"{view.point.text.most_bytes}U"
         yield from [f"UNICODE_DECODE({view.function}, {view.macro}, {size})"] * view.point.readable
@@ -179,7 +183,12 @@ _TEXTS = {"text": _text_cases, "digits": _digits_cases}
 def _place_cases(view: PointView) -> Iterator[str]:
     """Yield the macros for the places of a point and the constant bits of its word."""
     point, addresses = view.point, view.point.place.addresses
-    facts = {"WRITE_ADDRESS": point.write_place, "FIXED": point.fixed, "DISPLAY": point.display}
+    facts = {
+        "WRITE_ADDRESS": point.write_place,
+        "FIXED": point.fixed,
+        "DISPLAY": point.display,
+        "EPOCH": point.epoch or None,
+    }
     yield from (f"{case}({view.macro})" for case, fact in facts.items() if fact is not None)
     calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
     calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []

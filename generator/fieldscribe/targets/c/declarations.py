@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.notations import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Flag, Point
 from fieldscribe.targets.c.layout import WIDTH, filled, folded
-from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import code_defines
 from fieldscribe.targets.c.views import Define, PointFields
@@ -26,7 +27,7 @@ class PointComment:
         self._steps = tuple(map(c_comment, _steps(point))) if point.untyped is None else ()
         self._typed = point.untyped is None
         self._access = point.access if scope.spaces.get(point.group) is not None else f"{point.access}, {point.space}"
-        self._display = () if point.display is None else (wording.display_text(point),)
+        self._display = tuple(filter(None, (wording.display_text(point), wording.epoch_text(point))))
         self._rest = (*map(c_comment, _rare_facts(point, scope)), *((c_comment(remark),) if remark else ()))
 
     def of(self, point: Point, limits: str) -> str:
@@ -128,12 +129,14 @@ def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iter
 def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Define]:
     """Yield the macros of the contents: the number of characters or digits, or the limits of the raw number."""
     if point.text is not None:
-        yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
+        yield f"{macro}_{'BYTES' if point.text.is_bytes else 'CHARACTERS'}", unsigned(point.text.characters)
     elif point.digits is not None:
         yield f"{macro}_DIGITS", unsigned(point.digits.count)
     elif point.writable and not point.info.floating:
         yield f"{macro}_RAW_MIN", fields.low_signed
         yield f"{macro}_RAW_MAX", fields.high_signed
+    if point.epoch:
+        yield f"{macro}_EPOCH", signed(epoch_in_unix(point.epoch))
     if point.has_counts:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
     if point.display is not None:

@@ -90,9 +90,10 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
         return
     for item in (view.fields.item, *point.old_items):
         if point.text is not None:
-            target = f"{item}_text"
-            kind, ending = "char", f"[{point.text.characters + 1}]"
-            comment, statement = "", f"(void){name}_decode(&{word}, group->{target});"
+            target, kind = (f"{item}_bytes", "uint8_t") if point.text.is_bytes else (f"{item}_text", "char")
+            ending = f"[{point.text.characters + (kind == 'char')}]"
+            comment, ignored = (point.text.encoding, "") if point.text.is_bytes else ("", "(void)")
+            statement = f"{ignored}{name}_decode(&{word}, group->{target});"
         elif _is_plainly_counted(point, view):
             target, comment = f"{item}_count", wording.count_text(point)
             kind = "int64_t" if plan_of(point.shape).count_wide else "int32_t"
@@ -110,7 +111,9 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
     for point, view, _ in (each for part in values.parts for each in part.points):
         item, kind = point.item, raw_type(point)
         if point.text is not None:
-            yield f"MEMBER_TEXT({item})" if point.text.is_plain else f"MEMBER_PACKED({scope.prefix}, {item})"
+            member = "BYTES" if point.text.is_bytes else "PACKED"
+            is_plain = point.text.is_plain and not point.text.is_bytes
+            yield f"MEMBER_TEXT({item})" if is_plain else f"MEMBER_{member}({scope.prefix}, {item})"
         elif _is_plainly_counted(point, view):
             yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})"
         else:

@@ -20,6 +20,9 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
     if layout.is_unicode:
         yield from _unicode_functions(point, layout, name, words)
         return
+    if layout.is_bytes:
+        yield from _bytes_functions(point, layout, name, words)
+        return
     latin = "true" if layout.encoding == "latin-1" else "false"
     start, count = "fieldscribe", f"{point.words}U"
     if not layout.is_plain:
@@ -32,6 +35,18 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
         body = f"return {start}_text_of_words(words, {count}, text);"
         parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
         yield function(f"{INLINE} size_t", f"{name}_decode", parameters, body)
+
+
+def _bytes_functions(point: Point, layout: Text, name: str, words: str) -> Iterator[Function]:
+    """Yield the conversions of bytes, which cannot fail."""
+    form = f"{layout.characters}U, {layout.per_word}U, {'true' if layout.low_first else 'false'}"
+    held = f"uint8_t bytes[{layout.characters}]"
+    if point.writable:
+        body = f"fieldscribe_words_of_bytes(bytes, {form}, words);"
+        yield function(f"{INLINE} void", f"{name}_encode", (f"const {held}", words), body)
+    if point.readable:
+        body = f"fieldscribe_bytes_of_words(words, {form}, bytes);"
+        yield function(f"{INLINE} void", f"{name}_decode", (f"const {words}", held), body)
 
 
 def _unicode_functions(point: Point, layout: Text, name: str, words: str) -> Iterator[Function]:

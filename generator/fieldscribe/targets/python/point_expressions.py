@@ -23,6 +23,7 @@ NUMBERED = frozenset({"parameter", "telegram", "signal"})
 def form(point: Point, named: str, scope: PackageScope) -> Node:
     """Return the form of a point: `Scaled(U16, Rule(num=10), decimals=1)`; `named` is its class of numbers or flags."""
     inner = _plain_form(point, named, scope)
+    inner = call(scope.runtime("Time"), (inner, python_string(point.epoch))) if point.epoch else inner
     if not point.specials:
         return inner
     writes = point.writable and any(special.writable for special in point.specials)
@@ -54,7 +55,8 @@ def _code_number(raw: int, special: Special) -> int:
 
 def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     """Return the form of values that are no special codes."""
-    kind = scope.runtime(_FORMS.get(point.form, point.form.capitalize()))
+    name = "bytes" if point.text is not None and point.text.is_bytes else point.form
+    kind = scope.runtime(_FORMS.get(name, name.capitalize()))
     if point.form == "bit":
         return call(kind, *([_wire(point, scope)] if point.swapped else ()))
     if point.text is not None:

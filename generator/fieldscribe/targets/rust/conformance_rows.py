@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from fieldscribe.model import Point
+from fieldscribe.model import Point, Text
 from fieldscribe.targets.rust.enums import getter_name
 from fieldscribe.targets.rust.families import Needs, Tokens, Way, in_rust
 from fieldscribe.targets.rust.literals import value_name
@@ -44,6 +44,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
         ("write_address", point.write_place is not None),
         ("fixed", point.fixed),
         ("display", point.display is not None),
+        ("epoch", bool(point.epoch)),
     ):
         if holds:
             yield Spot(table), alone
@@ -75,7 +76,7 @@ def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list
     if point.form == "float":
         return [Spot("decode", 1)], [Spot("encode", 1)], [Spot("check", 4)]
     if point.form == "text":
-        kind = "unicode" if point.text is not None and point.text.is_unicode else "text"
+        kind = "text" if point.text is None else _kind_of(point.text)
         return [Spot(f"{kind}_decode")], [Spot(f"{kind}_encode")], []
     if point.form == "digits":
         coded = "_coded" if point.specials else ""
@@ -83,6 +84,10 @@ def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list
     mixed = subject.carried != subject.raw
     how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
     return [Spot(f"decode_{how}")], [Spot(f"encode_{how}")], [Spot("check", part)]
+
+
+def _kind_of(text: Text) -> str:
+    return "bytes" if text.is_bytes else "unicode" if text.is_unicode else "text"
 
 
 def _layout(subject: CratePoint) -> Tokens:

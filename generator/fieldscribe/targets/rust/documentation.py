@@ -124,6 +124,8 @@ def _facts(point: Point) -> Iterator[str]:
     yield from _resolution(point)
     if point.display is not None:
         yield wording.display_text(point)
+    if point.epoch:
+        yield wording.epoch_text(point)
     yield wording.access_text(point.access)
     if point.variant:
         yield f"for {rust_code(str(point.variant))}"

@@ -52,6 +52,8 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
         yield tuple(_limits(point, scope))
     elif point.form == "float":
         yield from ((ranges,) for ranges in _float_ranges(point))
+    elif point.text is not None and point.text.is_bytes:
+        yield ("check runtime::form::packed::any::<Self>;",)
     elif point.form == "text" and point.text is not None and point.text.encoding == "ascii":
         yield (f"check runtime::form::{'text' if point.text.is_plain else 'packed'}::ascii::<Self>;",)
     elif point.form == "digits" and point.digits is not None:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
+from fieldscribe.arithmetic.notations import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Point
 from fieldscribe.resources import Render
@@ -117,6 +118,8 @@ def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Itera
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
+    if point.epoch:
+        yield f"epoch {integer(epoch_in_unix(point.epoch))};"
     if fields.low:
         yield f"raw {fields.low}..={fields.high};"
     yield from form_lines(subject, fields.enum, scope)

@@ -37,7 +37,7 @@ def _value_type(subject: CratePoint, enum: str) -> str:
     if subject.point.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
-        return f"runtime::{_text_type(subject.point.text)}"
+        return _text_type(subject.point.text)
     if enum and subject.point.digits is not None:
         return f"[enums::{enum}; {subject.point.digits.count}]"
     if enum:
@@ -72,13 +72,15 @@ def _form(subject: CratePoint) -> tuple[str, str]:
         return "named", subject.carried
     if point.text is not None and point.text.is_unicode:
         return "unicode", f"{16 if point.text.encoding == 'utf-16' else 8}, {_layout(point.text)}"
-    if point.text is not None and not point.text.is_plain:
+    if point.text is not None and (point.text.is_bytes or not point.text.is_plain):
         return "packed", _layout(point.text)
     return {"float": "floating", "text": "text", "flags": "flags"}.get(point.form, "plain"), ""
 
 
 def _text_type(text: Text) -> str:
-    return f"{'Utf8' if text.is_unicode else 'Text'}<{text.most_bytes}>"
+    if text.is_bytes:
+        return f"[u8; {text.characters}]"
+    return f"runtime::{'Utf8' if text.is_unicode else 'Text'}<{text.most_bytes}>"
 
 
 def _layout(text: Text) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from operator import attrgetter
 from types import MappingProxyType
 
+from fieldscribe.arithmetic.notations import epoch_in_unix
 from fieldscribe.conditions import Condition
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Device, Point, item_of
@@ -172,6 +173,8 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
             lines.add("symbol", terms.unit.symbol)
         if shape.display is not None:
             lines.add("display", shape.display)
+        if shape.epoch:
+            lines.add("epoch", epoch_in_unix(shape.epoch))
     lines.add(
         "facts",
         terms.group,

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import inf, isfinite, nan
 from operator import mul
 
+from fieldscribe.arithmetic.notations import notated
 from fieldscribe.model import Digits, Shape, Text
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines
@@ -29,6 +30,9 @@ def text(lines: Lines, shape: Shape) -> None:
     if shape.text is None:
         return
     layout, size = shape.text, shape.text.characters
+    if layout.is_bytes:
+        _bytes(lines, shape, layout)
+        return
     if layout.encoding in _MALFORMED:
         _unicode(lines, shape, layout)
         return
@@ -51,6 +55,19 @@ def text(lines: Lines, shape: Shape) -> None:
         lines.add(
             "text_encode", data, *(("ok", words_of_text(layout, data.rstrip(b" "))) if good else ("out_of_range",))
         )
+
+
+def _bytes(lines: Lines, shape: Shape, layout: Text) -> None:
+    """Add vectors of bytes: as an array, which C and Rust have, and in their notation, which Python has."""
+    size = layout.characters
+    mixed = bytes((0xF7 - place * 0x1D) % 0x100 for place in range(size))
+    for data in (bytes(size), b"\xff" * size, bytes(range(1, size + 1)), mixed):
+        words = words_of_text(layout, data)
+        lines.add("notation", words, notated(layout.encoding, data))
+        if shape.readable:
+            lines.add("bytes_decode", words_of_text(layout, data, 0x3F), data)
+        if shape.writable:
+            lines.add("bytes_encode", data, words)
 
 
 _MALFORMED = {

@@ -46,6 +46,9 @@ KINDS = {
     "text_encode": "text:bytes? status:word words:ints?",
     "unicode_decode": "words:ints status:word text:bytes?",
     "unicode_encode": "text:bytes? status:word words:ints?",
+    "bytes_decode": "only:c.rust words:ints bytes:bytes",
+    "bytes_encode": "only:c.rust bytes:bytes words:ints",
+    "notation": "only:python words:ints text:text",
     "digits": "raw:int status:word digits:ints? special:word?",
     "digits_encode": "digits:ints status:word raw:int?",
     # facts of a point apart from its conversions
@@ -67,8 +70,9 @@ KINDS = {
     # the values of an axis of variants, and what is only documented
     "variant": "only:python axis:word choices:names",
     "left_out": "only:python names:names codes:names",
-    # the number of decimals that people see, and the texts of values
+    # the number of decimals that people see, the date of a time as seconds after 1970-01-01, and the texts of values
     "display": "decimals:int",
+    "epoch": "seconds:int",
     "told": "only:python.rust raw:int status:word text:text?",
     # the symbol of a point's unit
     "symbol": "only:rust symbol:text",

@@ -52,8 +52,7 @@ class Text(Form[str, str]):
 
     def decode(self, raw: int, raws: Raws) -> str:
         """Return the characters without the spaces behind them; raises MalformedError for what is no Unicode."""
-        size, codes = self._size, self._in_order(raw.to_bytes(self.wire.bits // 8, "big"))
-        codes = codes[self._step - 1 :: self._step][: self.characters * size]
+        size, codes = self._size, self._characters_of(raw)
         if not self.padding:
             ends = (at for at in range(0, len(codes), size) if not any(codes[at : at + size]))
             codes = codes[: next(ends, len(codes))]
@@ -73,9 +72,17 @@ class Text(Form[str, str]):
             return None
         if size > self.characters or not self._is_printable(value):
             return None
+        return self._words_of(codes, self.padding.to_bytes(self._size, "big"))
+
+    def _characters_of(self, raw: int) -> bytes:
+        """Return the bytes of all characters."""
+        codes = self._in_order(raw.to_bytes(self.wire.bits // 8, "big"))
+        return codes[self._step - 1 :: self._step][: self.characters * self._size]
+
+    def _words_of(self, codes: bytes, fill: bytes) -> int:
+        """Return the words of bytes, filled up."""
         data = bytearray(self.wire.bits // 8)
-        fill = self.padding.to_bytes(self._size, "big") * len(data)
-        data[self._step - 1 :: self._step] = (codes + fill)[: len(data) // self._step]
+        data[self._step - 1 :: self._step] = (codes + fill * len(data))[: len(data) // self._step]
         return int.from_bytes(self._in_order(data), "big")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:

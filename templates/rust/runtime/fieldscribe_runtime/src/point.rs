@@ -116,6 +116,8 @@ pub trait Point: Sized {
     const DECIMALS: u32 = 0;
     /// With how many decimals people see the value, where the description says it.
     const DISPLAY_DECIMALS: Option<u32> = None;
+    /// Of a value that counts seconds from a date: how many seconds that is after 1970-01-01; [`None`] for others.
+    const EPOCH: Option<i64> = None;
     /// The symbol of the value's unit; empty for a plain number.
     const UNIT: &'static str = "";
     /// The least raw number that the manual allows.

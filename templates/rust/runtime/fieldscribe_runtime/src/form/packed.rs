@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Points that are texts in other layouts than two characters a word, the first in the high byte.
+//! Points that are bytes, or texts in other layouts than two characters a word, the first in the high byte.
 
 use crate::form::checked;
 use crate::text::Layout;
@@ -27,6 +27,17 @@ impl<const N: usize, const W: usize> Packs<[u16; W]> for Text<N> {
     fn packed(self, layout: Layout) -> Option<[u16; W]> {
         let words = layout.words(self.as_bytes());
         (Self::unpacked(words, layout) == self).then_some(words)
+    }
+}
+
+impl<const N: usize, const W: usize> Packs<[u16; W]> for [u8; N] {
+    fn unpacked(words: [u16; W], layout: Layout) -> Self {
+        let mut codes = layout.codes(&words);
+        [0; N].map(|_: u8| codes.next().unwrap_or_default())
+    }
+
+    fn packed(self, layout: Layout) -> Option<[u16; W]> {
+        Some(layout.words(&self))
     }
 }
 
@@ -63,6 +74,14 @@ pub fn check<P: Packed>(raw: P::Raw) -> Result<(), Error> {
 /// [`Error::BadText`].
 pub fn ascii<P: Packed>(raw: P::Raw) -> Result<(), Error> {
     printable::<P>(raw, |code| matches!(code, 0x20..=0x7E))
+}
+
+/// All bytes may be written.
+///
+/// # Errors
+/// None.
+pub const fn any<P: Packed>(_: P::Raw) -> Result<(), Error> {
+    Ok(())
 }
 
 fn printable<P: Packed>(raw: P::Raw, is_printable: fn(u8) -> bool) -> Result<(), Error> {

@@ -1,0 +1,98 @@
+"""Bytes and times in the notation of people: the same in the generator and in the runtime of Python."""
+
+from __future__ import annotations
+
+import importlib
+from datetime import UTC, datetime, timedelta
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from fieldscribe.arithmetic import notations
+
+BYTES = [
+    ("hex", "001A2B3C", "001A2B3C"),
+    ("hex", "00 1a:2b-FF", "001A2BFF"),
+    ("ipv4", "192.168.0.1", "C0A80001"),
+    ("ipv6", "2001:db8::1", f"20010DB8{'0' * 23}1"),
+    ("ipv6", " ::ffff:1.2.3.4 ", f"{'0' * 20}FFFF01020304"),
+    ("eui48", "00:1A:2B:3C:4D:5E", "001A2B3C4D5E"),
+    ("eui48", "001a2b-3c4d5e", "001A2B3C4D5E"),
+    ("eui64", "00:1A:2B:FF:FE:3C:4D:5E", "001A2BFFFE3C4D5E"),
+    ("version", "1.2.0.255", "010200FF"),
+    ("version of nibbles", "1.15.0.3", "1F03"),
+]
+NONE = [
+    ("hex", "0", 1),
+    ("hex", "0g", 1),
+    ("hex", "", 1),
+    ("hex", "001A2B", 2),
+    ("ipv4", "1.2.3", 4),
+    ("ipv4", "1.2.3.256", 4),
+    ("ipv4", "::1", 4),
+    ("ipv6", "1.2.3.4", 16),
+    ("ipv6", "::1%eth0", 16),
+    ("eui48", "00:1A:2B:3C:4D", 6),
+    ("version", "1.2", 1),
+    ("version", "1..2", 2),
+    ("version", "1.256", 2),
+    ("version", "-1.2", 2),
+    ("version", "\u0661.2", 2),
+    ("version", "1" * 5000, 1),
+    ("version of nibbles", "1.16", 1),
+    ("version of nibbles", "1.2.3", 1),
+]
+
+
+@pytest.fixture
+def runtime(package: Any) -> Any:
+    """The runtime of the generated package."""
+    del package
+    return importlib.import_module("fieldscribe_runtime")
+
+
+@pytest.mark.parametrize(("notation", "text", "held"), BYTES)
+def test_bytes(runtime: Any, notation: str, text: str, held: str) -> None:
+    data, form = bytes.fromhex(held), runtime.Bytes(len(held) // 2, notation)
+    assert notations.bytes_of(notation, text, len(data)) == data
+    raw = form.converted(text, {})
+    assert raw == int.from_bytes(data, "big")
+    assert form.decode(raw, {}) == notations.notated(notation, data)
+    assert form.converted(form.decode(raw, {}), {}) == raw
+
+
+@pytest.mark.parametrize(("notation", "text", "count"), NONE)
+def test_what_is_none(runtime: Any, notation: str, text: str, count: int) -> None:
+    assert notations.bytes_of(notation, text, count) is None
+    assert runtime.Bytes(count, notation).converted(text, {}) is None
+
+
+@pytest.mark.parametrize(
+    ("epoch", "text", "seconds"),
+    [
+        ("1970-01-01", "2026-11-29T12:00:00Z", 1795953600),
+        ("1970-01-01", "2026-11-29 13:00+01:00", 1795953600),
+        ("2000-01-01", "2000-01-01", 0),
+        ("2000-01-01", "1999-12-31T23:59:59.750", Fraction(-1, 4)),
+        ("1900-01-01", "1970-01-01", 2208988800),
+    ],
+)
+def test_times(runtime: Any, epoch: str, text: str, seconds: Fraction) -> None:
+    assert notations.seconds_of(epoch, text) == seconds
+    assert notations.seconds_of(epoch, notations.date_of(epoch, Fraction(seconds))) == seconds
+    time = datetime.fromisoformat(epoch).replace(tzinfo=UTC) + timedelta(seconds=float(seconds))
+    form = runtime.Time(runtime.Scaled(runtime.S64, runtime.Rule(num=1000), decimals=3), epoch)
+    raw = form.converted(time, {})
+    assert (raw, form.decode(raw, {})) == (seconds * 1000, time)
+
+
+def test_times_that_python_has_not(runtime: Any) -> None:
+    form = runtime.Time(runtime.Integer(runtime.U64), "1970-01-01")
+    assert notations.date_of("1970-01-01", Fraction(1 << 63)) == ""
+    with pytest.raises(runtime.MalformedError, match="is a time that Python does not have"):
+        form.decode(1 << 63, {})
+    assert form.shown(1 << 63, {}) == str(1 << 63)
+    with pytest.raises(runtime.WrongTypeError, match="takes a time with a zone"):
+        form.converted(datetime(2026, 11, 29), {})
+    assert form.converted(datetime(1970, 1, 1, 0, 0, 2, 600_000, UTC), {}) == 3
+    assert [notations.seconds_of("1970-01-01", text) for text in ("", "noon", "2026-13-01", "5")] == [None] * 4
