@@ -94,6 +94,7 @@ class Time(Around["datetime", "datetime | float"]):
         import datetime  # only devices with such points need it
 
         self.epoch = datetime.datetime.fromisoformat(epoch).replace(tzinfo=datetime.UTC)
+        self._datetime = datetime.datetime
         self._second = datetime.timedelta(seconds=1)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
@@ -103,13 +104,14 @@ class Time(Around["datetime", "datetime | float"]):
     def decode(self, raw: int, raws: Raws) -> datetime:
         """Return the time; raises MalformedError for one that is later than the year 9999."""
         try:
-            return self.epoch + self.form.decode(raw, raws) * self._second
+            seconds: float = self.form.decode(raw, raws)
+            return self.epoch + seconds * self._second
         except OverflowError:
             raise MalformedError(f"raw {raw} is a time that Python does not have") from None
 
     def converted(self, value: datetime | float, raws: Raws) -> int | None:
         """Return the raw number of a time, to the nearest second if the point counts these."""
-        if not hasattr(value, "tzinfo"):
+        if not isinstance(value, self._datetime):
             return self.form.converted(value, raws)
         if value.tzinfo is None:
             raise WrongTypeError(f"takes a time with a zone, as in datetime.now(timezone.utc), not {shown(value)}")
