@@ -134,6 +134,8 @@ class NamedPoints(PointTable):
             row.update(value=None, status=status, detail=str(value))
         elif isinstance(value, float) and not isfinite(value):  # which JSON does not know
             row.update(value=None, status=NotANumberError.status, detail=str(value))
+        elif hasattr(value, "isoformat"):  # a time, which JSON does not know either
+            row["value"] = value.isoformat()
         if not isinstance(value, AbsentError):
             point = self._resolved(name)
             row.update(name=point.facts.name, code=point.facts.code, unit=point.facts.unit, raw=point.raw_of(value))

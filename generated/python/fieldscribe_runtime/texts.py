@@ -116,6 +116,10 @@ class Text(Form[str, str]):
         """There is none: raises WrongTypeError."""
         raise WrongTypeError("a text has no counts: use raw numbers or values")
 
+    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
+        """Return the text itself."""
+        return self.decode(raw, raws)
+
     def choices(self, unit: str) -> str | None:
         """Return what a text has to be."""
         what = {"utf-8": "bytes of utf-8", "utf-16": "words of utf-16"}.get(self.encoding, "")

@@ -97,6 +97,8 @@ class Reader:
             label = f"{row['code']} {row['name']}" if row["code"] else row["name"]
             return str(row["detail"]).removeprefix(f"{label}: ")
         facts = self._device.point(row["name"]).facts
+        if row["raw"] is None and not isinstance(value, (int, float)):
+            return str(row["value"])
         if row["raw"] is None:
             number = f"{value:.12g}" if facts.display is None else f"{value:.{facts.display}f}"
             return f"{number} {facts.unit}".rstrip()

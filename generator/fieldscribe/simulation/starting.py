@@ -73,7 +73,7 @@ def _candidates(layout: Layout, point: Point, settings: Settings, random: Random
             yield from known.raws
             yield from (pattern_of_text(point.text, text) for text in known.texts if point.text is not None)
     if point.text is not None:
-        yield pattern_of_text(point.text, "")
+        yield 0 if point.text.is_bytes else pattern_of_text(point.text, "")
     if point.enum is not None:
         yield from (entry.raw for entry in point.enum.entries)
     if point.flags or point.digits is not None or point.width == 1 or point.name in layout.least:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import importlib
+import json
+from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from typing import Any
 
 import pytest
 from fieldscribe.arithmetic import notations
+from support.described import kitchen_sink
+from support.python_package import Slave, error, imported, write_package
 
 BYTES = [
     ("hex", "001A2B3C", "001A2B3C"),
@@ -42,6 +46,11 @@ NONE = [
     ("version of nibbles", "1.16", 1),
     ("version of nibbles", "1.2.3", 1),
 ]
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    yield from imported(write_package(kitchen_sink(), tmp_path_factory.mktemp("notations")), "kitchen_sink")
 
 
 @pytest.fixture
@@ -96,3 +105,26 @@ def test_times_that_python_has_not(runtime: Any) -> None:
         form.converted(datetime(2026, 11, 29), {})
     assert form.converted(datetime(1970, 1, 1, 0, 0, 2, 600_000, UTC), {}) == 3
     assert [notations.seconds_of("1970-01-01", text) for text in ("", "noon", "2026-13-01", "5")] == [None] * 4
+
+
+def test_a_device_has_them(package: Any) -> None:
+    line = Slave()
+    device = package.KitchenSink(line, 1)
+    time = datetime(2026, 11, 29, 12, 0, 0, 500_000, UTC)
+    for name, value, text in (
+        ("network_address", "10.0.0.1", "10.0.0.1"),
+        ("hardware_address", "00:1a:2b:3c:4d:5e", "00:1A:2B:3C:4D:5E"),
+        ("loader_version", "1.15.0.3", "1.15.0.3"),
+        ("last_service", time, "2026-11-29T12:00:00.500000+00:00"),
+    ):
+        point = getattr(device, name)
+        point.write(value)
+        read = point.read()
+        assert read == (text if isinstance(value, str) else value)
+        assert point.text(read) == text
+        [row] = json.loads(json.dumps(device.rows(device.read_many([name]))))
+        assert row["value"] == text
+    assert device.read_at("holding", 0x1C80, 7) == (10, 0, 0, 1, 0x1A00, 0x3C2B, 0x5E4D)
+    refused = error(device.network_address.write, "10.0.0")
+    assert (refused.status, str(refused)) == ("out_of_range", "network_address: 10.0.0 is not 4 bytes as ipv4")
+    assert str(device.clock.special(0xFFFFFFFF)) == "not_set"

@@ -86,7 +86,7 @@ def places(point: Point, addresses: Iterable[Node], scope: PackageScope) -> _Fac
 
 def _facts(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
     yield from _identity(point, fields, scope)
-    if point.unit.symbol:
+    if point.unit.symbol and not point.epoch:
         yield "unit", point.unit.symbol
     if point.display is not None:
         yield "display", point.display

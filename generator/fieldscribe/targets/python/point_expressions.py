@@ -23,7 +23,7 @@ NUMBERED = frozenset({"parameter", "telegram", "signal"})
 def form(point: Point, named: str, scope: PackageScope) -> Node:
     """Return the form of a point: `Scaled(U16, Rule(num=10), decimals=1)`; `named` is its class of numbers or flags."""
     inner = _plain_form(point, named, scope)
-    inner = call(scope.runtime("Time"), (inner, python_string(point.epoch))) if point.epoch else inner
+    inner = call(scope.runtime("Time"), inner, point.epoch) if point.epoch else inner
     if not point.specials:
         return inner
     writes = point.writable and any(special.writable for special in point.specials)

@@ -180,7 +180,7 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         terms.group,
         point.name,
         shape.wire_type,
-        terms.unit.symbol or None,
+        None if shape.epoch else terms.unit.symbol or None,
         None if point.default is None else float(point.default),
         None if terms.changes == "always" else terms.changes,
         terms.changes_with or None,
