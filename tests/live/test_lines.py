@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import termios
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,7 @@ from fieldscribe.live.lines import families_of, read_line
 from fieldscribe.live.project import Station, read_project
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring import project_file as vendoring
+from support.small_drive import Output
 
 SERIAL = {"baudrate": 9600, "mode": "8N1", "echo": False}
 
@@ -128,3 +131,15 @@ def test_what_is_wrong_in_a_project(text: str, message: str, tmp_path: Path) -> 
         read_project(file)
     assert message in caught.value.message
     assert str(file) in caught.value.message
+
+
+def test_a_port_that_takes_no_such_settings(monkeypatch: pytest.MonkeyPatch, run: Callable[..., Output]) -> None:
+    """A pseudo terminal has no parity, and pyserial lets the error of the system through."""
+
+    def refuses(*_: object, **__: object) -> None:
+        raise termios.error(22, "Invalid argument")
+
+    monkeypatch.setattr("serial.serial_for_url", refuses)
+    done = run("read", "hitachi_l200", "A020", "--line", "rtu:///dev/pts/9?parity=even")
+    assert (done.code, done.out) == (2, "")
+    assert "/dev/pts/9 cannot be set as the line needs it: (22, 'Invalid argument')" in done.err

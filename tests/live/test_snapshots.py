@@ -51,10 +51,11 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     tried = on_line("restore", "a.json", "--dry-run")
     assert (tried.code, drive.values["base_frequency"]) == (0, 390)
     assert "would be written: A020 base_frequency = 50 Hz: raw 500" in tried.out
+    assert "A020" not in on_line("restore", "a.json", "--dry-run", "--without", "A020").out
     restored = on_line("restore", "a.json", "--yes", "--keep")
     assert restored.code == 0
     assert "written: enter" in restored.out
-    assert "and different: run_command; --only NAME restores them" in restored.err
+    assert "left out, and different: run_command; --only NAME restores" in restored.err
     assert on_line("restore", "a.json", "--yes", "--only", "run_command").code == 0
     assert {name: drive.values[name] for name in BEFORE} == BEFORE
     on_line("snapshot", "hitachi_l200", "--out", "b.json")
@@ -170,20 +171,26 @@ def test_writes_come_in_an_order_that_the_device_allows(
     now: dict[str, int], wanted: dict[str, int], writes: list[str], others: list[str], tmp_path: Path
 ) -> None:
     model = loaded_in(tmp_path, described(POINTS))
-    order = ordered(model, snapshot(now), snapshot(wanted), None)
+    order = ordered(model, snapshot(now), snapshot(wanted))
     assert (list(order.writes), order.others, order.refused) == (writes, others, {})
+
+
+def test_a_value_stays_where_the_scale_of_the_other_device_is_another(tmp_path: Path) -> None:
+    model = loaded_in(tmp_path, described(POINTS.replace("access: rw, changes: never}", "access: r}", 2)))
+    order = ordered(model, snapshot({"high": 10}), snapshot({"high": 20, "scaled": 3}))
+    assert order.writes == {"scaled": 6}
 
 
 def test_what_no_order_allows_is_named(tmp_path: Path) -> None:
     model = loaded_in(tmp_path, described(POINTS))
-    order = ordered(model, snapshot({}), snapshot({"low": 60, "high": 50, "elsewhere": 1}), None)
+    order = ordered(model, snapshot({}), snapshot({"low": 60, "high": 50, "elsewhere": 1}))
     assert (order.writes, order.unknown) == ({"high": 50}, ["elsewhere"])
     assert order.refused == {"low": "60 is outside what is allowed here, 0..50"}
 
 
 def snapshot(raws: dict[str, int]) -> Snapshot:
     """A snapshot of the made-up device; what is not given is as always."""
-    held = {"low": 0, "high": 30, "scaled": 1, "reset": 1, "cleared": 0, "baud": 1, "start": 0} | raws
+    held = {"low": 0, "high": 30, "baud": 1, "scaled": 1, "cleared": 0, "reset": 1, "start": 0} | raws
     points = {name: Held(None, raw, "", str(raw), raw, "setting") for name, raw in held.items()}
     return Snapshot("made_up", "1.0.0", "", "tcp://x", 1, "", {}, points, {})
 

@@ -15,7 +15,7 @@ from fieldscribe.cli.write import ask
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.live.journal import Journal, interrupted
 from fieldscribe.live.restoring import Order, ordered, refusals
-from fieldscribe.live.snapshots import Snapshot, read_snapshot, settings_of, take
+from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of, take
 from fieldscribe.live.writing import Planner, Write
 from fieldscribe.model import Point
 from fieldscribe.report import visible
@@ -49,6 +49,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_live(parser, optional=True)
     add_unit(parser)
     add_repeated(parser, "--only", "POINT|GROUP", "restore only this, whatever it is")
+    add_repeated(parser, "--without", "POINT|GROUP", "do not restore this, as a baud rate or an address")
     add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("--dry-run", action="store_true", help="only show what would be written")
     add("-y", "--yes", action="store_true", help="write without asking")
@@ -64,9 +65,9 @@ def run(arguments: Namespace) -> int:
     _take_from(wanted, arguments)
     with opened(arguments) as live:
         now = _taken(live)
-        order = ordered(live.model, now, wanted, _chooser(live, arguments.only))
+        order = ordered(live.model, now, wanted, _chooser(live, arguments))
         writes = _planned(live, now, order, keep=arguments.keep)
-        _print_rest(live, order)
+        _print_rest(live, order, by_name=bool(arguments.only))
         done = Done(writes, order.refused, order.same)
         if not arguments.dry_run:
             if writes and not arguments.yes:
@@ -112,10 +113,15 @@ def _taken(live: Live) -> Snapshot:
         progress.clear()
 
 
-def _chooser(live: Live, names: list[str]) -> Callable[[Point], bool] | None:
-    """Return what chooses points by `--only`; None if it is not given. Raises UnclearError."""
-    if not names:
-        return None
+def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
+    """Return what chooses points: settings, or those of `--only`, but for those of `--without`. Raises UnclearError."""
+    only = _named(live, arguments.only) if arguments.only else is_setting
+    without = _named(live, arguments.without)
+    return lambda point: only(point) and not without(point)
+
+
+def _named(live: Live, names: list[str]) -> Callable[[Point], bool]:
+    """Return what chooses points by their names or groups. Raises UnclearError."""
     groups = {group.name for group in live.model.groups} & {*names}
     items = {choose_point(live.model, name).item for name in names if name not in groups}
     return lambda point: point.item in items or point.group in groups
@@ -130,13 +136,13 @@ def _planned(live: Live, now: Snapshot, order: Order, *, keep: bool) -> list[Wri
         raise StopError(error.message, error.hint, FINDINGS) from error
 
 
-def _print_rest(live: Live, order: Order) -> None:
+def _print_rest(live: Live, order: Order, *, by_name: bool) -> None:
     """Print what is not restored."""
     lines = [[("error", visible(f"cannot be written: {text}"))] for text in refusals(live.model, order)]
     if order.unknown:
         lines.append([("warning", visible(f"not in the description: {', '.join(order.unknown)}"))])
-    if order.others:
-        text = f"no settings by the description, and different: {', '.join(order.others)}; --only NAME restores them"
+    if order.others and not by_name:
+        text = f"left out, and different: {', '.join(order.others)}; --only NAME restores what is no setting"
         lines.append([("hint", visible(text))])
     print_lines(lines, sys.stderr)
 

@@ -28,10 +28,10 @@ class Order:
     same: int = 0
 
 
-def ordered(model: Device, now: Snapshot, wanted: Snapshot, only: Callable[[Point], bool] | None) -> Order:
-    """Return the order in which a device that holds `now` gets what it has in `wanted`.
+def ordered(model: Device, now: Snapshot, wanted: Snapshot, is_chosen: Callable[[Point], bool] = is_setting) -> Order:
+    """Return the order in which a device that holds `now` gets what it has in `wanted` of the chosen points.
 
-    `only` chooses points; without it these are the settings. Raises UnclearError for another kind of device.
+    Raises UnclearError for another kind of device.
     """
     if wanted.device != model.id:
         raise UnclearError(f"the snapshot is of {wanted.device}, and this is {model.id}", "name the device it is of")
@@ -41,23 +41,39 @@ def ordered(model: Device, now: Snapshot, wanted: Snapshot, only: Callable[[Poin
     held = now.raws
     differing: dict[str, int] = {}
     equal: dict[str, int] = {}
-    for name, each in wanted.points.items():
-        point = points.get(known.get(name, ""))
-        if point is None or each.raw is None or not point.writable:
-            continue
-        chosen = is_setting(point) if only is None else only(point)
-        if held.get(point.item) == each.raw:
-            order.same += chosen
-            equal.update({point.item: each.raw} if chosen else {})
-        elif not chosen:
-            order.others += [point.item] if only is None else []
-        elif point.item not in held:
-            order.refused[point.item] = now.missing.get(point.name, "the device does not have it")
+    raws = {known[name]: raw for name, raw in wanted.raws.items() if name in known}
+    chosen = {item for item in raws if points[item].writable and is_chosen(points[item])}
+    theirs = settings_of(model, raws)
+    ours = settings_of(model, held) | settings_of(model, {item: raws[item] for item in chosen})
+    for item in [item for item in raws if points[item].writable]:
+        here, raw = held.get(item), _same_value(points[item], raws[item], theirs, ours)
+        if item not in chosen:
+            order.others += [item] if here != raw else []
+        elif here is None:
+            order.refused[item] = now.missing.get(points[item].name, "the device does not have it")
+        elif raw is None:
+            order.refused[item] = "this device has no number for that value"
+        elif here == raw:
+            equal[item] = raw
         else:
-            differing[point.item] = each.raw
+            differing[item] = raw
+    order.same = len(equal)
     _add_changed(points, differing, equal)
     _Sorter(model, points, held, order).sort(differing)
     return order
+
+
+def _same_value(point: Point, raw: int, theirs: codec.Settings, ours: codec.Settings) -> int | None:
+    """Return the number that means here what a raw number means there; None if there is none.
+
+    These are the same unless the scale depends on what the devices hold differently.
+    """
+    if all(theirs.get(name) == ours.get(name) for name in point.scale_arguments) or point.special(raw):
+        return raw
+    try:
+        return codec.encode(point, codec.decode(point, raw, theirs), ours)
+    except codec.CodecError:
+        return None
 
 
 def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: dict[str, int]) -> None:

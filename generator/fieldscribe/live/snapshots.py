@@ -13,9 +13,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from fieldscribe.arithmetic import codec
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
+from fieldscribe.resources import use_python_runtime
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
+
+use_python_runtime()
+
+from fieldscribe_runtime import CodecError, FieldscribeError  # noqa: E402 - they are found from here on
 
 if TYPE_CHECKING:
     from fieldscribe_runtime import AnyDevice
@@ -25,8 +30,6 @@ DEFAULTS = "defaults"
 
 _FORMAT = 1
 _MOST_BYTES = 32 << 20
-_HAS_A_NUMBER = ("ok", "special", "not_a_number")
-"""The states of points that hold a raw number."""
 
 
 class Held(NamedTuple):
@@ -89,8 +92,9 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
     missing: dict[str, str] = {}
     for number, group in enumerate(device.GROUPS, 1):
         progress(f"reading group {number} of {len(device.GROUPS)}: {group}")
-        for row in device.rows(device.read_many(group, errors="return")):
-            if row["status"] not in _HAS_A_NUMBER:
+        values = device.read_many(group, errors="return")
+        for row, value in zip(device.rows(values), values.values(), strict=True):
+            if isinstance(value, FieldscribeError) and not isinstance(value, CodecError):
                 missing[row["name"]] = row["detail"]
                 continue
             handle: Any = device.point(row["name"])

@@ -56,7 +56,12 @@ class _Port:
     """A port of pyserial, with the methods of a `Connection`."""
 
     def __init__(self, url: str, settings: dict[str, Any]) -> None:
-        self._serial: Any = serial.serial_for_url(url, **settings)
+        try:
+            self._serial: Any = serial.serial_for_url(url, **settings)
+        except (OSError, ValueError, TypeError):
+            raise
+        except Exception as error:  # of settings that a port does not take, pyserial lets termios.error through
+            raise OSError(f"{url} cannot be set as the line needs it: {error}") from error
 
     def drop_old(self) -> None:
         """Drop what has come already; raises OSError."""
