@@ -69,7 +69,6 @@ NAMES_A_FAMILY = {
     "language.keys.places": "examples of whole files and messages",
     "cli.simulate": "a line may be a bus of one",
     "simulation.bench": "a line may be a bus of one",
-    "simulation.making": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
     "targets.python.namespaces": "a library of Python is called as one",
 }

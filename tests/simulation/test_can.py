@@ -20,11 +20,11 @@ import pytest
 from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.simulation import core_of
 from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.descriptions import layout_of
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line
-from fieldscribe.simulation.making import layout_of
 from support.places import PACKAGES, TESTS
 from support.python_package import imported
 

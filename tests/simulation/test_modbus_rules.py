@@ -7,18 +7,16 @@ import random
 
 import pytest
 from fieldscribe.families.modbus.frames import crc16, frame
-from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.line import Line, Stream
-from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings
 
 
-def line_of(
-    name: str, *units: int, framing: str = "rtu", strict: bool = False, at: str = "", **settings: object
-) -> Line:
-    device = DeviceSettings(name, units, behaviour=False, **settings)  # type: ignore[arg-type]  # by name
-    (line,) = Bench([LineSettings([device], "tcp", at, framing)], strict=strict).made(Clock(0))
-    return line
+def line_of(name: str, *units: int, framing: str = "rtu", strict: bool = False, **settings: object) -> Line:
+    devices = [{"device": name, "unit": unit, "behaviour": False, **settings} for unit in units or (1,)]
+    line = {"tcp": "", "framing": framing, "devices": devices}
+    (made,) = Bench({"lines": [line], "strict": strict, "time_scale": 0}).lines
+    return made
 
 
 def said(line: Line, request: str, unit: int = 1) -> str:
@@ -133,7 +131,7 @@ def test_what_is_not_stored_is_lost_at_a_restart() -> None:
 
 
 def test_conditions_refuse_writes_until_they_hold() -> None:
-    line = line_of("eastron_sdm630", unmet=("password_entered",))
+    line = line_of("eastron_sdm630", unmet=["password_entered"])
     device = device_of(line)
     (point,) = (point for point in device.layout.points.values() if point.conditions)
     address = device.layout.written[point.name].addresses[0]

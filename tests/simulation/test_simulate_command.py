@@ -14,9 +14,8 @@ from pathlib import Path
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import Simulated
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.console import Console
-from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings
+from fieldscribe.simulation.bench import Bench
+from fieldscribe.simulation.console import carry_out
 from fieldscribe.simulation.pytest_plugin import simulated_device  # noqa: F401  # the fixture
 from fieldscribe.user_errors import UnclearError
 
@@ -44,7 +43,7 @@ def test_a_port_that_is_taken_ends_with_the_reason(capsys: pytest.CaptureFixture
         ([L200, "--tcp", "99999"], "port 99999 of 127.0.0.1 cannot be served: "),
         ([L200, "--tcp", "x"], "`x` is no TCP port"),
         ([L200, "--can", "virtual:x"], "hitachi_l200 is on no can line"),
-        ([L200, "--tcp", "0", "--framing", "uss"], "a tcp line has no framing `uss` here"),
+        ([L200, "--tcp", "0", "--framing", "uss"], "hitachi_l200 is on no tcp line with uss"),
         ([L200, "--unit", "99"], "hitachi_l200 has no unit 99"),
         ([L200, f"{L200}@1"], "two devices on the line have the unit 1"),
         ([L200, "eastron_sdm630@x"], "`eastron_sdm630@x` names no unit"),
@@ -55,7 +54,7 @@ def test_a_port_that_is_taken_ends_with_the_reason(capsys: pytest.CaptureFixture
         ([L200, "--unmet", "stopped"], "no write asks for the condition `stopped`"),
         ([L200, "--fault", "tired"], "there is no fault `tired`"),
         ([L200, "--fault", "late soon"], "`soon` says nothing about the fault `late`"),
-        ([L200, "--time-scale", "-1"], "--time-scale is a number from 0"),
+        ([L200, "--time-scale", "-1"], "a time scale is a number from 0"),
         ([], "there is nothing to simulate"),
     ],
 )
@@ -78,8 +77,8 @@ def test_nobody_beyond_this_machine_is_served_unless_it_is_wanted(capsys: pytest
     [
         ("lines: 3\n", ":1:8: `lines` is a list"),
         ("line: []\n", ":1:7: there is no key `line` here"),
-        ("lines:\n- {tcp: 0, serial: x, devices: []}\n", ":2:3: a line is one of `tcp`, `serial` and `can`"),
-        ("lines:\n- {tcp: 0, devices: []}\n", ":2:21: a line has at least one device"),
+        ("lines:\n- {tcp: 0, serial: x, devices: []}\n", ":2:3: a line is one of tcp, serial and can"),
+        ("lines:\n- {tcp: 0, devices: []}\n", ":2:3: a line is one of tcp, serial and can, and has devices"),
         ("lines:\n- {tcp: 0, devices: [{device: nothing}]}\n", "there is no device `nothing`"),
         ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, unit: one}]}\n", ":2:50: `unit` is a whole number"),
         ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, units: 1-4}]}\n", ":2:51: `1-4` is no interval"),
@@ -98,25 +97,30 @@ def test_a_wrong_bench_file_says_where(
 
 
 def test_the_console_reads_writes_and_spoils() -> None:
-    clock = Clock(0)
-    devices = [DeviceSettings(L200, (1, 2), behaviour=False), DeviceSettings("eastron_sdm630", (3,))]
-    lines = Bench([LineSettings(devices)]).made(clock)
-    console = Console(lines, clock)
-    assert console.said("@1 set A020=60 Hz") == ""
-    assert console.said("@1 get A020") == "1 A020 = 60"
-    assert console.said("@2 get base_frequency") == "2 base_frequency = 50"
-    assert console.said("@3 unmet password_entered") == ""
-    assert lines[0].core.devices[2].conditions == {"password_entered": False}
-    assert console.said("fault cut 4 x2") == ""
-    assert [fault.kind for fault in lines[0].faults.waiting] == ["cut"]
-    assert console.said("clear") == console.said("restart") == console.said("advance 2.5") == console.said("") == ""
-    assert (lines[0].faults.waiting, clock.now()) == ([], 2.5)
-    assert console.said("help").startswith("get POINT")
+    devices = [{"device": L200, "units": "1..2", "behaviour": False}, {"device": "eastron_sdm630", "unit": 3}]
+    bench = Bench({"lines": [{"devices": devices}], "time_scale": 0})
+    (line,) = bench.lines
+    assert carry_out(bench, "@1 set A020=60 Hz") == ""
+    assert carry_out(bench, "@1 get A020") == "1 A020 = 60"
+    assert carry_out(bench, "@2 get base_frequency") == "2 base_frequency = 50"
+    assert carry_out(bench, "@3 unmet password_entered") == ""
+    assert line.core.devices[2].conditions == {"password_entered": False}
+    assert carry_out(bench, "fault cut 4 x2") == ""
+    assert [fault.kind for fault in line.faults.waiting] == ["cut"]
+    assert (
+        carry_out(bench, "clear")
+        == carry_out(bench, "restart")
+        == carry_out(bench, "advance 2.5")
+        == carry_out(bench, "")
+        == ""
+    )
+    assert (line.faults.waiting, bench.clock.now()) == ([], 2.5)
+    assert carry_out(bench, "help").startswith("get POINT")
     for wrong in ("@9 get A020", "get A020", "@1 set A020", "@1 set A020=fast", "advance far", "met hope", "fault"):
         with pytest.raises(UnclearError):
-            console.said(wrong)
+            carry_out(bench, wrong)
     with pytest.raises(EOFError):
-        console.said("quit")
+        carry_out(bench, "quit")
 
 
 @pytest.mark.full(seconds=2)

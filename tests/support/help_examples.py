@@ -17,8 +17,7 @@ from typing import Any, NamedTuple
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.simulation import making
-from fieldscribe.simulation.servers import serve_tcp
+from fieldscribe.simulation import servers
 
 from support.captured import classic, segment
 from support.places import ROOT, TESTS
@@ -156,4 +155,5 @@ def stops_at_once(patch: pytest.MonkeyPatch) -> None:
         raise TimeoutError
 
     patch.setattr(asyncio, "wait_for", wait_for)
-    patch.setattr(making, "serve_tcp", lambda line, host, _port: serve_tcp(line, host))  # 5020 may be taken
+    serve_tcp = servers.serve_tcp
+    patch.setattr(servers, "serve_tcp", lambda line, host, _port: serve_tcp(line, host))  # 5020 may be taken

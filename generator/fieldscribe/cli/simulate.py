@@ -7,10 +7,11 @@ import gc
 import os
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from signal import SIGINT, SIGTERM
+from typing import Any
 
 from fieldscribe.cli.common import (
     StopError,
@@ -23,14 +24,16 @@ from fieldscribe.cli.common import (
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.report import visible
-from fieldscribe.simulation.bench import read_bench
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.console import Console
+from fieldscribe.simulation.bench import Bench, read_bench
+from fieldscribe.simulation.console import carry_out
+from fieldscribe.simulation.descriptions import BrokenError
 from fieldscribe.simulation.device import Complaint
 from fieldscribe.simulation.faults import KINDS
-from fieldscribe.simulation.line import Line, Trace
-from fieldscribe.simulation.making import Bench, BrokenError, DeviceSettings, LineSettings, close_all, serve
+from fieldscribe.simulation.line import Trace
+from fieldscribe.simulation.servers import serve
 from fieldscribe.user_errors import UnclearError
+
+_PLACES = ("tcp", "serial", "can")
 
 EXAMPLE = f"""examples:
   fieldscribe simulate hitachi_l200 --tcp 5020
@@ -79,47 +82,42 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Serve until the end, and return the exit code."""
     gc.enable()  # the process runs for long
-    bench = _bench(arguments)
-    if not 0 <= bench.time_scale <= 1e6:
-        raise StopError("--time-scale is a number from 0 (time stands) to a million", "")
+    file: Path | None = arguments.bench
+    if file is not None and arguments.devices:
+        raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
     try:
         with _trace(arguments.trace) as trace:
-            return asyncio.run(_serve(bench, trace, arguments.seconds))
+            settings = _settings(arguments) if file is None else read_bench(file)
+            bench = Bench(settings, Path() if file is None else file.parent, trace)
+            return asyncio.run(_serve(bench, arguments.seconds))
     except BrokenError as error:
         report_findings(error.report, "text")
         return FINDINGS
 
 
-def _bench(arguments: Namespace) -> Bench:
-    if arguments.bench is not None:
-        if arguments.devices:
-            raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
-        return read_bench(arguments.bench)
+def _settings(arguments: Namespace) -> Mapping[str, Any]:
+    """Return the bench that the command line asks for: one line."""
     if not arguments.devices:
         raise StopError("there is nothing to simulate", "name a device, or a file after --bench")
-    if arguments.unit is not None and len(arguments.devices) > 1:
-        raise StopError("--unit is for a single device", "write each as DEVICE@UNIT")
-    values = dict(_pair(text) for text in arguments.values)
-    variants, unmet = tuple(arguments.variant), tuple(arguments.unmet)
-    moves = False if arguments.still else None
+    common: dict[str, Any] = {"unmet": arguments.unmet} | ({"behaviour": False} if arguments.still else {})
+    common["values"] = dict(_pair("--set", text) for text in arguments.values)
+    common["variant"] = dict(_pair("--variant", text) for text in arguments.variant)
     devices = []
     for text in arguments.devices:
-        name, at, unit = text.rpartition("@") if "@" in text else (text, "", "")
+        name, at, unit = text.rpartition("@") if "@" in text else (text, "", arguments.unit)
         if at and not unit.isdecimal():
             raise StopError(f"`{text}` names no unit", "write DEVICE@UNIT, as in hitachi_l200@3")
-        units = (int(unit),) if at else () if arguments.unit is None else (arguments.unit,)
         file = device_file(Namespace(device=name, descriptions=arguments.descriptions))
-        devices.append(DeviceSettings(str(file), units, variants, {}, values, unmet, behaviour=moves))
-    chosen = [(on, getattr(arguments, on)) for on in ("tcp", "serial", "can") if getattr(arguments, on) is not None]
-    on, at = chosen[0] if chosen else ("", "")
-    line = LineSettings(devices, on, at, arguments.framing, arguments.speed, tuple(arguments.faults))
-    return Bench([line], arguments.seed, arguments.time_scale, arguments.strict)
+        devices.append({"device": str(file), **common} | ({} if unit is None else {"unit": int(unit)}))
+    line = {"devices": devices, "framing": arguments.framing, "speed": arguments.speed, "faults": arguments.faults}
+    line |= {on: at for on in _PLACES if (at := getattr(arguments, on)) is not None}
+    return {"lines": [line], **{key: getattr(arguments, key) for key in ("seed", "time_scale", "strict")}}
 
 
-def _pair(text: str) -> tuple[str, str]:
+def _pair(option: str, text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals:
-        raise StopError(f"--set: `{text}` gives no value", "write --set POINT=VALUE")
+        raise StopError(f"{option}: `{text}` gives no value", f"write {option} NAME=VALUE")
     return name.strip(), value.strip()
 
 
@@ -134,57 +132,49 @@ def _trace(file: Path | None) -> Iterator[Trace | None]:
             yield lambda entry: print(entry, file=stream)
 
 
-async def _serve(bench: Bench, trace: Trace | None, seconds: float | None) -> int:
+async def _serve(bench: Bench, seconds: float | None) -> int:
     """Serve the lines until a signal, `quit`, or the end of the time."""
-    clock, stop, loop = Clock(bench.time_scale), asyncio.Event(), asyncio.get_running_loop()
-    lines = bench.made(clock, trace)
-    servers = [await serve(line, settings) for line, settings in zip(lines, bench.lines, strict=True)]
-    for line, server in zip(lines, servers, strict=True):
-        for device in line.core.devices:
-            device.on_complaint = _complain
-            print(f"{device.device.id} answers as unit {device.unit} on {server.url}", flush=True)
+    stop, loop = asyncio.Event(), asyncio.get_running_loop()
+    servers = [await serve(line) for line in bench.lines]
+    devices = [
+        (device, server) for line, server in zip(bench.lines, servers, strict=True) for device in line.core.devices
+    ]
+    for device, server in devices:
+        device.on_complaint = _complain
+        print(f"{device.device.id} answers as unit {device.unit} on {server.url}", flush=True)
     for number in (SIGINT, SIGTERM):
         loop.add_signal_handler(number, stop.set)
-    _read_lines(Console(lines, clock), stop)
+    _read_lines(bench, stop)
     with suppress(TimeoutError):
         await asyncio.wait_for(stop.wait(), seconds)
-    await close_all(servers)
-    return FINDINGS if _summary(lines) else FINE
-
-
-def _summary(lines: list[Line]) -> int:
-    """Print how many requests came; return the number of complaints."""
-    complaints = sum(len(device.complaints) for line in lines for device in line.core.devices)
-    requests = sum(line.requests for line in lines)
-    tail = f", {complaints} against the manual" if any(d.strict for line in lines for d in line.core.devices) else ""
+    for server in servers:
+        server.close()
+    requests, complaints = sum(line.requests for line in bench.lines), sum(len(each.complaints) for each, _ in devices)
+    tail = f", {complaints} against the manual" if any(each.strict for each, _ in devices) else ""
     print(f"{requests} request{'' if requests == 1 else 's'}{tail}")
-    return complaints
+    return FINDINGS if complaints else FINE
 
 
 def _complain(complaint: Complaint) -> None:
     print(visible(str(complaint)), file=sys.stderr, flush=True)
 
 
-def _read_lines(console: Console, stop: asyncio.Event) -> None:
+def _read_lines(bench: Bench, stop: asyncio.Event) -> None:
     """Carry out the lines of standard input, if this process may read it."""
-    try:
+    with suppress(OSError, ValueError, AttributeError):  # a file cannot be waited for; it may be closed
         source = sys.stdin.fileno()
-        if os.isatty(source) and os.tcgetpgrp(source) != os.getpgrp():
-            return  # in the background, reading would stop the process
-        asyncio.get_running_loop().add_reader(source, _read_line, source, console, stop)
-    except (OSError, ValueError, AttributeError):  # a file cannot be waited for; it may be closed
-        return
+        if not os.isatty(source) or os.tcgetpgrp(source) == os.getpgrp():  # in the background it would be stopped
+            asyncio.get_running_loop().add_reader(source, _read_line, source, bench, stop)
 
 
-def _read_line(source: int, console: Console, stop: asyncio.Event) -> None:
+def _read_line(source: int, bench: Bench, stop: asyncio.Event) -> None:
     data = os.read(source, 65536)
     if not data:
         asyncio.get_running_loop().remove_reader(source)
     for text in data.decode("utf-8", "replace").splitlines():
         try:
-            answer = console.said(text)
-            if answer:
-                print(visible(answer) if "\n" not in answer else answer, flush=True)
+            for answer in carry_out(bench, text).splitlines():
+                print(visible(answer), flush=True)
         except UnclearError as error:
             usage_error(error.message, error.hint)
         except EOFError:

@@ -1,126 +1,158 @@
-"""Reads a bench file: YAML with lines, and the devices on each."""
+"""A bench: lines with their devices, made from mappings as a bench file, the command line and tests give them.
+
+A mapping that comes from a file has the place of each key, which messages then begin with.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.families import family
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.source import read_source
-from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings
+from fieldscribe.simulation.behaviour import Behaviour
+from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.descriptions import has_behaviour, layout_of, rules_of
+from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.faults import Fault
+from fieldscribe.simulation.line import Line, Trace
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
+Settings = Mapping[str, Any]
+Item = TypeVar("Item")
 _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
-_TEXT, _NUMBER, _LIST, _MAP = ((str,), "a text"), ((int,), "a whole number"), ((Seq,), "a list"), ((Map,), "a mapping")
-_BENCH: _Kinds = {
-    "lines": _LIST,
-    "seed": _NUMBER,
-    "time_scale": ((int, Decimal), "a number"),
-    "strict": ((bool, str), "yes or no"),
-}
-_LINE: _Kinds = {
+MOST_DEVICES = 10_000
+
+_TEXT, _WHOLE, _YES_NO = ((str,), "a text"), ((int,), "a whole number"), ((bool, str), "yes or no")
+_LIST, _MAP = ((list,), "a list"), ((dict,), "a mapping")
+_PLACES: _Kinds = {
     "tcp": ((int, str), "[HOST:]PORT"),
-    "serial": ((str, type(None)), "a path, or nothing for a new pseudo terminal"),
+    "serial": ((str, type(None)), "a path, or nothing"),
     "can": _TEXT,
-    "framing": _TEXT,
-    "baud": _NUMBER,
-    "bitrate": _NUMBER,
-    "faults": _LIST,
-    "devices": _LIST,
 }
-_DEVICE: _Kinds = {
-    "device": _TEXT,
-    "unit": _NUMBER,
-    "units": _TEXT,
-    "variant": _MAP,
-    "given": _MAP,
-    "values": _MAP,
-    "unmet": _LIST,
-    "refusals": _MAP,
-    "behaviour": ((bool, str), "yes or no"),
-}
+_BENCH: _Kinds = {"lines": _LIST, "seed": _WHOLE, "time_scale": ((int, float, Decimal), "a number"), "strict": _YES_NO}
+_LINE: _Kinds = {**_PLACES, "framing": _TEXT, "speed": _WHOLE, "faults": _LIST, "devices": _LIST}
+_WHICH: _Kinds = {"device": _TEXT, "unit": _WHOLE, "units": _TEXT, "variant": _MAP, "given": _MAP, "behaviour": _YES_NO}
+_DEVICE: _Kinds = {**_WHICH, "values": _MAP, "unmet": _LIST, "refusals": _MAP}
 
 
-def read_bench(file: Path) -> Bench:
-    """Return the bench of a file. Raises UnclearError with the place of the first thing that is wrong."""
+def read_bench(file: Path) -> Settings:
+    """Return the mapping of a bench file. Raises UnclearError."""
     report = Report()
     source = read_source(file, report)
-    documents = load(source, report) if source is not None else []
+    documents = [] if source is None else load(source, report)
     if report.has_errors:
-        first = report.findings[0]
-        raise UnclearError(
-            f"{first.span.file}:{first.span.line}:{first.span.column}: {first.message}", first.hint or ""
-        )
+        raise _at(report.findings[0].span, report.findings[0].message, report.findings[0].hint or "")
     if len(documents) != 1 or documents[0] is None:
         raise UnclearError(f"{file}:1:1: a bench file is one mapping with `lines`", "")
-    node = _checked(documents[0], _BENCH, "lines")
-    lines = [_line(_mapping(node["lines"], place)) for place in range(len(node["lines"]))]
-    strict = node.get("strict") in (True, "yes")
-    return Bench(lines, node.get("seed", 0), float(node.get("time_scale", 1)), strict, file.parent)
+    return documents[0]
 
 
-def _line(node: Map) -> LineSettings:
-    _checked(node, _LINE, "devices")
-    on = [key for key in ("tcp", "serial", "can") if key in node]
-    if len(on) != 1:
-        raise _wrong(node, None, "a line is one of `tcp`, `serial` and `can`", "tcp: 5020")
-    devices = [_device(_mapping(node["devices"], place)) for place in range(len(node["devices"]))]
-    if not devices:
-        raise _wrong(node, "devices", "a line has at least one device", "list it, or leave the line out")
-    speed = node.get("baud", node.get("bitrate", 0))
-    at = "" if node[on[0]] is None else str(node[on[0]])
-    return LineSettings(devices, on[0], at, node.get("framing", ""), speed, tuple(map(str, node.get("faults", ()))))
+class Bench:
+    """Lines whose devices share a clock; `folder` is where folders of descriptions count from. Raises UnclearError."""
+
+    def __init__(self, settings: Settings, folder: Path = Path(), trace: Trace | None = None) -> None:
+        _check(settings, _BENCH, "lines")
+        self.clock = Clock(float(settings.get("time_scale", 1)))
+        if not 0 <= self.clock.scale <= 1e6:
+            raise _wrong(settings, "time_scale", "a time scale is a number from 0 (time stands) to a million", "")
+        self._folder, self._seed, self._trace = folder, settings.get("seed", 0), trace
+        self._strict = settings.get("strict") in (True, "yes")
+        self.lines = [self._line(_item(settings["lines"], place)) for place in range(len(settings["lines"]))]
+
+    def _line(self, settings: Settings) -> Line:
+        _check(settings, _LINE, "devices")
+        places = [(key, str(settings[key] or "")) for key in _PLACES if key in settings]
+        if len(places) > 1 or not settings["devices"]:
+            raise _wrong(settings, None, "a line is one of tcp, serial and can, and has devices", "write `tcp: 5020`")
+        entries = [_item(settings["devices"], place) for place in range(len(settings["devices"]))]
+        devices = [device for entry in entries for device in self._devices(entry)]
+        on, at = places[0] if places else ("", "")
+        name = devices[0].device.family
+        if other := next((each.device.family for each in devices if each.device.family != name), None):
+            raise _wrong(settings, None, f"devices of {name} and {other} cannot share a line", "give each a line")
+        part = family(name).part("simulation")
+        on = on or next(iter(part.LINES))
+        framing = settings.get("framing") or next(iter(part.LINES.get(on, ("",))))
+        if framing not in part.LINES.get(on, ()):
+            hint = "; ".join(f"{line}: {' or '.join(framings)}" for line, framings in part.LINES.items())
+            raise _wrong(
+                settings, None, f"{devices[0].device.id} is on no {on} line{f' with {framing}' * bool(framing)}", hint
+            )
+        units = [device.unit for device in devices]
+        if twice := next((unit for unit in units if units.count(unit) > 1), None):
+            raise _wrong(
+                settings, "devices", f"two devices on the line have the unit {twice}", "give each another unit"
+            )
+        line = Line(part.core_of(devices, framing), self.clock, name=at or devices[0].device.id, seed=self._seed)
+        line.on, line.at, line.speed, line.trace = on, at, settings.get("speed", 0), self._trace
+        line.faults.waiting.extend(Fault.of(str(fault)) for fault in settings.get("faults", ()))
+        return line
+
+    def _devices(self, settings: Settings) -> list[SimulatedDevice]:
+        _check(settings, _DEVICE, "device")
+        name, moves = settings["device"], settings.get("behaviour")
+        variants = tuple(f"{axis}={value}" for axis, value in settings.get("variant", {}).items())
+        layout = layout_of(name, variants, tuple(settings.get("given", {}).items()), self._folder)
+        moves = has_behaviour(name, self._folder) if moves is None else moves in (True, "yes")
+        low, high = layout.device.bus.units
+        devices = []
+        for unit in _units(settings, layout.device.bus.usual_unit):
+            if not low <= unit <= high and high:
+                raise _wrong(settings, None, f"{layout.device.id} has no unit {unit}", f"its units are {low} to {high}")
+            behaviour = Behaviour(rules_of(name, self._folder)) if moves else None
+            device = SimulatedDevice(
+                layout, unit, seed=self._seed, clock=self.clock, strict=self._strict, behaviour=behaviour
+            )
+            try:
+                device.refusals.update(settings.get("refusals", {}))
+                device.meet(settings.get("unmet", ()), holds=False)
+                device.values.update(settings.get("values", {}))
+            except (KeyError, ValueError) as error:
+                raise _wrong(settings, None, str(error.args[0]), "") from None
+            devices.append(device)
+        return devices
 
 
-def _device(node: Map) -> DeviceSettings:
-    _checked(node, _DEVICE, "device")
-    units: tuple[int, ...] = (node["unit"],) if "unit" in node else ()
-    if "units" in node:
-        low, dots, high = node["units"].partition("..")
-        if not (dots and low.strip().isdecimal() and high.strip().isdecimal() and len(low + high) < 8):
-            raise _wrong(node, "units", f"`{node['units'][:40]}` is no interval", "write it as 1..10")
-        units = tuple(range(int(low), int(high) + 1))
-    variants = tuple(f"{axis}={value}" for axis, value in node.get("variant", {}).items())
-    given, refusals = (_numbers(node, key) for key in ("given", "refusals"))
-    unmet = tuple(map(str, node.get("unmet", ())))
-    moves = node["behaviour"] in (True, "yes") if "behaviour" in node else None
-    return DeviceSettings(node["device"], units, variants, given, node.get("values", {}), unmet, refusals, moves)
+def _units(settings: Settings, usual: int) -> range:
+    """Return the units of an entry; several only as an interval such as `1..20`."""
+    if "units" not in settings:
+        unit = settings.get("unit", usual)
+        return range(unit, unit + 1)
+    low, _, high = (part.strip() for part in settings["units"].partition(".."))
+    if not (low.isdecimal() and high.isdecimal() and int(high) - int(low) < MOST_DEVICES):
+        raise _wrong(settings, "units", f"`{settings['units'][:40]}` is no interval", "write it as 1..10")
+    return range(int(low), int(high) + 1)
 
 
-def _numbers(node: Map, key: str) -> Mapping[str, int]:
-    numbers: Map | dict[str, Any] = node.get(key, {})
-    for name, number in numbers.items():
-        if not isinstance(number, int):
-            raise _wrong(node[key], name, f"`{name}` is a whole number", "")
-    return numbers
+def _item(items: list[Any], place: int) -> Settings:
+    if not isinstance(items[place], dict):
+        raise _at(items.span(place) if isinstance(items, Seq) else None, "this is no mapping", "write `- key: value`")
+    item: Settings = items[place]
+    return item
 
 
-def _mapping(items: Seq, place: int) -> Map:
-    if isinstance(items[place], Map):
-        node: Map = items[place]
-        return node
-    span = items.span(place)
-    raise UnclearError(f"{span.file}:{span.line}:{span.column}: this is no mapping", "write `- key: value`")
-
-
-def _checked(node: Map, kinds: _Kinds, needed: str) -> Map:
-    """Return the mapping if its keys and their values are of these kinds."""
-    for key, value in node.items():
+def _check(settings: Settings, kinds: _Kinds, needed: str) -> None:
+    """Raise UnclearError unless the keys of a mapping and their values are of these kinds."""
+    for key, value in settings.items():
         if key not in kinds:
             near = did_you_mean([known for known in kinds if known[:3] == key[:3]])
-            raise _wrong(node, key, f"there is no key `{key[:40]}` here", near or f"there are {', '.join(kinds)}")
+            raise _wrong(settings, key, f"there is no key `{key[:40]}` here", near or f"there are {', '.join(kinds)}")
         types, words = kinds[key]
         if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
-            raise _wrong(node, key, f"`{key}` is {words}", "")
-    if needed not in node:
-        raise _wrong(node, None, f"the key `{needed}` is missing", f"add `{needed}: …`")
-    return node
+            raise _wrong(settings, key, f"`{key}` is {words}", "")
+    if needed not in settings:
+        raise _wrong(settings, None, f"the key `{needed}` is missing", f"add `{needed}: …`")
 
 
-def _wrong(node: Map, key: str | None, message: str, hint: str) -> UnclearError:
-    span = node.span(key)
-    return UnclearError(f"{span.file}:{span.line}:{span.column}: {message}", hint)
+def _wrong(settings: Settings, key: str | None, message: str, hint: str) -> UnclearError:
+    return _at(settings.span(key) if isinstance(settings, Map) else None, message, hint)
+
+
+def _at(span: Span | None, message: str, hint: str) -> UnclearError:
+    return UnclearError(f"{span.file}:{span.line}:{span.column}: {message}" if span is not None else message, hint)

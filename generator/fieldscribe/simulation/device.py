@@ -20,6 +20,7 @@ from fieldscribe.wording import label
 BUSY_FOR = 0.05
 """The seconds for which a point says that a command is at work; no manual gives them."""
 
+MOST_COMPLAINTS = 10_000
 CYCLIC = 10, 60.0
 """So many writes to memory that wears, within so many seconds, are cyclic ones to a strict device."""
 _OPENED = frozenset({"password"})
@@ -178,9 +179,17 @@ class SimulatedDevice:
         if self.behaviour is not None:
             self.behaviour.restarted(self, self.clock.now())
 
+    def meet(self, conditions: Iterable[str], *, holds: bool) -> None:
+        """Let conditions hold or not. Raises ValueError for one that no write asks for."""
+        for name in conditions:
+            if name not in self.conditions:
+                known = ", ".join(self.conditions) or "none"
+                raise ValueError(f"no write asks for the condition `{name[:40]}`; there are {known}")
+            self.conditions[name] = holds
+
     def complain(self, rule: str, what: str, source: Source | None = None) -> None:
         """Take down what a client did against the manual, if the device is strict."""
-        if self.strict:
+        if self.strict and len(self.complaints) < MOST_COMPLAINTS:
             self.complaints.append(Complaint(rule, what, source))
             self.on_complaint(self.complaints[-1])
 

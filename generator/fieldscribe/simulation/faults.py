@@ -73,14 +73,6 @@ class Faults:
         self.waiting: list[Fault] = []
         self._random = Random(seed)  # noqa: S311  # no secret
 
-    def add(self, fault: Fault) -> None:
-        """Put a fault in force, behind those that are."""
-        self.waiting.append(fault)
-
-    def clear(self) -> None:
-        """End all faults."""
-        self.waiting.clear()
-
     def outcome(self, data: bytes, delay: float, spoiled: Callable[[bytes, str], bytes]) -> Outcome:
         """Return what becomes of an answer; `spoiled` makes it wrong as the family knows how."""
         for fault in self.waiting:

@@ -46,6 +46,8 @@ class Layout:
         existing = (point for point in self.device.points if not absent(point.when, self.device.variants))
         self.points: Mapping[str, Point] = {point.name: point for point in existing}
         """The points by name; rules name points so."""
+        self.names = self.points.keys() | self.variants
+        """What conditions name: points and variant axes."""
         self.cells: dict[str, Cells] = {}
         """Where each point is read."""
         self.written: dict[str, Cells] = {}

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.line import Line, Trace
-from fieldscribe.simulation.making import Bench, DeviceSettings, LineSettings, close_all, serve
-from fieldscribe.simulation.servers import Server
+from fieldscribe.simulation.servers import Server, serve
+
+_OF_LINE, _OF_BENCH = ("framing", "faults"), ("seed", "strict", "time_scale")
 
 
 class Simulated:
@@ -25,11 +25,12 @@ class Simulated:
     true. `complaints` has what clients did against the manual, if it is strict. `restart()` switches it off and on.
     """
 
-    def __init__(self, device: SimulatedDevice, line: Line, server: Server) -> None:
-        self.device, self.line, self.unit = device, line, device.unit
+    def __init__(self, line: Line, server: Server) -> None:
+        self.device, self.line, self.unit = line.core.devices[0], line, line.core.devices[0].unit
         self.port, self.path, self.url = server.port, server.path, server.url
-        self.values, self.conditions, self.complaints = device.values, device.conditions, device.complaints
-        self.restart, self.advance = device.restart, device.clock.advance
+        self.values, self.conditions = self.device.values, self.device.conditions
+        self.complaints, self.restart = self.device.complaints, self.device.restart
+        self.advance = self.device.clock.advance
 
     @property
     def requests(self) -> int:
@@ -38,44 +39,43 @@ class Simulated:
 
     def fault(self, text: str) -> None:
         """Put a fault in force, such as `late 0.5 x3`; see `faults.KINDS`."""
-        self.line.faults.add(Fault.of(text))
+        self.line.faults.waiting.append(Fault.of(text))
 
 
 @contextmanager
-def simulated(  # noqa: PLR0913  # each is given by name
+def simulated(
     device: str | Path,
     *,
-    unit: int | None = None,
     on: str = "",
-    framing: str = "",
-    values: Mapping[str, Any] | None = None,
-    variants: Sequence[str] = (),
-    given: Mapping[str, int] | None = None,
-    seed: int = 0,
-    strict: bool = False,
+    variants: Iterable[str] = (),
     behaviour: bool = False,
-    time_scale: float = 1.0,
     trace: Trace | None = None,
+    **settings: Any,
 ) -> Iterator[Simulated]:
     """Run a device, by its id or the path of its folder, as long as the context lasts.
 
     `on` is the line: `tcp`, `serial` (a new pseudo terminal) or `can` (the bus of python-can's interface `virtual` that
-    is named after the device). With its `behaviour`, the numbers move as the file beside the description says. A strict
-    device raises AssertionError at the end, with all that clients did against the manual. With a `time_scale` of 0 the
-    time stands, but for `advance`. Raises UnclearError.
+    is named after the device). `variants` are texts such as `voltage=400V`. With its `behaviour`, the numbers move as
+    the file beside the description says. The other settings are those of a bench file: `unit`, `values`, `given`,
+    `unmet`, `refusals`, `framing`, `faults`, `seed`, `strict`, `time_scale`. A strict device raises AssertionError at
+    the end, with all that clients did against the manual. With a `time_scale` of 0 the time stands, but for `advance`.
+    Raises UnclearError.
     """
-    units = () if unit is None else (unit,)
-    settings = DeviceSettings(str(device), units, tuple(variants), given or {}, values or {}, behaviour=behaviour)
-    line_settings = LineSettings([settings], on, "", framing)
-    (line,) = Bench([line_settings], seed, time_scale, strict).made(Clock(time_scale), trace)
-    server = asyncio.run_coroutine_threadsafe(serve(line, line_settings), _loop()).result()
-    made = Simulated(line.core.devices[0], line, server)
+    line: dict[str, Any] = {key: settings.pop(key) for key in _OF_LINE if key in settings}
+    bench = {key: settings.pop(key) for key in _OF_BENCH if key in settings}
+    settings["variant"] = dict(text.split("=", 1) for text in variants)
+    line["devices"] = [{"device": str(device), "behaviour": behaviour, **settings}]
+    if on:
+        line[on] = ""
+    (made,) = Bench({"lines": [line], **bench}, trace=trace).lines
+    server = asyncio.run_coroutine_threadsafe(serve(made), _loop()).result()
+    running = Simulated(made, server)
     try:
-        yield made
+        yield running
     finally:
-        asyncio.run_coroutine_threadsafe(close_all([server]), _loop()).result()
-    if made.complaints:
-        raise AssertionError("\n".join(map(str, made.complaints)))
+        asyncio.run_coroutine_threadsafe(_called(server.close), _loop()).result()
+    if running.complaints:
+        raise AssertionError("\n".join(map(str, running.complaints)))
 
 
 @cache
@@ -84,3 +84,7 @@ def _loop() -> asyncio.AbstractEventLoop:
     loop = asyncio.new_event_loop()
     threading.Thread(target=loop.run_forever, name="simulated devices", daemon=True).start()
     return loop
+
+
+async def _called(close: Callable[[], None]) -> None:
+    close()

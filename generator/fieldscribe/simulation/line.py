@@ -18,15 +18,15 @@ Trace = Callable[[str], None]
 
 
 class Line:
-    """A line with the devices of a core; `name` says in the trace which one it is."""
+    """A line with the devices of a core; `name` says in the trace which one it is.
 
-    def __init__(self, core: Core, clock: Clock, *, name: str = "", seed: int = 0, trace: Trace | None = None) -> None:
-        self.core = core
-        self.clock = clock
-        self.name = name
-        self.faults = Faults(seed)
-        self.trace = trace
-        self.requests = 0
+    `on` is the kind of line, `at` its port, path or channel, `speed` its bits a second; each may be left open.
+    """
+
+    def __init__(self, core: Core, clock: Clock, *, name: str = "", seed: int = 0) -> None:
+        self.core, self.clock, self.name, self.faults = core, clock, name, Faults(seed)
+        self.trace: Trace | None = None
+        self.requests, self.speed, self.on, self.at = 0, 0, "", ""
 
     def answer(self, request: bytes) -> list[Outcome]:
         """Return what goes out because of one request."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from fractions import Fraction
 from random import Random
 from threading import RLock
+from typing import Any
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.arithmetic.words import insert, joined, mask_of, raw_of, split, words_of
@@ -23,9 +24,11 @@ class Memory:
     def __init__(self, layout: Layout, areas: Mapping[Area, Mapping[int, int]]) -> None:
         self.layout = layout
         self.areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in areas.items()}
-        self.settings: Mapping[str, int | Fraction] = Settings(self)
+        self.settings: Mapping[str, int | Fraction] = Lookup(layout.points, self._setting)
         """The settings that rules compute with, by the name of the point: always what the memory holds now."""
-        self.facts: Mapping[str, int | str] = Facts(self)
+        self.facts: Mapping[str, int | str] = Lookup(
+            layout.names, lambda name: layout.variants.get(name) or self.raw(name)
+        )
         """What conditions compare: raw numbers by the name of the point, values by variant axis."""
 
     @classmethod
@@ -44,6 +47,9 @@ class Memory:
         self._put(point, self.layout.cells[name], raw)
         if point.write_place is not None:
             self._put(point, self.layout.written[name], raw)
+
+    def _setting(self, name: str) -> int | Fraction:
+        return setting_of(self.layout.points[name], self.raw(name))
 
     def exists(self, point: Point) -> bool:
         """Return True if the condition of the point holds now."""
@@ -74,41 +80,23 @@ def joined_cells(numbers: list[int], size: int) -> int:
     return pattern
 
 
-class Settings(Mapping[str, int | Fraction]):
-    """What rules compute with, read from the memory when it is needed."""
+class Lookup(Mapping[str, Any]):
+    """Numbers by name, read from the memory when they are needed."""
 
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
+    def __init__(self, names: Collection[str], get: Callable[[str], Any]) -> None:
+        self._names, self._get = names, get
 
-    def __getitem__(self, name: str) -> int | Fraction:
-        return setting_of(self._memory.layout.points[name], self._memory.raw(name))
+    def __getitem__(self, name: str) -> Any:
+        return self._get(name)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._memory.layout.points
+        return name in self._names
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._memory.layout.points)
+        return iter(self._names)
 
     def __len__(self) -> int:
-        return len(self._memory.layout.points)
-
-
-class Facts(Mapping[str, int | str]):
-    """What conditions compare, read from the memory when it is needed."""
-
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
-
-    def __getitem__(self, name: str) -> int | str:
-        axis = self._memory.layout.variants.get(name)
-        return self._memory.raw(name) if axis is None else axis
-
-    def __iter__(self) -> Iterator[str]:
-        yield from self._memory.layout.variants
-        yield from self._memory.layout.points
-
-    def __len__(self) -> int:
-        return len(self._memory.layout.variants) + len(self._memory.layout.points)
+        return len(self._names)
 
 
 _starts: dict[tuple[int, int], tuple[Layout, dict[Area, dict[int, int]]]] = {}

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 LOOPBACK = "127.0.0.1"
 _QUIET = 0.02
 """Real seconds without a byte after which a request is not completed any more."""
-_MOST_PENDING = 1000
-"""Answers that may wait for their time; meanwhile nothing more is read."""
 _EXTENDED = 1 << 31
 _HEAD = 4
 """The bytes of the identifier, in front of the data of a frame."""
@@ -91,12 +89,8 @@ class _End(asyncio.Protocol):
         self._free = max(self._free, self._loop.time() + delay)
         self._pending += 1
         self._loop.call_at(self._free, self._write_pending, outcome)
-        if self._pending == _MOST_PENDING:
-            self.pause_writing()
 
     def _write_pending(self, outcome: Outcome) -> None:
-        if self._pending == _MOST_PENDING:
-            self.resume_writing()
         self._pending -= 1
         self._write(outcome)
 
@@ -105,6 +99,21 @@ class _End(asyncio.Protocol):
             self._writer.write(outcome.data)
         if outcome.drop and self._writer is self._reader:  # a serial port stays
             self.close()
+
+
+async def serve(line: Line) -> Server:
+    """Serve a line where it says; a port is open for this machine alone without a host. Raises UnclearError."""
+    if line.on == "serial":
+        return await serve_serial(line, line.at, line.speed)
+    if line.on == "can":
+        interface, colon, channel = (line.at or f"virtual:{line.name}").partition(":")
+        if not colon:
+            raise UnclearError(f"`{line.at}` is no CAN bus", "name it as python-can does, such as socketcan:can0")
+        return await serve_can(line, interface, channel)
+    host, _, port = line.at.rpartition(":")
+    if not (port or "0").isdecimal() or len(port) > 5:
+        raise UnclearError(f"`{line.at}` is no TCP port", "write [HOST:]PORT, such as 5020")
+    return await serve_tcp(line, host.strip("[]") or LOOPBACK, int(port or 0))
 
 
 async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
@@ -167,13 +176,13 @@ def _opened(path: str, baud: int) -> int:
     return port
 
 
-async def serve_can(line: Line, interface: str, channel: str, bitrate: int | None = None) -> Server:
+async def serve_can(line: Line, interface: str, channel: str) -> Server:
     """Serve a line at a CAN bus, as python-can names it. Raises UnclearError."""
     try:
         import can
     except ModuleNotFoundError:
         raise UnclearError("CAN needs python-can", "pip install python-can") from None
-    options: dict[str, Any] = {} if bitrate is None else {"bitrate": bitrate}
+    options: dict[str, Any] = {"bitrate": line.speed} if line.speed else {}
     try:
         bus = can.Bus(channel, interface=interface, **options)
     except Exception as error:  # each interface raises errors of its own

@@ -13,17 +13,8 @@ from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Layout
 
-_USUAL = {
-    "voltage": 230,
-    "current": 5,
-    "frequency": 50,
-    "temperature": 40,
-    "power": 1000,
-    "energy": 1000,
-    "ratio": 50,
-    "rotational speed": 1500,
-    "time": 10,
-}
+_ELECTRIC = {"voltage": 230, "current": 5, "frequency": 50, "power": 1000, "energy": 1000}
+_USUAL = _ELECTRIC | {"temperature": 40, "ratio": 50, "rotational speed": 1500, "time": 10}
 """What a measured value is about, in the base unit of its quantity, where its range does not say."""
 
 
