@@ -12,9 +12,9 @@ import pytest
 from fieldscribe.arithmetic.words import joined
 from fieldscribe.families import family
 from fieldscribe.simulation.clock import Clock
+from fieldscribe.simulation.descriptions import layout_of
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.line import Line, Stream
-from fieldscribe.simulation.making import layout_of
 from support.places import ROOT
 from support.toolchains import compiled
 

@@ -185,7 +185,7 @@ def test_each_fault_at_each_byte(package: Any) -> None:
     device.memory.put("generator_rated_power", 200)
     places = [f"{kind} {at}" for kind in ("cut", "damaged", "noise") for at in range(12)]
     for fault in ("silent", "check", "unit", "function", *places):
-        line.line.faults.add(Fault.of(f"{fault} x1"))
+        line.line.faults.waiting.append(Fault.of(f"{fault} x1"))
         with pytest.raises(Exception, match="answer"):
             client.generator_rated_power.read_raw()
         assert client.generator_rated_power.read_raw() == 200, fault

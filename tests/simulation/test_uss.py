@@ -209,7 +209,7 @@ def test_each_fault_at_each_byte(package: Any) -> None:
     drive.retries = drive.repeats = 0
     places = [f"{kind} {at}" for kind in ("cut", "damaged", "noise") for at in range(14)]
     for fault in ("silent", "check", "unit", "function", "exception", *places):
-        drive.transport.line.faults.add(Fault.of(f"{fault} x1"))
+        drive.transport.line.faults.waiting.append(Fault.of(f"{fault} x1"))
         with pytest.raises(Exception, match=r"reply|answer|refus|telegram|unit|byte|error"):
             drive.uss_baud_rate_index_0.read_raw()
         assert drive.uss_baud_rate_index_0.read_raw() == 6, fault

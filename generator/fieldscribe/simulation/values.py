@@ -55,7 +55,7 @@ class Values(MutableMapping[str, Value]):
         with LOCK:
             self._go_on()
             if self._plant is not None and name in self._plant.plant:
-                self._plant.set(name, Fraction(value))
+                self._plant.set(name, _number(name, value))
             else:
                 point = self._point(name)
                 self._memory.put(point.name, raw_for(point, value, self._memory.settings))
@@ -101,6 +101,14 @@ def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
     except CodecError:
         return codec.float_of(point, raw) if point.info.floating else raw
     return float(value) if point.info.floating else _plain(value)
+
+
+def _number(name: str, value: Value | Fraction | Decimal) -> Fraction:
+    """Return the number that a quantity shall be. Raises ValueError for what is none."""
+    try:
+        return Fraction(value)
+    except (ValueError, OverflowError, ZeroDivisionError):
+        raise ValueError(f"{name} is a number, not {value}") from None
 
 
 def _plain(value: Fraction) -> int | float:
