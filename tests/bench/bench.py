@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from fieldscribe.simulation import simulated
 from line_bench import print_lines
 from m0_bench import print_m0
 from python_bench import print_python
@@ -83,7 +84,7 @@ SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woo
 class Bench:
     """All commands, in one scratch folder."""
 
-    def __init__(self, scratch: Path) -> None:
+    def __init__(self, scratch: Path, port: int) -> None:
         self.scratch = scratch
         self.many = self._cantools(MANY)
         self.few = self._cantools(FEW)
@@ -91,6 +92,7 @@ class Bench:
         for name in SHIPPED:
             shutil.copytree(ROOT / "descriptions" / name, scratch / "five" / name)
         shipped = scratch / "five"
+        explain, line = self._about("explain"), f"tcp://127.0.0.1:{port}"
         cold, thousand = self._generate(alike, ALL), self._generate(write_device(scratch, FEW), ALL)
         self.rows = [
             Row("10,000 points of ten shapes: C, Python, Rust", self._generate(alike, CODE), self.many, 1.25),
@@ -105,6 +107,12 @@ class Bench:
             Row("five devices unchanged", self._generate(shipped, ALL, kept=True), self.many, 0.025),
             Row("a point edited among 10,000, to the cold run", self._edited(), cold, 0.6),
             Row("time of a point, 10,000 to 1,000", cold, thousand, 1.0, MANY / FEW),
+            Row(
+                "read of a point, to explain of it",
+                self._about("read", "--line", line),
+                explain,
+                1.5,
+            ),
         ]
 
     def _cantools(self, count: int) -> Command:
@@ -115,6 +123,9 @@ class Bench:
 
     def _check(self, description: Path) -> Command:
         return Command([FIELDSCRIBE, "check", str(description)], self.scratch)
+
+    def _about(self, command: str, *options: str) -> Command:
+        return Command([FIELDSCRIBE, command, "hitachi_l200", "A020", *options], self.scratch)
 
     def _generate(self, description: Path, targets: str, *, kept: bool = False) -> Command:
         """With an empty output folder and an empty cache, or on what the same command left there."""
@@ -163,8 +174,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=5)
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(Path(folder))
+    with tempfile.TemporaryDirectory() as folder, simulated("hitachi_l200") as drive:
+        bench = Bench(Path(folder), drive.port)
         bench.run(arguments.runs)
         print(*bench.table(), sep="\n", flush=True)
     print_lines(3 * arguments.runs)

@@ -115,9 +115,11 @@ CLAIMS = {
     "read": {
         "hitachi_l200 A020 F002 --line tcp://192.168.0.20": Claim(0, "^A020 base_frequency +50 Hz\nF002 "),
         'hitachi_l200 status --line "rtu:///dev/ttyUSB0?baud=19200" --unit 3': Claim(0, "^inverter_status +running"),
-        'siemens_mm4 P1082 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" -v': Claim(2, "^$", "could not open port"),
+        'siemens_mm4 P1082 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" -v': Claim(
+            0, "P1082 maximum_frequency +50 Hz", "1 request"
+        ),
         "woodward_mpu2s generator_frequency --line can://socketcan/can0 --format json": Claim(
-            2, "^$", "python-can cannot open it"
+            0, '"name": "generator_frequency",(.|\n)*"unit": "Hz"'
         ),
         "pump output_frequency": Claim(0, "^d001 output_frequency .* Hz"),
     },
@@ -144,7 +146,7 @@ CLAIMS = {
     "scan": {
         '--line "rtu:///dev/ttyUSB0?baud=19200"': Claim(0, "^unit 3  holding 0x0000: "),
         "--line rtu:///dev/ttyUSB0 --units 1-4,247 --timeout 0.5": Claim(0, "^unit 3  "),
-        "hitachi_l200 --line tcp://192.168.0.20": Claim(0, "^unit 1  run_command = "),
+        "hitachi_l200 --line tcp://192.168.0.20": Claim(0, "^unit 1  running = "),
     },
     "identify": {
         "--line tcp://192.168.0.20": Claim(1, "it is not fronius_datamanager: .*\nnothing under `identify`: "),
@@ -315,8 +317,15 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with (
         simulated("hitachi_l200", values=values) as on_tcp,
         simulated("hitachi_l200", values=values, unit=3, on="serial") as on_serial,
+        simulated("siemens_mm4", values={"maximum_frequency": 50}) as mm4,
+        simulated("woodward_mpu2s"),
     ):
-        places = {"192.168.0.20": f"127.0.0.1:{on_tcp.port}", "rtu:///dev/ttyUSB0": f"rtu://{on_serial.path}"}
+        places = {
+            "uss:///dev/ttyUSB0?": f"uss://{mm4.path}?parity=none&",
+            "socketcan/can0": "virtual/woodward_mpu2s",
+            "192.168.0.20": f"127.0.0.1:{on_tcp.port}",
+            "rtu:///dev/ttyUSB0": f"rtu://{on_serial.path}",
+        }
 
         def read_elsewhere(text: str) -> LineAddress:
             for place, simulated_place in places.items():

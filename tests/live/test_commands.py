@@ -31,6 +31,20 @@ def drive() -> Iterator[Simulated]:
 
 
 @pytest.fixture
+def other(others: dict[str, str], run: Run) -> Run:
+    """Run a command on the line of the device that it names, else on the drive's."""
+    return lambda *words: run(*words, "--line", others.get(words[1], others["siemens_mm4"]))
+
+
+@pytest.fixture(scope="module")
+def others() -> Iterator[dict[str, str]]:
+    """Lines with a drive on USS, and a genset on CAN."""
+    values = {"maximum_frequency": 50}
+    with simulated("siemens_mm4", values=values) as mm4, simulated("woodward_mpu2s", on="can"):
+        yield {"siemens_mm4": f"uss://{mm4.path}?parity=none", "woodward_mpu2s": "can://virtual/woodward_mpu2s"}
+
+
+@pytest.fixture
 def on_line(drive: Simulated, run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run a command on the line of the drive; nobody can be asked."""
     monkeypatch.setattr(sys, "stdin", io.StringIO())
@@ -54,7 +68,7 @@ def answers(*texts: str) -> io.StringIO:
             "read hitachi_l200 A020 --unit 9",
             2,
             "^$",
-            r"exception 0Bh\n  hint: is the unit .*fieldscribe scan --line tcp://",
+            r"exception 0Bh\n  hint: are the unit .*fieldscribe scan`",
         ),
         ("read hitachi_l200 A020 --unit 999", 2, "^$", "the device can be unit 1 to 32, not 999\n  hint: .*--unit"),
         ("read hitachi_l200 A02", 2, "^$", "no point `A02`\n  hint: did you mean"),
@@ -90,13 +104,44 @@ def answers(*texts: str) -> io.StringIO:
         ("scan --units 1-2", 0, "^unit 1  holding 0x0000: .* exception 02h\n$", "^$"),
         ("scan --units 2", 1, "^no unit answers\n$", "^$"),
         ("scan --units 5-2", 2, "^$", "units are 1 to 247, not `5-2`"),
-        ("scan hitachi_l200 --units 1 -v", 0, "^unit 1  run_command = stop", "1 request\n$"),
+        ("scan hitachi_l200 --units 1 -v", 0, "^unit 1  running = stopped", "1 request\n$"),
         ("identify hitachi_l200", 1, "^nothing under `identify`: hitachi_l200\n$", "^$"),
         ("identify fronius_datamanager", 1, "^it is not fronius_datamanager: ", "^$"),
     ],
 )
 def test_a_command_ends_and_answers(words: str, code: int, out: str, err: str, on_line: Run) -> None:
     done = on_line(*words.split())
+    assert done.code == code, done
+    assert re.search(out, done.out), done.out
+    assert re.search(err, done.err), done.err
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "out", "err"),
+    [
+        (
+            "read siemens_mm4 P1082 -v",
+            0,
+            "^P1082 maximum_frequency  50 Hz\n$",
+            "^unit 1 -> 02 0E 01 14(.|\n)*1 req",
+        ),
+        ("read siemens_mm4 P1082 r0021", 1, "50 Hz\noutput_frequency +documented only: ", "^$"),
+        ("read siemens_mm4 P1082 --unit 7", 2, "^$", r"unit 7 did not reply .*\n  hint: "),
+        ("write siemens_mm4 P1082=45 --keep", 2, "^$", "write only when: stopped\n.*each write wears the memory"),
+        ("write siemens_mm4 P1082=45 --keep --yes", 0, "^written: P1082 maximum_frequency = 45 Hz", "^$"),
+        ("write siemens_mm4 HSW=10 --yes", 2, "^$", "differs between variants\n  hint: give --variant interface="),
+        ("write siemens_mm4 STW=047Eh --keep --yes", 2, "^$", "cannot be kept"),
+        ("scan --units 0-2", 0, "^unit 1  word 1 of its process data is [0-9A-F]{4}h\n$", "^$"),
+        ("scan siemens_mm4 --units 1", 0, r"^unit 1  \S+ \S+ = ", "^$"),
+        ("read woodward_mpu2s generator_frequency generator_active_power", 0, "frequency +50 Hz\n", "^$"),
+        ("write woodward_mpu2s power_measurement_phases=three_phase --yes -v", 0, "^written: ", "2 requests"),
+        ("monitor woodward_mpu2s generator_frequency --count 2 --every 0", 0, "^.* generator_frequency  50 Hz\n$", ""),
+        ("scan woodward_mpu2s --units 1", 0, r"^unit 1  \S+ .*= .*\n$", "^$"),
+        ("scan woodward_mpu2s --units 2 --timeout 0.1", 1, "no unit answers", "^$"),
+    ],
+)
+def test_other_families(words: str, code: int, out: str, err: str, other: Run) -> None:
+    done = other(*words.split())
     assert done.code == code, done
     assert re.search(out, done.out), done.out
     assert re.search(err, done.err), done.err

@@ -26,7 +26,7 @@ VALUES = {
     "network_frequency_setpoint": 20,
     "inverter_status": "running",
     "network_process_value": 0,
-    "run_command": "stop",
+    "running": "stopped",
 }
 
 

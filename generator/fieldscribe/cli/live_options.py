@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from difflib import get_close_matches
 from pathlib import Path
+from threading import Event, Thread
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.cli.common import StopError, add_device, add_repeated, open_device
@@ -101,6 +102,10 @@ class Live(NamedTuple):
     line: LineAddress
     work: Work
 
+    def progress(self) -> AbstractContextManager[None]:
+        """Show how many requests were sent, where it takes long."""
+        return Progress().shown(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
+
 
 @contextmanager
 def opened(arguments: Namespace) -> Iterator[Live]:
@@ -129,8 +134,9 @@ def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connect
         with _frames_printed() if arguments.verbose else nullcontext():
             yield connection, work
     except FieldscribeError as error:
-        hint = advice(error, line)
-        message = f"{error}; {work.state()}" if work.left else str(error)
+        hint = advice(error)
+        message = str(error).replace("pass it when the device is made", "give --variant")
+        message += f"; {work.state()}" if work.left else ""
         raise StopError(message, hint, USAGE if hint else FINDINGS) from error
     except KeyboardInterrupt:
         print(f"\nfieldscribe: interrupted; {work.state()}", file=sys.stderr)
@@ -161,19 +167,41 @@ def _frames_printed() -> Iterator[None]:
         logger.setLevel(before)
 
 
+_RARELY = 10
+"""After so many seconds a line goes to what is no terminal."""
+
+
 class Progress:
-    """A line on stderr about work that takes longer than a second: rewritten on a terminal, else every ten seconds."""
+    """A line on stderr about work that takes longer than a second: rewritten on a terminal, else now and then."""
 
     def __init__(self) -> None:
         self._is_terminal = sys.stderr.isatty()
-        self._next = time.monotonic() + 1
+        self._next = time.monotonic() + (1 if self._is_terminal else _RARELY)
         self._width = 0
+
+    @contextmanager
+    def shown(self, text: Callable[[], str]) -> Iterator[None]:
+        """Show a text again and again while something is done."""
+        is_done = Event()
+
+        def show() -> None:
+            while not is_done.wait(0.1):
+                self.show(text())
+
+        thread = Thread(target=show, daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            is_done.set()
+            thread.join()
+            self.clear()
 
     def show(self, text: str) -> None:
         """Show how far the work is, if it is time."""
         if (now := time.monotonic()) < self._next:
             return
-        self._next = now + (0.1 if self._is_terminal else 10)
+        self._next = now + (0.1 if self._is_terminal else _RARELY)
         text = visible(text)
         sys.stderr.write(f"\r{text:<{self._width}}" if self._is_terminal else f"{text}\n")
         sys.stderr.flush()

@@ -36,7 +36,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Read points and print what they hold; return the exit code."""
     with opened(arguments) as live:
-        readings = Reader(live.model, live.device).read(chosen(live.model, arguments.points))
+        what = chosen(live.model, arguments.points)
+        with live.progress():
+            readings = Reader(live.model, live.device).read(what)
         if arguments.format == "json":
             values = [reading.as_data() for reading in readings]
             print_json({"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "values": values})

@@ -17,7 +17,7 @@ EXAMPLE = f"""examples:
   fieldscribe scan hitachi_l200 --line tcp://192.168.0.20
 
 Each unit is asked once for something that is only read; a refusal is an answer, too. With DEVICE it is what tells the
-device from others, or its first point.
+device from others, or its first point that is only read.
 
 {LINES}
 

@@ -45,7 +45,8 @@ def run(arguments: Namespace) -> int:
     """Write, if the user agrees; return the exit code."""
     with opened(arguments) as live:
         try:
-            writes = Planner(live.model, live.device, keep=arguments.keep).plan(arguments.words)
+            with live.progress():
+                writes = Planner(live.model, live.device, keep=arguments.keep).plan(arguments.words)
         except RefusedError as error:
             raise StopError(error.message, error.hint, FINDINGS) from error
         if arguments.yes:
@@ -54,9 +55,10 @@ def run(arguments: Namespace) -> int:
         else:
             ask(live, writes)
         live.work.left = [write.reading.label for write in writes]
-        for write in writes:
-            write.carry_out(live.device)
-            live.work.written.append(live.work.left.pop(0))
+        with live.progress():
+            for write in writes:
+                write.carry_out(live.device)
+                live.work.written.append(live.work.left.pop(0))
     if arguments.format == "json":
         written = [write.reading.as_data() for write in writes]
         print_json({"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "written": written})

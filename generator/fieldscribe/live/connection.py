@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.live.devices import device_class
-from fieldscribe.live.lines import LineAddress, families_of, schemes_of
+from fieldscribe.live.lines import LineAddress, OpenLine, families_of, schemes_of
 from fieldscribe.model import Device
 from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.identifiers import parameter
@@ -27,13 +27,14 @@ class Connection:
 
         self.line = line
         self._part = families_of(line)[0].part("lines")
-        self._timeout = timeout
         try:
-            self.transport: Any = self._part.open_line(line, {} if timeout is None else {"timeout": timeout})
+            transport = self._part.open_line(line, {} if timeout is None else {"timeout": timeout})
         except FieldscribeError as error:
             raise line.wrong(str(error)) from error
         except ModuleNotFoundError as error:
-            raise UnclearError(f"{line.scheme}://: {error}", "or all: pip install 'fieldscribe[live]'") from error
+            raise UnclearError(f"{line.scheme}://: {error}", "pip install 'fieldscribe[live]'") from error
+        self._open = OpenLine(line, transport, timeout)
+        self._classes: dict[str, type[AnyDevice]] = {}
 
     @property
     def usual_units(self) -> tuple[int, int]:
@@ -45,7 +46,7 @@ class Connection:
 
     def any_device(self, unit: int) -> AnyDevice:
         """Return a device of which nothing is known but its unit."""
-        made: AnyDevice = self._part.any_device(self.transport, unit)
+        made: AnyDevice = self._part.any_device(self._open, unit)
         return made
 
     def probe(self, device: AnyDevice) -> str:
@@ -62,26 +63,27 @@ class Connection:
             takes = ", ".join(f"{scheme}://" for scheme in schemes)
             message = f"{model.id} is a {model.family} device, and none is on a line {self.line.scheme}://"
             raise UnclearError(message, f"its lines are {takes}" if takes else "")
+        if model.id not in self._classes:
+            self._classes[model.id] = device_class(model)
         chosen = {parameter(axis): values[0] for axis, values in model.variants.items() if len(values) == 1}
         try:
-            kind: Any = getattr(self._part, "fitted", lambda kind, _: kind)(device_class(model), self.line)
-            made: AnyDevice = kind(self.transport, unit, *self._part.arguments(self.line, model), **chosen)
+            made: AnyDevice = self._part.device_on(self._open, self._classes[model.id], model, unit, chosen)
         except FieldscribeError as error:
             raise UnclearError(f"{model.id}: {error}", _SETTINGS.get(error.status, "")) from error
         return made
 
     def close(self) -> None:
         """Give the line back."""
-        self.transport.close()
+        self._open.transport.close()
 
 
 _SETTINGS = {"bad_unit": "give --unit", "bad_framing": "take another kind of line"}
 
 
-def advice(error: FieldscribeError, line: LineAddress) -> str:
+def advice(error: FieldscribeError) -> str:
     """Return what to look at after an error of the line; empty for what the device itself refused."""
     if not error.lost:
         return ""
     if error.status == "line":
         return "is the line right, is the device on, and does no other program use the port?"
-    return f"is the unit right, and the settings of the line? `fieldscribe scan --line {line.text}` shows who answers"
+    return "are the unit and the settings of the line right? `fieldscribe scan` shows who answers"

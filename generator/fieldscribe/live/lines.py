@@ -28,7 +28,7 @@ class LineAddress:
     place: str
     settings: dict[str, str]
 
-    def number(self, key: str, default: int | None, ends: tuple[int, int]) -> int | None:
+    def number(self, key: str, default: int, ends: tuple[int, int]) -> int:
         """Return a setting that is a whole number; `default` if it is not there. Raises UnclearError."""
         text = self.settings.get(key)
         if text is None:
@@ -69,6 +69,15 @@ class LineAddress:
     def wrong(self, why: str) -> UnclearError:
         """Return the error for a line that cannot be."""
         return UnclearError(f"the line `{shortened(self.text)}`: {why}", f"lines are {', '.join(examples())}")
+
+
+@dataclass(frozen=True, slots=True)
+class OpenLine:
+    """A line with the transport of the runtime that it has, and the seconds to wait for an answer (None: the usual)."""
+
+    address: LineAddress
+    transport: Any
+    timeout: float | None
 
 
 def read_line(text: str) -> LineAddress:

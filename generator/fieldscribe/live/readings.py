@@ -94,6 +94,9 @@ class Reader:
     def _text(self, row: dict[str, Any], value: Any) -> str:
         """Return a value with its unit; of one whose scale other points decide, as many digits as its number has."""
         if row["status"] not in GOOD:
+            point = self._points.get(row["name"])
+            if point is not None and not point.generated:
+                return f"documented only: {point.reason or 'the manual leaves it open'}"
             label = f"{row['code']} {row['name']}" if row["code"] else row["name"]
             return str(row["detail"]).removeprefix(f"{label}: ")
         facts = self._device.point(row["name"]).facts

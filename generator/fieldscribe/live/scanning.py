@@ -89,7 +89,9 @@ def _remark(error: Any) -> str:
 
 
 def _harmless_points(model: Device) -> list[str]:
-    """Return the point that is read of each unit: the first that stands at an address of its own."""
+    """Return the point that is read of each unit: the first that needs no other, one that is only read if there is."""
     readable = [point for point in model.points if point.readable and point.generated and point.base is None]
-    simple = [point for point in readable if point.telegram is None and not point.arguments and not point.variant]
-    return [point.item for point in (simple or readable)[:1]]
+    alone = [point for point in readable if point.telegram is None and not point.arguments and not point.variant]
+    simple = [point for point in alone if not point.flags] or alone
+    only_read = [point for point in simple if not point.writable]
+    return [point.item for point in (only_read or simple or readable)[:1]]

@@ -64,7 +64,7 @@ class Planner:
         known: Mapping[str, int | Fraction] | None = None,
     ) -> None:
         self._model, self._device, self._keep = model, device, keep
-        self._points = {point.name: point for point in model.points}
+        self._points = {point.item: point for point in model.points}
         self._commands = {command.name: command for command in model.all_commands}
         self._settings: dict[str, int | Fraction] = {**(known or {})}
         self._lenient = lenient
@@ -101,8 +101,9 @@ class Planner:
         """Return what the other points hold that a scale or limit depends on."""
         for name in point.arguments:
             if name not in self._settings:
-                other: Any = self._device.point(name)
-                self._settings[name] = codec.setting_of(self._points[name], other.read_raw())
+                other = choose_point(self._model, name)
+                handle: Any = self._device.point(other.item)
+                self._settings[name] = codec.setting_of(other, handle.read_raw())
         return {name: self._settings[name] for name in point.arguments}
 
     def _kept_by_request(self, point: Point) -> bool:

@@ -12,7 +12,6 @@ not taken for the next one.
 
 from __future__ import annotations
 
-import asyncio
 import select
 import socket
 import time
@@ -26,6 +25,7 @@ from . import checks
 from .line import Line, framing_of
 
 if TYPE_CHECKING:
+    import asyncio
     from collections.abc import Callable
     from typing import Self
 
@@ -161,13 +161,17 @@ class AsyncTcpLine:
 
         Raises TimeoutError, LineError and FrameError.
         """
+        import asyncio  # blocking programs start without it
+
         async with self._turns.lock():
+            loop = asyncio.get_running_loop()
             receiver, is_sent = Receiver(self._framing, request), False
             try:
                 async with asyncio.timeout(self._connection.timeout):
-                    line = await self._send(request)
+                    await asyncio.sleep(0)  # other tasks, and timeouts, have their turn even if each byte is there
+                    line = await self._send(request, loop)
                     is_sent = True
-                    return b"" if isinstance(request, Broadcast) else await self._received(line, receiver)
+                    return b"" if isinstance(request, Broadcast) else await self._received(line, receiver, loop)
             except TimeoutError:
                 is_open = self._connection.socket is not None
                 self.close()
@@ -182,23 +186,22 @@ class AsyncTcpLine:
                 self.close()  # also when the task is cancelled: the answer must not come to the next one
                 raise
 
-    async def _send(self, request: bytes) -> socket.socket:
-        await asyncio.sleep(0)  # other tasks, and timeouts, have their turn even if each byte is there already
+    async def _send(self, request: bytes, loop: asyncio.AbstractEventLoop) -> socket.socket:
         self._connection.drop_old()
-        line = self._connection.socket or await self._connected()
-        await asyncio.get_running_loop().sock_sendall(line, request)
+        line = self._connection.socket or await self._connected(loop)
+        await loop.sock_sendall(line, request)
         return line
 
-    async def _received(self, line: socket.socket, receiver: Receiver) -> bytes:
-        loop, since = asyncio.get_running_loop(), time.monotonic()
+    async def _received(self, line: socket.socket, receiver: Receiver, loop: asyncio.AbstractEventLoop) -> bytes:
+        since = time.monotonic()
         while data := await loop.sock_recv(line, _PIECE):
             if (reply := receiver.take(data)) is not None:
                 return Reply.timed(reply, since)
         raise ConnectionError(_CLOSED)
 
-    async def _connected(self) -> socket.socket:
+    async def _connected(self, loop: asyncio.AbstractEventLoop) -> socket.socket:
         """A connection to the first address of the host that answers."""
-        loop, to = asyncio.get_running_loop(), self._connection
+        to = self._connection
         failure = OSError("the host has no address")
         for family, kind, protocol, _, address in await loop.getaddrinfo(to.host, to.port, type=socket.SOCK_STREAM):
             made = socket.socket(family, kind, protocol)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from fieldscribe.live.lines import LineAddress
+from fieldscribe.live.lines import LineAddress, OpenLine
 from fieldscribe.model import Device
 
 SCHEMES: dict[str, tuple[str, ...]] = {"can": ("bitrate",)}
@@ -21,8 +21,7 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
     interface, _, channel = line.place.partition("/")
     if not interface or not channel:
         raise line.wrong("it takes an interface and a channel of python-can")
-    bitrate = line.number("bitrate", None, (1, _FASTEST))
-    settings: Any = {} if bitrate is None else {"bitrate": bitrate}
+    settings: Any = {key: line.number(key, 0, (1, _FASTEST)) for key in line.settings}
     try:
         bus = can.Bus(channel, interface=interface, **settings)
     except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
@@ -30,7 +29,10 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
     return CanLine(bus, **timeout)
 
 
-def arguments(line: LineAddress, device: Device) -> tuple[object, ...]:
-    """Return what a device of the runtime takes beside the transport and its unit."""
-    del line, device
-    return ()
+def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
+    """Return a device of the runtime; others on a busy bus do not make it wait longer than a timeout that is given."""
+    del model
+    device = kind(line.transport, unit, **variants)
+    if line.timeout is not None:
+        device.patience = line.timeout
+    return device

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.families.modbus import SPACES
-from fieldscribe.live.lines import SERIAL_KEYS, LineAddress
+from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
 from fieldscribe.model import Device
 
 if TYPE_CHECKING:
@@ -30,29 +30,24 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
     return TcpLine(host, port, framing=framing, **timeout)
 
 
-def fitted(kind: type[Any], line: LineAddress) -> type[Any]:
-    """Return the class for a device on this line: behind `tcp://` a serial one has a gateway that translates."""
+def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
+    """Return a device of the runtime. Behind `tcp://` a serial one has a gateway that translates."""
+    del model
     framings = kind.PROFILE.framings
-    if line.scheme != "tcp" or "tcp" in framings:
-        return kind
-    return type(kind.__name__, (kind,), {"PROFILE": kind.PROFILE.replaced(framings=(*framings, "tcp"))})
-
-
-def arguments(line: LineAddress, device: Device) -> tuple[object, ...]:
-    """Return what a device of the runtime takes beside the transport and its unit."""
-    del line, device
-    return ()
+    if line.address.scheme == "tcp" and "tcp" not in framings:
+        kind = type(kind.__name__, (kind,), {"PROFILE": kind.PROFILE.replaced(framings=(*framings, "tcp"))})
+    return kind(line.transport, unit, **variants)
 
 
 UNITS = (1, 247)
 
 
-def any_device(transport: Any, unit: int) -> ModbusDevice:
+def any_device(line: OpenLine, unit: int) -> ModbusDevice:
     """Return a device of which only the protocol is known."""
     from fieldscribe_runtime.modbus import ModbusDevice, Profile
 
     profile = Profile(functions={SPACES["holding"].read: 1}, units=UNITS, broadcast=None)
-    made: ModbusDevice = type("Unknown", (ModbusDevice,), {"PROFILE": profile})(transport, unit)
+    made: ModbusDevice = type("Unknown", (ModbusDevice,), {"PROFILE": profile})(line.transport, unit)
     return made
 
 

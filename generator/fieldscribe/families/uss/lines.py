@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.families.uss.parts import default_link
-from fieldscribe.live.lines import SERIAL_KEYS, LineAddress
+from fieldscribe.families.uss.parts import VARIABLE, default_link
+from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
 from fieldscribe.model import Device
 
 if TYPE_CHECKING:
@@ -22,27 +22,33 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
     return UssLine(**line.serial(UssLine.MODE), **timeout)
 
 
-def arguments(line: LineAddress, device: Device) -> tuple[object, ...]:
-    """Return what a device of the runtime takes beside the transport and its unit: how its link is set."""
+def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
+    """Return a device of the runtime, with its link as the line says."""
     from fieldscribe_runtime.uss import Link
 
-    usual = default_link(device.bus)
-    single_first = line.choice("single_first", "no", ("no", "yes")) == "yes"
-    pkw, pzd = (line.number(key, getattr(usual, key), (0, 127)) for key in ("pkw", "pzd"))
-    return (Link(pkw or 0, pzd or 0, single_first),)
+    usual = default_link(model.bus)
+    return kind(line.transport, unit, Link(*_link(line, usual.pkw, usual.pzd)), **variants)
+
+
+def _link(line: OpenLine, pkw: int, pzd: int) -> tuple[int, int, bool]:
+    """Return how the line says that the telegrams are set, else as given. Raises UnclearError."""
+    address = line.address
+    pkw, pzd = (address.number(key, usual, (0, VARIABLE)) for key, usual in (("pkw", pkw), ("pzd", pzd)))
+    return pkw, pzd, address.choice("single_first", "no", ("no", "yes")) == "yes"
 
 
 UNITS = (0, 31)
 
 
-def any_device(transport: Any, unit: int) -> UssDevice:
-    """Return a device of which only the protocol is known, with a link without parameters and two words."""
+def any_device(line: OpenLine, unit: int) -> UssDevice:
+    """Return a device of which only the protocol is known."""
     from fieldscribe_runtime import Telegram
     from fieldscribe_runtime.uss import Link, Profile, UssDevice
 
-    reply = Telegram("reply", "response", 2)
-    profile = Profile(units=UNITS, pkw=(0,), pzd=(0, 2), tasks={0: (0,)}, telegrams=(reply,))
-    made: UssDevice = type("Unknown", (UssDevice,), {"PROFILE": profile})(transport, unit, Link(0, 2))
+    link = Link(*_link(line, VARIABLE, 2))
+    reply = Telegram("reply", "response", link.pzd)
+    profile = Profile(units=UNITS, pkw=(link.pkw,), pzd=(0, link.pzd), tasks={0: (0,)}, telegrams=(reply,))
+    made: UssDevice = type("Unknown", (UssDevice,), {"PROFILE": profile})(line.transport, unit, link)
     return made
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from ..errors import FrameError, LineError
 from ..modbus import frames as modbus
 from ..receiving import Broadcast, Receiver, Reply
-from ..uss import frames as uss
 
 if TYPE_CHECKING:
     from typing import Self
@@ -21,7 +20,11 @@ if TYPE_CHECKING:
 
 def framing_of(name: str) -> Framing:
     """Return what a receiver must know of `rtu`, `tcp` or `uss`; raises RequestError for any other framing."""
-    return uss.FRAMING if name == uss.USS else modbus.framing_of(name)
+    if name == "uss":
+        from ..uss.frames import FRAMING  # programs for Modbus start without it
+
+        return FRAMING
+    return modbus.framing_of(name)
 
 
 class Line(ABC):

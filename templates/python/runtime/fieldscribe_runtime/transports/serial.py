@@ -13,7 +13,6 @@ at once, and a port that leads through a network is opened anew.
 
 from __future__ import annotations
 
-import asyncio
 import re
 import time
 from typing import TYPE_CHECKING, Any
@@ -204,6 +203,8 @@ class AsyncSerialLine:
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
+        import asyncio  # blocking programs start without it
+
         return await asyncio.to_thread(self.line.exchange, request)
 
     async def __aenter__(self) -> Self:
