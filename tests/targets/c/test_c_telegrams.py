@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.targets.c.literals import raw_type, wire_kind
+from fieldscribe.targets.c.word_functions import has_form
 from support.c_device import SANITIZING, program, run_program, write_headers
 from support.described import made, shipped
 from targets.c.test_c_frames import DRAW
@@ -28,7 +29,9 @@ def test_a_frame_fills_in_its_members(name: str, telegram: str, way: str, tmp_pa
             item, counted = f"{name}_{point.item}", f"{point.item}_count" in members
             member = f"{point.item}_{'count' if counted else 'raw'}"
             number = f"{item}_decode_count(raw)" if counted else "raw"
-            checks[member] = f"MEMBER({item}, {wire_kind(point)}, {raw_type(point)}, {member}, {number})"
+            take = f"fieldscribe_take_{wire_kind(point)}({item}_frame.layout, words, 4U, &raw)"
+            take = f"(raw = {item}_from_words(words), true)" if has_form(point) else take
+            checks[member] = f"MEMBER({item}, {take}, {raw_type(point)}, {member}, {number})"
     assert members == checks.keys()
     texts = {
         "@DRAW@": DRAW,

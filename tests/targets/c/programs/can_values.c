@@ -10,12 +10,12 @@
 @DRAW@
 
 /* A member of the struct against its words, as the receiver has them; `number` is what its name says. */
-#define MEMBER(item, kind, type, member, number) \
+#define MEMBER(item, take, type, member, number) \
     { \
         uint16_t words[4] = {0U, 0U, 0U, 0U}; \
         type raw = (type)0; \
         CHECK(fieldscribe_can_received(&receiver, &item##_frame.heard, words, 4U) == FIELDSCRIBE_CAN_OK) \
-        CHECK(fieldscribe_take_##kind(item##_frame.layout, words, 4U, &raw)) \
+        CHECK(take) \
         CHECK(values.member == (number)) \
     }
 

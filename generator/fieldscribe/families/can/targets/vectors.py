@@ -21,6 +21,7 @@ from fieldscribe.families.can.frames import (
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Bus, Device, Message, Point, Telegram
 from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
+from fieldscribe.targets.vectors.integers import bytes_exchanged
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import as_raw
 
@@ -232,7 +233,8 @@ class _Received:
         parts = [receiver.words(part) for part in ([(at,) for at in addresses] if is_text else [addresses])]
         status = next((status for status, _ in parts if status != "ok"), "ok")
         words = [word for _, words in parts for word in words]
-        pattern = int.from_bytes(b"".join(word.to_bytes(2, "big") for word in words), "big")
+        moved = (bytes_exchanged(self.point.shape, word) for word in words)
+        pattern = int.from_bytes(b"".join(word.to_bytes(2, "big") for word in moved), "big")
         number = as_raw(self.point.shape, pattern >> (self.point.bits[1] if self.point.bits else 0))
         self.lines.set("point", self.point.item)
         self.lines.set("telegram", self.telegram.name, self.unit)
