@@ -142,14 +142,15 @@ def _telegram_text(device: Device, point: Point) -> str:
         return f"sent {every}, message {message.name}; {wording.bits_in_message(point)} (from CAN {frame[:-1]})"
     if message is None or not message.words:
         return ""
-    places = ", then ".join(_place_text(message, device.bus.usual_unit, address) for address in point.addresses)
+    marks = "llhh" if point.swapped else "hhll"
+    places = ", then ".join(_place_text(message, device.bus.usual_unit, address, marks) for address in point.addresses)
     torn = ""
     if len({address // message.words for address in point.addresses}) > 1:
         torn = "; the words come in two frames: they belong together when the same high word came before and after"
     return f"sent by itself, message {message.name}; from unit {device.bus.usual_unit}: {places}{torn}"
 
 
-def _place_text(message: Message, unit: int, address: int) -> str:
+def _place_text(message: Message, unit: int, address: int, marks: str) -> str:
     """Return the multiplexer and the bytes of one word, with a frame in which they are marked."""
     slot, word = divmod(address, message.words)
     at = [place for place, role in enumerate(message.roles) if role.kind == "word" and role.number >> 1 == word]
@@ -157,6 +158,6 @@ def _place_text(message: Message, unit: int, address: int) -> str:
     data = bytes(role.number if role.kind == "constant" else known.get(role.kind, 0) for role in message.roles)
     frame = frame_text(CanFrame(identifier(message, unit), data))
     mark = frame.index("#") + 1 + 2 * min(at)
-    frame = f"{frame[:mark]}{'hhll' if max(at) > min(at) else 'll'}{frame[mark + 2 * len(at) :]}"
+    frame = f"{frame[:mark]}{marks if max(at) > min(at) else 'll'}{frame[mark + 2 * len(at) :]}"
     slots = f"multiplexer {slot}, " if carries(message, "multiplexer") else ""
     return f"{slots}bytes {' and '.join(map(str, at))} ({frame})"
