@@ -100,7 +100,7 @@ def test_pymodbus_reads_every_point_and_is_refused_what_the_manual_refuses(name:
 @pytest.mark.parametrize("on", LINES)
 @pytest.mark.parametrize("name", DEVICES)
 def test_the_generated_client_reads_and_writes_every_point(name: str, on: str) -> None:
-    with simulated(name, on=on) as device, own(device) as client:
+    with simulated(name, on=on, strict=True) as device, own(device) as client:
         memory, wrong = device.device.memory, []
         for point in existing(device):
             if not point.generated or not (point.readable or point.writable):

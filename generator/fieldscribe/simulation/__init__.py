@@ -10,8 +10,8 @@
     faults      what can happen to an answer on its way
     line        devices that share a line: requests in, answers with faults and delays out, and the trace
     servers     sockets, serial lines and CAN buses around a line
-    making      what a bench lists, made: devices by their ids, lines, servers
-    bench       the file that lists many devices on many lines
+    descriptions  devices, layouts and behaviours by their ids
+    bench       lines with their devices, made from a file, the command line or a test
     console     what a person may say while it runs
     library     `simulated("hitachi_l200")`, for tests
 

@@ -27,6 +27,8 @@ Settings = Mapping[str, Any]
 Item = TypeVar("Item")
 _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
 MOST_DEVICES = 10_000
+_BITS = 11
+"""Of a character on a serial line, with start, parity and stop."""
 
 _TEXT, _WHOLE, _YES_NO = ((str,), "a text"), ((int,), "a whole number"), ((bool, str), "yes or no")
 _LIST, _MAP = ((list,), "a list"), ((dict,), "a mapping")
@@ -89,8 +91,10 @@ class Bench:
             raise _wrong(
                 settings, "devices", f"two devices on the line have the unit {twice}", "give each another unit"
             )
-        line = Line(part.core_of(devices, framing), self.clock, name=at or devices[0].device.id, seed=self._seed)
-        line.on, line.at, line.speed, line.trace = on, at, settings.get("speed", 0), self._trace
+        core, speed = part.core_of(devices, framing), settings.get("speed", 0)
+        core.character = _BITS / speed if speed > 0 and on == "serial" else 0.0
+        line = Line(core, self.clock, name=at or devices[0].device.id, seed=self._seed)
+        line.on, line.at, line.speed, line.trace = on, at, speed, self._trace
         line.faults.waiting.extend(Fault.of(str(fault)) for fault in settings.get("faults", ()))
         return line
 

@@ -8,7 +8,8 @@ for the devices that share a line, and `LINES`: the lines that its devices can b
 one first, each with its framings there, the usual one first: `framing` is one of these.
 
 Requests and answers are bytes. A frame of CAN is its identifier in four bytes, high first, with the highest bit set for
-an extended one, then the data: `cut` is not called for it.
+an extended one, then the data: `cut` is not called for it. A core on a serial line whose speed is known has `character`
+set to the seconds that one takes.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ class _Unit:
 
 
 class ModbusCore:
-    """Devices on a line. `character` is the time of one, for strict devices on a line whose speed is known."""
+    """Devices on a line; `character` is the seconds that one takes, 0 where that is unknown."""
 
     def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
         self.devices = devices
@@ -83,8 +83,8 @@ class ModbusCore:
         unit = self._units.get(number)
         if unit is None:
             return self._without_unit(number, head, pdu)
-        if self.character:
-            self._look_at_the_pause(unit, len(request))
+        if unit.device.clock.now() < self._free:
+            unit.device.complain("turnaround", f"a request came within {unit.silent:g} characters of an answer")
         refused = ""
         try:
             reply = self._reply(unit, pdu, number)
@@ -170,12 +170,6 @@ class ModbusCore:
         area, addresses = (space, 0), range(request.address, last + 1)
         unit.device.write(area, dict(zip(addresses, request.values, strict=True)))
         return pdu[:5]
-
-    def _look_at_the_pause(self, unit: _Unit, size: int) -> None:
-        """Complain if a request began before the line was silent for long enough."""
-        if unit.device.clock.now() - size * self.character < self._free - 2 * self.character:
-            what = f"a request came within {unit.silent:g} characters of an answer"
-            unit.device.complain("turnaround", what)
 
 
 def _read(device: SimulatedDevice, request: Request, space: str) -> bytes:
