@@ -193,6 +193,11 @@ class SimulatedDevice:
             self.complaints.append(Complaint(rule, what, source))
             self.on_complaint(self.complaints[-1])
 
+    def complain_of(self, refusal: Refusal, rule: str = "") -> None:
+        """Take down what a client did that was refused."""
+        source = None if refusal.point is None else refusal.point.source
+        self.complain(rule or refusal.kind.replace("_", " "), refusal.why, source)
+
     def _command(self, area: Area, cells: Mapping[int, int]) -> Command | None:
         if len(cells) != 1:
             return None

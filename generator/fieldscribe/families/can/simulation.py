@@ -189,8 +189,7 @@ class _Unit:
         return Answer(self.device, b"", refused=refused)
 
     def _refused(self, refusal: Refusal) -> Answer:
-        source = None if refusal.point is None else refusal.point.source
-        self.device.complain(refusal.kind.replace("_", " "), refusal.why, source)
+        self.device.complain_of(refusal)
         return Answer(self.device, b"", refused=refusal.why)
 
 

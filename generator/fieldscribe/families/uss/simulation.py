@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import parts
 from fieldscribe.families.uss.parts import Link, Part
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
-from fieldscribe.model import Point, Source
+from fieldscribe.model import Point
 from fieldscribe.simulation.core import Answer
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 
@@ -136,9 +136,9 @@ class _Unit:
         link = self.link
         divided = parts.split(words, link, request=True)
         if not divided.fits:
-            self._complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
+            self.device.complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
             return None
-        self._take(divided.words)
+        self._take_words(dict(enumerate(divided.words)), 0xFFFF)
         part = parts.part_of(divided.part)
         result = _Result(_NO_ANSWER, ())
         if part is not None:
@@ -147,8 +147,7 @@ class _Unit:
             except Refusal as refusal:
                 error = self.device.refusals.get(refusal.kind, self._error(refusal.kind, part.code))
                 result = _Result(parts.REFUSED, (error,), refused=refusal.why)
-                source = None if refusal.point is None else refusal.point.source
-                self._complain(refusal.kind.replace("_", " "), refusal.why, source)
+                self.device.complain_of(refusal)
         head = () if part is None else (result.code << 12 | divided.part[0] & 0x07FF, divided.part[1])
         head = (0, 0) if part is not None and not result.code else head
         data = telegram(self.device.unit, (*head, *_value_words(result, link, bool(head)), *self._given(link.pzd)))
@@ -164,11 +163,8 @@ class _Unit:
                 chosen[0] = held & ~bits | chosen[0] & bits
             self._take_words(chosen, bits)
         else:
-            self._complain("length", f"a broadcast has {len(words)} words, and the link is set otherwise")
+            self.device.complain("length", f"a broadcast has {len(words)} words, and the link is set otherwise")
         return Answer(self.device, b"")
-
-    def _take(self, words: Sequence[int]) -> None:
-        self._take_words(dict(enumerate(words)), 0xFFFF)
 
     def _take_words(self, words: Mapping[int, int], bits: int) -> None:
         """Take words of process data; one that lacks its constant bits is ignored, as is what no point takes.
@@ -182,14 +178,14 @@ class _Unit:
             first, fixed = next(iter(cells.values())), point.fixed
             counts = bits if 0 in cells else 0xFFFF
             if fixed is not None and (first & fixed.mask != fixed.bits or fixed.mask & ~counts):
-                self._complain(
+                self.device.complain(
                     "constant bits", f"{point.name} came as {first:04X}h, which the device ignores", point.source
                 )
                 continue
             try:
                 self.device.write(area, cells)
             except Refusal as refusal:
-                self._complain(refusal.kind.replace("_", " "), refusal.why, point.source)
+                self.device.complain_of(refusal)
 
     def _given(self, count: int) -> list[int]:
         """Return the words of process data that go to the master."""
@@ -203,7 +199,7 @@ class _Unit:
     def _carried_out(self, part: Part, number: int, link: Link) -> _Result:
         """Carry out a task. Raises Refusal."""
         if part.spontaneous:
-            self._complain("bit 11", "bit 11 of the first word is always 0")
+            self.device.complain("bit 11", "bit 11 of the first word is always 0")
         task, array = part.code, part.code in _ARRAY_TASKS
         if task == _NO_TASK:
             return _Result(_NO_ANSWER, ())
@@ -260,9 +256,6 @@ class _Unit:
         fitting = [error for error in errors if not error.answers or task in error.answers] or list(errors)
         named = (error.number for word in _WORDS.get(kind, _VALUE) for error in fitting if word in error.name)
         return next(named, fitting[0].number if fitting else 0)
-
-    def _complain(self, rule: str, what: str, source: Source | None = None) -> None:
-        self.device.complain(rule, what, source)
 
 
 def _value_words(result: _Result, link: Link, has_part: bool) -> Iterator[int]:
