@@ -1,4 +1,4 @@
-"""Clients in C of simulated USS and CAN devices: each point is what the device holds; pipes are the lines."""
+"""Clients in C and Rust of simulated USS and CAN devices: each point is what the device holds; pipes are the lines."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from fieldscribe.simulation.descriptions import layout_of
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.line import Line, Stream
 from support.places import ROOT
-from support.toolchains import compiled
+from support.toolchains import compiled, succeed, tool
 
 PROGRAMS = Path(__file__).parent / "programs"
 HEADERS = ROOT / "generated/c"
@@ -30,22 +30,42 @@ def frames_of(device: SimulatedDevice) -> dict[str, str]:
     return {item: kind for kind, item in found}
 
 
-def heard_of(device: SimulatedDevice, folder: Path, includes: list[str], *flags: str) -> dict[str, tuple[int, int]]:
-    """What a program says of the points: a status and a number each, while the device answers it."""
+def in_c(device: SimulatedDevice, folder: Path, includes: list[str], *flags: str) -> Path:
+    """The program in C for these points."""
     (folder / "points.inc").write_text("\n".join(includes), "utf-8")
+    source = PROGRAMS / f"points_{device.device.family}.c"
+    return compiled("gcc", (*FLAGS, f"-I{folder}", *flags), source, folder / "points")
+
+
+def in_rust(device: SimulatedDevice, folder: Path) -> Path:
+    """The program in Rust for all points."""
+    known = ["--edition=2021", "-L", str(folder)]
+    for name in ("fieldscribe_runtime", device.device.id):
+        source = ROOT / f"generated/rust/{name}/src/lib.rs"
+        succeed([tool("rustc"), *known, "--crate-type=rlib", "--crate-name", name, "--out-dir", folder, source])
+        known += ["--extern", f"{name}={folder}/lib{name}.rlib"]
+    succeed([tool("rustc"), *known, "-o", folder / "points", PROGRAMS / f"points_{device.device.family}.rs"])
+    return folder / "points"
+
+
+def heard_of(device: SimulatedDevice, program: Path) -> dict[str, tuple[int, str]]:
+    """What a program says of the points: a status and a value each, while the device answers it."""
     name = device.device.family
-    program = compiled("gcc", (*FLAGS, f"-I{folder}", *flags), PROGRAMS / f"points_{name}.c", folder / "points")
-    core = family(name).part("simulation").core_of([device])
-    answers = (through_stream if name == "uss" else through_frames)(Line(core, device.clock))
+    line = Line(family(name).part("simulation").core_of([device]), device.clock)
+    answers = (through_stream if name == "uss" else through_frames)(line)
     with subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
         assert running.stdin is not None
         assert running.stdout is not None
         assert running.stderr is not None
+        for _ in range(70):
+            device.clock.advance(0.2)
+            running.stdin.write(b"".join(map(packed, line.due()[0])))
+            running.stdin.flush()
         while data := os.read(running.stdout.fileno(), 4096):
             running.stdin.write(answers(data))
             running.stdin.flush()
         lines = running.stderr.read().decode().splitlines()
-    return {item: (int(status), int(number)) for item, status, number in map(str.split, lines)}
+    return {item: (int(status), value) for item, status, value in map(str.split, lines)}
 
 
 def through_stream(line: Line) -> Callable[[bytes], bytes]:
@@ -63,12 +83,17 @@ def through_frames(line: Line) -> Callable[[bytes], bytes]:
             yield from line.due()[0]
             yield from (each.data for each in line.answer(data[at : at + 4] + data[at + 5 : at + 13]))
 
-    return lambda data: b"".join(frame[:4] + bytes((8,)) + frame[4:] for frame in answered(data))
+    return lambda data: b"".join(map(packed, answered(data)))
+
+
+def packed(frame: bytes) -> bytes:
+    """A frame with its length behind the identifier."""
+    return frame[:4] + bytes((len(frame) - 4,)) + frame[4:]
 
 
 @pytest.mark.full(seconds=4)
 @pytest.mark.parametrize("pkw", [4, 127])
-def test_uss(tmp_path: Path, pkw: int) -> None:
+def test_uss_in_c(tmp_path: Path, pkw: int) -> None:
     device = SimulatedDevice(layout_of("siemens_mm4", ("model=mm440",)), clock=Clock(0), seed=pkw)
     device.values["uss_pkw_length_index_0"] = pkw
     points = {point.item: point for point in device.layout.points.values() if point.space == "parameter"}
@@ -78,16 +103,16 @@ def test_uss(tmp_path: Path, pkw: int) -> None:
         frame, kept = f"siemens_mm4_{item}_frame", f"siemens_mm4_{item}_eeprom_frame"
         writes = f"&{frame}.write, &{kept}.write" if kind == "rw" else "NULL, NULL"
         lines.append(f'point("{item}", &{frame}.read, {writes});')
-    heard = heard_of(device, tmp_path, lines, f"-DPKW={pkw}U")
-    expected = {item: (0, device.memory.raw(points[item].name)) for item in frames}
+    heard = heard_of(device, in_c(device, tmp_path, lines, f"-DPKW={pkw}U"))
+    expected = {item: (0, str(device.memory.raw(points[item].name))) for item in frames}
     assert {item: heard[item] for item in frames} == expected
     assert len(frames) > 25
-    assert heard["-"] == (heard["-"][0] or -1, 0)
-    assert heard["status_word"] == (0, device.memory.raw("status_word"))
+    assert heard["-"] == (heard["-"][0] or -1, "0")
+    assert heard["status_word"] == (0, str(device.memory.raw("status_word")))
 
 
 @pytest.mark.full(seconds=4)
-def test_can(tmp_path: Path) -> None:
+def test_can_in_c(tmp_path: Path) -> None:
     device = SimulatedDevice(layout_of("woodward_mpu2s", ("voltage=400V",)), 3, clock=Clock(0), seed=4)
     points = {point.item: point for point in device.layout.points.values()}
     lines, frames = dict[str, str](), frames_of(device)
@@ -99,8 +124,26 @@ def test_can(tmp_path: Path) -> None:
     for item, kind in frames.items():
         if item in points and kind == "h":
             lines[item] = f'value("{item}", &woodward_mpu2s_{item}_frame.heard, {points[item].words}U);'
-    heard = heard_of(device, tmp_path, [*lines.values()])
+    heard = heard_of(device, in_c(device, tmp_path, [*lines.values()]))
     cells = {item: device.layout.cells[points[item].name] for item in lines}
     areas = device.memory.areas
-    assert heard == {item: (0, joined(areas[at.area][a] for a in at.addresses)) for item, at in cells.items()}
+    assert heard == {item: (0, str(joined(areas[at.area][a] for a in at.addresses))) for item, at in cells.items()}
     assert len(heard) > 200
+
+
+@pytest.mark.full(seconds=20)
+@pytest.mark.parametrize(
+    ("name", "variant", "unit", "least"),
+    [("siemens_mm4", "model=mm440", 1, 30), ("woodward_mpu2s", "voltage=400V", 3, 180)],
+)
+def test_in_rust(name: str, variant: str, unit: int, least: int, tmp_path: Path) -> None:
+    device = SimulatedDevice(layout_of(name, (variant,)), unit, clock=Clock(0), seed=3)
+    if name == "siemens_mm4":
+        device.values["uss_pzd_length_index_0"] = 4
+    heard = heard_of(device, in_rust(device, tmp_path))
+    points = {point.item: point.name for point in device.layout.points.values()}
+    compared = {item: value for item, (_, value) in heard.items() if item in points}
+    for item, value in compared.items():
+        held = device.values[points[item]]
+        assert value == str(held) if isinstance(held, str) else float(value) == pytest.approx(float(held)), item
+    assert len(compared) > least
