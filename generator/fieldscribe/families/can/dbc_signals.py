@@ -13,6 +13,7 @@ from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME
+from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.export import ExportError
 from fieldscribe.families.can import USUAL_BITS, identifier_bits
 from fieldscribe.families.can.frames import LENGTH, carries, frame_count, identifier, places
@@ -255,13 +256,13 @@ def _telegram_signals(device: Device, message: Message) -> Iterator[Signal]:
                 if other is not None:
                     raise ExportError(f"{signal.name} and {other} share bits; choose with --variant")
                 taken.update(dict.fromkeys(bits, signal.name))
-                yield _placed(message, signal, address, words, point.bits)
+                yield _placed(message, signal, address, words, point)
         for address in range(telegram.words):
             slot, word = divmod(address, message.words)
             if not any((slot, 16 * word + bit) in taken for bit in range(16)):
                 comment = "No point is described here"
                 signal = Signal(f"{telegram.name}_word_{address}", greatest="65535", comment=comment)
-                yield _placed(message, signal, address, 1, None)
+                yield _placed(message, signal, address, 1)
 
 
 def _points(device: Device, telegram: str) -> Iterator[Point]:
@@ -286,7 +287,8 @@ def point_signals(device: Device, point: Point, message: Message) -> Iterator[tu
     addresses, per_frame = point.addresses, message.words
     comment = _comment(device, point)
     in_order = addresses == tuple(range(addresses[0], addresses[0] + len(addresses)))
-    joins = point.words == 1 or (_words_join(message) and not point.info.floating and point.text is None)
+    is_plain = not point.info.floating and point.text is None and not point.swapped
+    joins = point.words == 1 or (_words_join(message) and is_plain)
     if in_order and joins and addresses[0] // per_frame == addresses[-1] // per_frame:
         yield _scaled_signal(point, comment), addresses[0], point.words
         return
@@ -304,28 +306,30 @@ def _words_join(message: Message) -> bool:
 
 
 def _scaled_signal(point: Point, comment: str) -> Signal:
-    rule = fixed_rule(point) if point.generated else None
+    rule = fixed_rule(point) if point.generated and not point.coding else None
     multiply, add, divide = exact = rule or SAME
-    least, greatest = sorted(map(exact.result, wording.outer_raw(point) or (point.least, point.greatest)))
-    unsettled = not point.generated and not point.reserved
+    outer = (0, mask_of(point.width)) if point.coding else wording.outer_raw(point) or (point.least, point.greatest)
+    least, greatest = sorted(map(exact.result, outer))
+    unsettled = (not point.generated and not point.reserved) or bool(point.coding)
     return Signal(
         f"{point.name}_raw" if unsettled else point.name,
-        signed=point.info.signed,
+        signed=point.info.signed and not point.coding,
         factor=decimal(Fraction(multiply, divide)),
         offset=decimal(Fraction(add, divide)),
         least=decimal(least),
         greatest=decimal(greatest),
         unit=point.unit.symbol if rule is not None else "",
         comment=comment,
-        values=tuple(_names(point)),
+        values=() if point.coding else tuple(_names(point)),
     )
 
 
-def _placed(message: Message, signal: Signal, address: int, words: int, bits: tuple[int, int] | None) -> Signal:
+def _placed(message: Message, signal: Signal, address: int, words: int, point: Point | None = None) -> Signal:
     """Return the signal at its bits in the frame, with the multiplexer value that selects it."""
     slot, word = divmod(address, message.words)
+    bits, low_first = (None, False) if point is None else (point.bits, point.swapped)
     bytes_of = {
-        16 * (words - 1 - (role.number // 2 - word)) + (0 if role.number & 1 else 8): place
+        16 * (words - 1 - (role.number // 2 - word)) + (0 if bool(role.number & 1) != low_first else 8): place
         for place, role in enumerate(message.roles)
         if role.kind == "word" and word <= role.number // 2 < word + words
     }
@@ -364,6 +368,8 @@ def _comment(device: Device, point: Point) -> str:
     parts = [point.title["en"]]
     if not point.generated:
         parts.append(f"Raw: {point.reason or 'the manual leaves it open'}")
+    elif point.coding:
+        parts.append(f"Raw: the number is coded ({point.coding})")
     elif fixed_rule(point) is None:
         by_name = {named.name: named for named in device.points}
         parts.append(f"Raw: the value is {wording.scale_text(point, by_name)}")
