@@ -202,3 +202,15 @@ def test_the_trace_has_each_request_with_its_answer() -> None:
         "refused": "function 03h takes 4 items at most, not 5",
         "fault": None,
     }
+
+
+def test_the_first_request_of_a_client_decides_the_framing() -> None:
+    """A gateway and a serial server at the same port; noise before the first request decides nothing."""
+    line, pdu = line_of("hitachi_l200", framing="any"), bytes.fromhex("0310280001")
+    for framing in ("rtu", "tcp"):
+        stream = Stream(line)
+        assert stream.received(b"\x07\xff\x00", quiet=True) == []
+        request = frame(framing, 1, 3, pdu)
+        assert stream.received(request[:5]) == []
+        (first,), (second,) = stream.received(request[5:]), stream.received(request)
+        assert first.data == second.data == frame(framing, 1, 3, bytes.fromhex("030201f4"))

@@ -28,16 +28,17 @@ class Line:
         self.trace: Trace | None = None
         self.requests, self.speed, self.on, self.at = 0, 0, "", ""
 
-    def answer(self, request: bytes) -> list[Outcome]:
-        """Return what goes out because of one request."""
+    def answer(self, request: bytes, core: Core | None = None) -> list[Outcome]:
+        """Return what goes out because of one request, of a client whose framing is that of `core`."""
+        core = core or self.core
         with LOCK:
             self.requests += 1
-            answer = self.core.answer(request)
+            answer = core.answer(request)
             if answer is None:
                 return []
             outcome = Outcome(answer.data, answer.delay)
             if self.faults.waiting and answer.data:
-                outcome = self.faults.outcome(answer.data, answer.delay, self.core.spoiled)
+                outcome = self.faults.outcome(answer.data, answer.delay, core.spoiled)
             if self.trace is not None:
                 self.trace(self._entry(request, answer, outcome))
             more = [Outcome(data, answer.delay) for data in answer.more]
@@ -70,10 +71,12 @@ class Stream:
     def __init__(self, line: Line) -> None:
         self.line = line
         self.waiting = b""
+        self._core = line.core
 
     def received(self, data: bytes, *, quiet: bool = False) -> list[Outcome]:
         """Return what goes out because of these bytes; `quiet` says that no more belong to them."""
         data = self.waiting + data
-        requests, done = self.line.core.cut(data, quiet=quiet)
+        self._core = self._core.settled(data)
+        requests, done = self._core.cut(data, quiet=quiet)
         self.waiting = data[done:][-_MOST_WAITING:]
-        return [outcome for request in requests for outcome in self.line.answer(request)]
+        return [outcome for request in requests for outcome in self.line.answer(request, self._core)]

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.words import joined
 from fieldscribe.families.can import frames, identifier_bits, signals
 from fieldscribe.families.can.frames import CanFrame, carriers, identifier, parse, request_and_answer
 from fieldscribe.model import Message, Role, Telegram
-from fieldscribe.simulation.core import Answer
+from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice
 
 LINES = {"can": ("can",)}
@@ -27,7 +27,7 @@ def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> CanCore:
     return CanCore(devices, framing or "can")
 
 
-class CanCore:
+class CanCore(Core):
     """Devices on a bus. What they refuse they do not answer."""
 
     def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:

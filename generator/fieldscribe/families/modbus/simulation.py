@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, request_in
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, crc16, frame, pack_bits, request_length
 from fieldscribe.model import Bus, Source
-from fieldscribe.simulation.core import Answer
+from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 
-LINES = {"tcp": ("tcp", "rtu"), "serial": ("rtu",)}
+LINES = {"tcp": ("any", "tcp", "rtu"), "serial": ("rtu",)}
 _LONGEST = 256
 """Bytes of the longest RTU frame."""
 _DIRECT = 255
@@ -34,8 +34,8 @@ _REASONS = {
 
 
 def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> ModbusCore:
-    """Return the end of a line with these devices; `framing` is `rtu`, else `tcp`."""
-    return ModbusCore(devices, framing or "tcp")
+    """Return the end of a line with these devices; with the framing `any`, the first request of a client decides."""
+    return _UnsettledCore(devices) if framing == "any" else ModbusCore(devices, framing or "tcp")
 
 
 class _Unit:
@@ -65,16 +65,19 @@ class _Unit:
         return Source(document, None, None, next(lines, None))
 
 
-class ModbusCore:
+class ModbusCore(Core):
     """Devices on a line; `character` is the seconds that one takes, 0 where that is unknown."""
 
     def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
         self.devices = devices
         self.framing = framing
         self.character = 0.0
-        self.cut: Callable[..., tuple[list[bytes], int]] = _cut_tcp if framing == "tcp" else _cut_rtu
         self._units = {unit: _Unit(device) for unit, device in by_unit(devices).items()}
         self._free = 0.0
+
+    def cut(self, data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
+        """Cut by the framing."""
+        return (_cut_tcp if self.framing == "tcp" else _cut_rtu)(data, quiet=quiet)
 
     def answer(self, request: bytes) -> Answer | None:
         """Return what a request leads to; None if it is for no unit of this line."""
@@ -170,6 +173,20 @@ class ModbusCore:
         area, addresses = (space, 0), range(request.address, last + 1)
         unit.device.write(area, dict(zip(addresses, request.values, strict=True)))
         return pdu[:5]
+
+
+class _UnsettledCore(ModbusCore):
+    """Devices behind a port that takes both framings: waits for the first whole request of a client."""
+
+    def __init__(self, devices: Sequence[SimulatedDevice]) -> None:
+        super().__init__(devices, "tcp")
+        self._rtu, self._tcp = ModbusCore(devices, "rtu"), ModbusCore(devices, "tcp")
+
+    def settled(self, data: bytes) -> Core:
+        """Return the core of the framing that a request in the data has; a checksum is the surer sign."""
+        if self._rtu.cut(data, quiet=False)[0]:
+            return self._rtu
+        return self._tcp if self._tcp.cut(data, quiet=False)[0] else self
 
 
 def _read(device: SimulatedDevice, request: Request, space: str) -> bytes:

@@ -11,7 +11,7 @@ from fieldscribe.families.uss import parts
 from fieldscribe.families.uss.parts import Link, Part
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
 from fieldscribe.model import Point
-from fieldscribe.simulation.core import Answer
+from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 
 LINES = {"serial": ("uss",), "tcp": ("uss",)}
@@ -48,7 +48,7 @@ def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> UssCore:
     return UssCore(devices, framing or "uss")
 
 
-class UssCore:
+class UssCore(Core):
     """Devices on a line. What a device does not understand it does not answer."""
 
     def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
