@@ -14,7 +14,7 @@ from fieldscribe.live.restoring import ordered
 from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
-from support.described import described, loaded_in, shipped
+from support.described import DEVICES, described, loaded_in, shipped
 from support.small_drive import Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
@@ -192,7 +192,16 @@ def snapshot(raws: dict[str, int]) -> Snapshot:
     """A snapshot of the made-up device; what is not given is as always."""
     held = {"low": 0, "high": 30, "baud": 1, "scaled": 1, "cleared": 0, "reset": 1, "start": 0} | raws
     points = {name: Held(None, raw, "", str(raw), raw, "setting") for name, raw in held.items()}
-    return Snapshot("made_up", "1.0.0", "", "tcp://x", 1, "", {}, points, {})
+    return Snapshot("made_up", "1.0.0", "", "tcp://x", 1, "", {}, [], points, {})
+
+
+def test_the_numbers_that_addresses_depend_on_are_kept(run: Run, tmp_path: Path) -> None:
+    device, file = str(DEVICES / "kitchen_blocks"), tmp_path / "x.json"
+    with simulated(device, given={"slot": 2}) as served:
+        line = ("--line", f"tcp://127.0.0.1:{served.port}")
+        assert run("snapshot", device, "--with", "slot=2", "--out", str(file), *line).code == 1  # a block is too short
+        assert read_snapshot(file).given == ["slot=2"]
+        assert run("restore", str(file), device, *line).code == 0
 
 
 def test_a_snapshot_is_compared_with_the_defaults() -> None:
@@ -204,10 +213,12 @@ def test_a_snapshot_is_compared_with_the_defaults() -> None:
 
 
 HEAD = '{"snapshot": 1, "device": "x", "version": "1", "digest": "", "line": "", "taken": "", "variants": {}, '
+HEAD += '"given": [], '
 NO_SNAPSHOTS = (
     *("", "{}", "[]", "7", '"snapshot"', '{"snapshot": 1}', '{"snapshot": 2}', "[" * 100_000, '{"snapshot": NaN}'),
     HEAD + '"unit": "1", "points": {}, "missing": {}}',
     HEAD + '"unit": 1, "points": {}, "missing": {"a": 1}}',
+    HEAD.replace("[]", "[1]") + '"unit": 1, "points": {}, "missing": {}}',
     HEAD + '"unit": 1, "points": {"a": [1, 2, 3, 4, 5, 6]}, "missing": {}}',
     HEAD
     + f'"unit": 1, "missing": {{}}, "points": {{"a": {json.dumps(Held(None, 1, "", "", True, "read")._asdict())}}}}}',

@@ -101,8 +101,10 @@ def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
         arguments.device = wanted.device
         arguments.line = arguments.line or wanted.line
         arguments.unit = wanted.unit if arguments.unit is None else arguments.unit
-    given = {choice.partition("=")[0] for choice in arguments.variant}
-    arguments.variant += [f"{axis}={value}" for axis, value in wanted.variants.items() if axis not in given]
+    variants = [f"{axis}={value}" for axis, value in wanted.variants.items()]
+    for named, kept in ((arguments.variant, variants), (arguments.settings, wanted.given)):
+        names = {each.partition("=")[0] for each in named}
+        named += [each for each in kept if each.partition("=")[0] not in names]
 
 
 def _taken(live: Live) -> Snapshot:

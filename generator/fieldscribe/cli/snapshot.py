@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
+from dataclasses import replace
 from pathlib import Path
 
 from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, opened
@@ -32,13 +33,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Read all and write the file; return the exit code."""
-    progress = Progress()
+    progress, given = Progress(), list(arguments.settings)
     with opened(arguments) as live:
         try:
             snapshot = take(live.model, live.device, live.line.text, progress.show)
         finally:
             progress.clear()
-    snapshot.write(arguments.out)
+    replace(snapshot, given=given).write(arguments.out)
     missing = [[("error", visible(f"{name}: {why}"))] for name, why in snapshot.missing.items()]
     print_lines(missing, sys.stderr)
     without = f", {len(missing)} without a number" if missing else ""

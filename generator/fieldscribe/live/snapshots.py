@@ -58,7 +58,10 @@ _TYPES: dict[str, tuple[type, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """A device at one time: what its points held by name, and why others have no number."""
+    """A device at one time: what its points held by name, and why others have no number.
+
+    `given` are the numbers that its addresses depend on, as in `slot=3`.
+    """
 
     device: str
     version: str
@@ -67,6 +70,7 @@ class Snapshot:
     unit: int
     taken: str
     variants: dict[str, str]
+    given: list[str]
     points: dict[str, Held]
     missing: dict[str, str]
 
@@ -87,7 +91,7 @@ class Snapshot:
 
 
 def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
-    """Read all groups of a device. Raises FieldscribeError for a line that loses all."""
+    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that loses all."""
     raws: dict[str, int] = {}
     missing: dict[str, str] = {}
     for number, group in enumerate(device.GROUPS, 1):
@@ -102,7 +106,7 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
     variants = {axis: value for axis, value in device.variants.items() if value is not None}
     taken = datetime.now(UTC).isoformat(timespec="seconds")
     points = dict(_held(model, raws))
-    return Snapshot(model.id, model.version, model.digest, line, device.unit, taken, variants, points, missing)
+    return Snapshot(model.id, model.version, model.digest, line, device.unit, taken, variants, [], points, missing)
 
 
 def defaults(model: Device) -> Snapshot:
@@ -115,7 +119,7 @@ def defaults(model: Device) -> Snapshot:
             points[point.item] = Held(point.code, float(point.default), point.unit.symbol, text, None, _kind(point))
     if not points:
         raise UnclearError(f"the description of {model.id} gives no defaults", "name another snapshot to compare with")
-    return Snapshot(model.id, model.version, model.digest, DEFAULTS, 0, "", {}, points, {})
+    return Snapshot(model.id, model.version, model.digest, DEFAULTS, 0, "", {}, [], points, {})
 
 
 def settings_of(model: Device, raws: Mapping[str, int]) -> dict[str, int | Fraction]:
@@ -157,12 +161,17 @@ def read_snapshot(path: Path) -> Snapshot:
         snapshot = Snapshot(points=points, **data)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise wrong from error
-    expected = {"unit": int, "variants": dict, "points": dict, "missing": dict}
+    expected = {"unit": int, "variants": dict, "given": list, "points": dict, "missing": dict}
     typed = all(isinstance(getattr(snapshot, one.name), expected.get(one.name, str)) for one in fields(snapshot))
-    texts = typed and all(isinstance(text, str) for text in (*snapshot.variants.values(), *snapshot.missing.values()))
+    texts = typed and all(isinstance(text, str) for text in _texts(snapshot))
     if not texts or not all(_is_held(held) for held in points.values()):
         raise wrong
     return snapshot
+
+
+def _texts(snapshot: Snapshot) -> Iterator[object]:
+    """Yield what must be texts."""
+    yield from (*snapshot.variants.values(), *snapshot.given, *snapshot.missing.values())
 
 
 def _is_held(held: Held) -> bool:
