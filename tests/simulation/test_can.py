@@ -9,7 +9,6 @@ import subprocess
 import sys
 import threading
 import tty
-from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -24,9 +23,9 @@ from fieldscribe.simulation.descriptions import layout_of
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
-from fieldscribe.simulation.line import Line
 from support.places import PACKAGES, TESTS
 from support.python_package import imported
+from support.simulated_lines import DirectBus
 
 VARIANT = "voltage=400V"
 KITCHEN = str(TESTS / "devices/kitchen_can")
@@ -39,36 +38,6 @@ def package() -> Iterator[Any]:
     yield from imported(PACKAGES, "woodward_mpu2s")
 
 
-class Direct:
-    """A transport that leads to a bus of simulated devices; where nothing waits, time passes up to the next frame."""
-
-    def __init__(self, *devices: SimulatedDevice, silent: bool = False) -> None:
-        self.silent = silent
-        self.line = Line(core_of(devices), devices[0].clock)
-        self._waiting: deque[bytes] = deque()
-
-    def send(self, frame: Any) -> None:
-        """Send a frame."""
-        data = frame.id.to_bytes(4, "big") + frame.data
-        self._waiting.extend(outcome.data for outcome in self.line.answer(data) if len(outcome.data) >= 4)
-
-    def receive(self) -> Any:
-        """Return the next frame; raises TimeoutError if none comes."""
-        from fieldscribe_runtime.can import Frame
-
-        if not self._waiting and not self.silent:
-            self.line.clock.advance(0.1)
-            self._waiting.extend(self.line.due()[0])
-        if not self._waiting:
-            raise TimeoutError
-        data = self._waiting.popleft()
-        return Frame(int.from_bytes(data[:4], "big") & ~EXTENDED, data[4:])
-
-    def receive_waiting(self) -> Any:
-        """Return the next frame that is there already; None without one."""
-        return self.receive() if self._waiting else None
-
-
 def genset(unit: int = 3, **options: Any) -> SimulatedDevice:
     """An MPU2-S whose time stands."""
     return SimulatedDevice(layout_of("woodward_mpu2s", (VARIANT,)), unit, clock=Clock(0), **options)
@@ -77,7 +46,7 @@ def genset(unit: int = 3, **options: Any) -> SimulatedDevice:
 def test_every_point(package: Any) -> None:
     """Each parameter is read, written and read again; each value of the telegram comes as the device holds it."""
     device = genset(seed=5)
-    client = package.WoodwardMpu2s(Direct(device), device.unit, voltage="400V")
+    client = package.WoodwardMpu2s(DirectBus(device), device.unit, voltage="400V")
     seen = {"parameter": 0, "telegram": 0}
     for point in device.layout.points.values():
         if not point.generated or point.text is not None:
@@ -165,7 +134,7 @@ def test_messages_of_the_master_are_taken() -> None:
 def test_refused_requests_stay_without_an_answer(package: Any) -> None:
     """An unknown parameter, a value out of range, a wrong checksum, another unit, no password: silence."""
     device = genset()
-    client = package.WoodwardMpu2s(line := Direct(device), device.unit, voltage="400V")
+    client = package.WoodwardMpu2s(line := DirectBus(device), device.unit, voltage="400V")
     client.retries, client.patience = 0, 0.05
     sound = bytes.fromhex("0000033F FF03000B0000FCF4")  # 4.2.2 of the manual, for unit 3
     head, body = sound[:4], bytearray(sound[4:12])
@@ -184,7 +153,7 @@ def test_refused_requests_stay_without_an_answer(package: Any) -> None:
 def test_each_fault_at_each_byte(package: Any) -> None:
     """A client never takes a spoiled answer for a good one, and its next request works."""
     device = genset()
-    client = package.WoodwardMpu2s(line := Direct(device, silent=True), device.unit, voltage="400V")
+    client = package.WoodwardMpu2s(line := DirectBus(device, silent=True), device.unit, voltage="400V")
     client.retries, client.patience = 0, 0.02
     device.memory.put("generator_rated_power", 200)
     places = [f"{kind} {at}" for kind in ("cut", "damaged", "noise") for at in range(12)]

@@ -20,6 +20,7 @@ from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line, Stream
 from support.places import PACKAGES
 from support.python_package import imported
+from support.simulated_lines import direct_line
 
 VARIANTS = ("model=mm440", "interface=rs485")
 LINKS = [(127, 2), (4, 4), (3, 0)]
@@ -31,20 +32,6 @@ def package() -> Iterator[Any]:
     yield from imported(PACKAGES, "siemens_mm4")
 
 
-class Direct:
-    """A transport that leads to a line without any bus."""
-
-    def __init__(self, line: Line) -> None:
-        self.line, self._stream = line, Stream(line)
-
-    def exchange(self, request: bytes) -> bytes:
-        """Return the reply; raises TimeoutError without one."""
-        outcomes = self._stream.received(request)
-        if not outcomes:
-            raise TimeoutError
-        return b"".join(outcome.data for outcome in outcomes)
-
-
 def inverter(unit: int = 1, **options: Any) -> SimulatedDevice:
     """A MICROMASTER 440 whose time stands."""
     return SimulatedDevice(layout_of("siemens_mm4", VARIANTS), unit, clock=Clock(0), **options)
@@ -53,8 +40,9 @@ def inverter(unit: int = 1, **options: Any) -> SimulatedDevice:
 def opened(package: Any, device: SimulatedDevice, pkw: int = 127, pzd: int = 2) -> Any:
     """The generated client of a device, over a link of these lengths."""
     device.values.update({"uss_pkw_length_index_0": pkw, "uss_pzd_length_index_0": pzd})
-    line = Direct(Line(core_of([device]), device.clock))
-    return package.SiemensMm4(line, device.unit, package_link(pkw, pzd), model="mm440", interface="rs485")
+    return package.SiemensMm4(
+        direct_line(device), device.unit, package_link(pkw, pzd), model="mm440", interface="rs485"
+    )
 
 
 def package_link(pkw: int, pzd: int) -> Any:

@@ -156,7 +156,9 @@ class _Unit:
         try:
             if raw is not None:
                 self._write(address, raw)
-            (word,) = self.device.read(_PARAMETERS, (address,))
+                word = self.device.memory.areas[_PARAMETERS][address]
+            else:
+                (word,) = self.device.read(_PARAMETERS, (address,))
         except Refusal as refusal:
             return self._refused(refusal)
         if answer is None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fieldscribe.arithmetic.words import split as words_of
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.uss import parts
+from fieldscribe.families.uss import of_bus, parts
 from fieldscribe.families.uss.parts import Link, Part
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
 from fieldscribe.model import Point
@@ -115,7 +115,7 @@ class _Unit:
         self.device = device
         model = device.device
         self._usual = parts.default_link(model.bus)
-        self._settings = {what: _setting(device, what) for what in ("pkw", "pzd")}
+        self._settings = _setting(device, "pkw"), _setting(device, "pzd")
         self._taken = {each.direction: each.name for each in model.telegrams}
         self._tasks = {code.number for code in model.bus.functions}
         self._elements: dict[int, dict[int, Point]] = {}
@@ -123,17 +123,19 @@ class _Unit:
             if point.space == "parameter" and point.addresses:
                 self._elements.setdefault(point.addresses[0], {})[-1 if point.index is None else point.index] = point
 
-    @property
-    def link(self) -> Link:
-        """The link as the device is set now."""
-        usual = {"pkw": self._usual.pkw, "pzd": self._usual.pzd}
-        set_now = {what: self.device.memory.raw(point) for what, point in self._settings.items() if point is not None}
-        lengths = usual | set_now
-        return Link(lengths["pkw"], lengths["pzd"])
+    def link(self, count: int, sent: int | None = None) -> Link:
+        """Return the link as the device is set now, or as the count of a telegram's words has it if no point says.
+
+        `sent` is how many of them are no process data, if not those of a parameter part.
+        """
+        raw, (pkw, pzd), (low, high) = self.device.memory.raw, self._settings, of_bus(self.device.device.bus).pzd
+        part = self._usual.pkw if pkw is None else raw(pkw)
+        left = count - (Link(part, 0).sent if sent is None else sent)
+        return Link(part, raw(pzd) if pzd is not None else left if low <= left <= high else self._usual.pzd)
 
     def answer(self, words: tuple[int, ...]) -> Answer | None:
         """Return the answer to a telegram; None if its parts have other lengths than the link."""
-        link = self.link
+        link = self.link(len(words))
         divided = parts.split(words, link, request=True)
         if not divided.fits:
             self.device.complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
@@ -155,7 +157,7 @@ class _Unit:
 
     def broadcast(self, words: tuple[int, ...]) -> Answer:
         """Take the process data that the masks let count; nobody answers."""
-        if len(words) == parts.MASKS + self.link.pzd:
+        if len(words) == parts.MASKS + self.link(len(words), parts.MASKS).pzd:
             which, bits = words[:2]
             chosen = {at: word for at, word in enumerate(words[parts.MASKS :]) if which >> at + 1 & 1}
             if 0 in chosen:
@@ -212,7 +214,7 @@ class _Unit:
         if task == _SIZE_TASK:
             return _Result(parts.SIZE, (len(elements),))
         if part.index == _ALL and link.pkw == parts.VARIABLE and not width:
-            return self._all_elements(part.parameter, elements, array=array)
+            return self._all_elements(part.parameter, elements, link, array=array)
         element = part.index if -1 not in elements else -1
         if element not in elements or (element == -1 and part.index > 1):
             kind = "no_array" if -1 in elements else "index"
@@ -227,12 +229,12 @@ class _Unit:
             raise Refusal("too_long", f"{point.name} has two words, and the answer has room for one", point)
         return _Result(_RESPONSES[each, array], values, each)
 
-    def _all_elements(self, parameter: int, elements: Mapping[int, Point], *, array: bool) -> _Result:
+    def _all_elements(self, parameter: int, elements: Mapping[int, Point], link: Link, *, array: bool) -> _Result:
         if -1 in elements:
             raise Refusal("no_array", f"parameter {parameter} is no array", elements[-1])
         values = [self._values(parameter, elements[index]) for index in sorted(elements)]
         words = tuple(word for each, _ in values for word in each)
-        if 2 * (len(words) + self.link.pzd) + 8 > _LONGEST - 1:
+        if 2 * (len(words) + link.pzd) + 8 > _LONGEST - 1:
             raise Refusal("too_long", f"the elements of parameter {parameter} are too many for one telegram")
         return _Result(_RESPONSES[values[0][1], array], words, values[0][1])
 
