@@ -155,8 +155,8 @@ CLAIMS = {
     },
     "snapshot": {
         "hitachi_l200 --line tcp://192.168.0.20 --out before.json": Claim(0, "^234 points in before.json\n$"),
-        'siemens_mm4 --variant model=mm440 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --out drive.json': Claim(
-            2, "^$", "could not open port"
+        'siemens_mm4 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --variant interface=rs485 --out drive.json': Claim(
+            0, r"^\d+ points in drive.json\n$", made="drive.json"
         ),
         "pump --out pump.json": Claim(0, "^234 points", made="pump.json"),
     },
@@ -317,7 +317,7 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with (
         simulated("hitachi_l200", values=values) as on_tcp,
         simulated("hitachi_l200", values=values, unit=3, on="serial") as on_serial,
-        simulated("siemens_mm4", values={"maximum_frequency": 50}) as mm4,
+        simulated("siemens_mm4", values={"maximum_frequency": 50, "uss_pkw_length_index_0": 4}) as mm4,
         simulated("woodward_mpu2s"),
     ):
         places = {

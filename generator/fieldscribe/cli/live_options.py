@@ -18,6 +18,7 @@ from fieldscribe.cli.terminal import FINDINGS, USAGE
 from fieldscribe.live.connection import Connection, advice
 from fieldscribe.live.lines import LineAddress, read_line
 from fieldscribe.live.project import NAME, Project, Station, read_project
+from fieldscribe.live.readings import in_words
 from fieldscribe.model import Device
 from fieldscribe.report import visible
 from fieldscribe.text import shortened
@@ -135,8 +136,7 @@ def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connect
             yield connection, work
     except FieldscribeError as error:
         hint = advice(error)
-        message = str(error).replace("pass it when the device is made", "give --variant")
-        message += f"; {work.state()}" if work.left else ""
+        message = in_words(error) + (f"; {work.state()}" if work.left else "")
         raise StopError(message, hint, USAGE if hint else FINDINGS) from error
     except KeyboardInterrupt:
         print(f"\nfieldscribe: interrupted; {work.state()}", file=sys.stderr)

@@ -14,7 +14,7 @@ from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
   fieldscribe snapshot hitachi_l200 --line tcp://192.168.0.20 --out before.json
-  fieldscribe snapshot siemens_mm4 --variant model=mm440 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --out drive.json
+  fieldscribe snapshot siemens_mm4 --line "uss:///dev/ttyUSB0?pkw=4&pzd=2" --variant interface=rs485 --out drive.json
   fieldscribe snapshot pump --out pump.json   (a station of fieldscribe.toml)
 
 `compare` shows what differs from another snapshot or from the manual's defaults, `restore` writes the settings back

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.model import Device
+from fieldscribe.model import Device, Point
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
 
 GOOD = ("ok", "special")
 """The states of points that hold something; all others are errors."""
+
+
+_NOT_THERE = ("no_access", "bad_link", "behind_end")
+"""The states of points that a device lacks, or its link does not carry."""
 
 
 class Reading(NamedTuple):
@@ -43,22 +48,35 @@ class Reading(NamedTuple):
         return self._asdict()
 
 
-def chosen(model: Device, names: list[str]) -> str | list[str]:
-    """Return what `read_many` takes: the one group that is named, or the points of all that is named.
+class Choice(NamedTuple):
+    """The points to read, by their names in code, and the names of those that only a group brought."""
 
-    Raises UnclearError.
-    """
+    items: list[str]
+    by_group: frozenset[str]
+
+
+def chosen(model: Device, names: list[str]) -> Choice:
+    """Return the points that are named, by themselves or by their group. Raises UnclearError."""
     groups = {group.name for group in model.groups} - {point.item for point in model.points}
-    if len(names) == 1 and names[0] in groups:
-        return names[0]
     items: dict[str, None] = {}
+    by_group: set[str] = set()
     for name in names:
-        if name in groups:
-            inside = [point for point in model.points if point.group == name]
-            items.update(dict.fromkeys(point.item for point in inside if point.readable and point.generated))
-        else:
+        inside = [point for point in model.points if point.group == name and _may_be_read(model, point)]
+        if name not in groups:
             items[_point(model, name, groups)] = None
-    return list(items)
+        elif not inside:
+            raise UnclearError(f"no point of the group {name} can be read", "")
+        else:
+            by_group.update(point.name for point in inside if point.item not in items)
+            items.update(dict.fromkeys(point.item for point in inside))
+    return Choice(list(items), frozenset(by_group))
+
+
+def _may_be_read(model: Device, point: Point) -> bool:
+    """Return True if a point is read with its group: one that only a variant has needs that to be chosen."""
+    variant = point.variant
+    is_there = variant is None or model.variants[variant.axis] == (variant.value,)
+    return is_there and point.readable and point.generated and not absent(point.when, model.variants)
 
 
 def _point(model: Device, name: str, groups: set[str]) -> str:
@@ -74,6 +92,11 @@ def _point(model: Device, name: str, groups: set[str]) -> str:
     return point.item
 
 
+def in_words(error: object) -> str:
+    """Return an error of the runtime as the command line says it: variants are an option there."""
+    return str(error).replace("pass it when the device is made", "give --variant")
+
+
 class Reader:
     """Reads points of one device again and again, and says what they hold as `decode` does."""
 
@@ -82,14 +105,15 @@ class Reader:
         self._points = {point.item: point for point in model.points}
         self._meanings: dict[str, Meanings] = {}
 
-    def read(self, what: str | list[str]) -> list[Reading]:
-        """Read a group or points with as few requests as the device allows.
+    def read(self, choice: Choice) -> list[Reading]:
+        """Read points with as few requests as the device allows; what a group has and this device not is left out.
 
         Raises FieldscribeError for a line that loses all.
         """
-        values = self._device.read_many(what, errors="return")
-        rows = self._device.rows(values)
-        return [Reading(**row, text=self._text(row, value)) for row, value in zip(rows, values.values(), strict=True)]
+        values = self._device.read_many(choice.items, errors="return")
+        rows = zip(self._device.rows(values), values.values(), strict=True)
+        readings = [Reading(**row, text=self._text(row, value)) for row, value in rows]
+        return [one for one in readings if one.name not in choice.by_group or one.status not in _NOT_THERE]
 
     def _text(self, row: dict[str, Any], value: Any) -> str:
         """Return a value with its unit; of one whose scale other points decide, as many digits as its number has."""
@@ -98,7 +122,7 @@ class Reader:
             if point is not None and not point.generated:
                 return f"documented only: {point.reason or 'the manual leaves it open'}"
             label = f"{row['code']} {row['name']}" if row["code"] else row["name"]
-            return str(row["detail"]).removeprefix(f"{label}: ")
+            return in_words(row["detail"]).removeprefix(f"{label}: ")
         facts = self._device.point(row["name"]).facts
         if row["raw"] is None and not isinstance(value, (int, float)):
             return str(row["value"])

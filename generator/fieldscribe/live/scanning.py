@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.live.connection import Connection
-from fieldscribe.live.readings import GOOD, Reader
+from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
@@ -74,7 +74,7 @@ class Scanner:
         found = device.identify() if self._model.identifications else {}
         name = self._model.id if self._model.identifications else ""
         variants = [f"{axis}={value}" for axis, value in found.items()]
-        readings = Reader(self._model, device).read(self._points) if not name else []
+        readings = Reader(self._model, device).read(Choice(self._points, frozenset())) if not name else []
         for reading in readings:
             if reading.status not in GOOD:
                 return f"{reading.label}: {reading.text}"

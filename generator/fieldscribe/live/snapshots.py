@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.arithmetic import codec
+from fieldscribe.live.readings import in_words
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import use_python_runtime
@@ -99,7 +100,7 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
         values = device.read_many(group, errors="return")
         for row, value in zip(device.rows(values), values.values(), strict=True):
             if isinstance(value, FieldscribeError) and not isinstance(value, CodecError):
-                missing[row["name"]] = row["detail"]
+                missing[row["name"]] = in_words(row["detail"])
                 continue
             handle: Any = device.point(row["name"])
             raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]
