@@ -82,6 +82,19 @@ class Place(Record):
         """How many words or bits a request for it covers."""
         return max(self.addresses) - min(self.addresses) + 1
 
+    @property
+    def is_scattered(self) -> bool:
+        """True if words of others lie between its own."""
+        return self.span > len(self.addresses) > 1
+
+    @property
+    def runs(self) -> list[Place]:
+        """Its words as places that have no others between them, from the lowest address on."""
+        addresses = sorted(self.addresses)
+        starts = [at for at, address in enumerate(addresses) if not at or address - 1 != addresses[at - 1]]
+        ends = (*starts[1:], len(addresses))
+        return [self.replaced(addresses=tuple(addresses[at:end])) for at, end in zip(starts, ends, strict=True)]
+
     def overlaps(self, other: Place) -> bool:
         """Return True if some word or bit belongs to both."""
         same = (self.area, self.telegram) == (other.area, other.telegram)

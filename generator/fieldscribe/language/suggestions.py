@@ -188,7 +188,6 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("decimals", r"[-+]?[0-9]*\.([0-9]*?)0*", _decimals),
     ("default", r"[-+]?[0-9]+\.[0-9]+", r"it is a raw number; a value in the unit is `default_in_units: \g<0>`"),
     ("source", r"[^\[\]{}]{1,60}", 'write `source: {document: \u2026, section: "\\g<0>"}`'),
-    ("at", rf"\[({_PLAIN}).*\]", r"a point of several words stands once, at its first: write `at: \1`"),
     ("at", rf"\{{number: ({_PLAIN})\}}", r"{key}: \1"),
     (
         "at",

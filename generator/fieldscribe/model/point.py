@@ -62,6 +62,11 @@ class Place:
     signal: tuple[int, bool] | None = None
 
     @property
+    def is_scattered(self) -> bool:
+        """Return True if words of other points lie between its own, so that no request of its words alone reads it."""
+        return len(self.addresses) > 1 and max(self.addresses) - min(self.addresses) >= len(self.addresses)
+
+    @property
     def bit(self) -> int | None:
         """Return the first bit of a signal in its message; None for other points."""
         return None if self.signal is None else self.signal[0]

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError, names
-from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Message, Place
@@ -22,6 +22,7 @@ from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.telegrams import KEY_OF, SIGNAL, SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.resolve.word_contents import layout_of
+from fieldscribe.text import counted
 from fieldscribe.wording.exact import number_text
 
 WIRE = "wire"
@@ -130,9 +131,13 @@ class Places:
         if last is None or raw is None:
             return NOWHERE
         text = encoding.type == "text"
+        ordered = text or isinstance(raw, Seq)
         try:
-            words = self._text_words(facts, raw, last, key) if text else self._words(facts, encoding, raw, key)
-            for address in (words[0], words[-1]):
+            if isinstance(raw, Seq):
+                words = self._listed(facts, encoding, raw, key)
+            else:
+                words = self._text_words(facts, raw, last, key) if text else self._words(facts, encoding, raw, key)
+            for address in (words[0], words[-1]) if text else words:
                 if not 0 <= address <= last:
                     raise _outside(facts, key, address, last, single=address == words[0])
         except FactError as error:
@@ -141,7 +146,7 @@ class Places:
         if not text:
             self._check_parted(facts, words)
         printed = words[0] if text else min(words)  # of a text the word with the first characters, else the lowest
-        downwards = not text and low_first(facts, "words", self._order, encoding.type)
+        downwards = not ordered and low_first(facts, "words", self._order, encoding.type)
         return Place(words[::-1] if downwards else words, self.references(facts, printed))
 
     def _signal(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
@@ -182,6 +187,20 @@ class Places:
         """Return the words of a number in ascending order. Raises FactError."""
         first = self._address(facts, raw, key)
         return tuple(range(first, first + self._count(facts, encoding)))
+
+    def _listed(self, facts: PointFacts, encoding: Encoding, raw: Seq, key: str) -> tuple[int, ...]:
+        """Return the words of a number by their addresses, the high part first. Raises FactError."""
+        words, span = tuple([self._address(facts, item, key) for item in raw]), facts.span(key)
+        count = 0 if encoding.type == "text" or encoding.space in KEY_OF else self._count(facts, encoding)
+        if facts.untyped is not None or len(set(words)) != count or len(words) != count:
+            message = f"these are {counted(len(set(words)), 'word')}, and `{facts.name}` has {count}"
+            message = message if count else "a list of words is for numbers that are read by address"
+            raise FactError("bad-number", message, span, "name each word of the number once, the high part first")
+        if Place(words, {}).is_scattered and "w" in self.access(facts, encoding.space):
+            message = f"no request writes the words of `{facts.name}`, which are not neighbours, alone"
+            hint = "write `access: r`; to write them, describe each word as a point"
+            raise FactError("wrong-choice", message, span, hint)
+        return words
 
     def _check_parted(self, facts: PointFacts, words: tuple[int, ...]) -> None:
         """Report a number of more than two words that comes in several frames: old and new words could mix."""

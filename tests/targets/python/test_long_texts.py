@@ -48,3 +48,19 @@ def test_what_is_no_unicode_is_malformed(package: Any) -> None:
     assert (refused.status, refused.point) == ("malformed", "station_name")
     assert device.read_many(["station_name"], errors="return")["station_name"].status == "malformed"
     assert error(device.station_name.write, "Zürich-Süd").status == "out_of_range"
+
+
+def test_words_that_are_not_neighbours_come_by_several_requests(package: Any) -> None:
+    line = Slave()
+    device = package.KitchenSink(line, 1)
+    for address, word in ((0x1CB0, 1), (0x1CB4, 2), (0x1CC0, 3), (0x1CB8, 4), (0x1CB9, 5)):
+        device.write_at("holding", address, word)
+    line.log.clear()
+    assert device.split_counter.read() == 0x10002
+    assert device.split_total.read() == 0x300040005
+    reads = [(3, 0x1CB0, 1), (3, 0x1CB4, 1), (3, 0x1CB8, 2), (3, 0x1CC0, 1)]
+    assert line.log == reads
+    many = device.read_many(["check_letter", "split_total", "split_counter"])
+    assert (many["split_counter"], many["split_total"]) == (0x10002, 0x300040005)
+    assert sorted(line.log[4:]) == sorted([(3, 0x1C30, 1), *reads])
+    assert not hasattr(device.split_counter, "write")

@@ -150,6 +150,12 @@ class ModbusSession(Session):
         start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
         if len(place.addresses) == 1:
             return (yield from self._ask(read_function(place), start + place.addresses[0], 1))
+        if place.is_scattered:
+            found: dict[int, int] = {}
+            for block in plan(place.runs, self.PROFILE, self._bridges() - self._holes()):
+                items = yield from self._words_steps(block.function, start + block.address, block.count)
+                found.update(enumerate(items, block.address))
+            return tuple([found[address] for address in sorted(place.addresses)])
         words = yield from self._words_steps(read_function(place), start + place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
 
@@ -204,9 +210,10 @@ class ModbusSession(Session):
         if holes := self._holes():
             blocks = [block for block in blocks if holes.isdisjoint(block.places)]
             bridges -= holes
-        rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
-        raws: dict[str, int] = {}
-        for block in (*blocks, *plan(rest, self.PROFILE, bridges)):
+        rest = [one for one in points if not any(block.covers(one.facts.at) for block in blocks)]
+        scattered = [one for one in rest if one.facts.at.is_scattered]
+        raws = yield from super()._gather_steps(scattered, None, refusals)
+        for block in (*blocks, *plan([one.facts.at for one in rest if one not in scattered], self.PROFILE, bridges)):
             inside = [point for point in points if block.covers(point.facts.at)]
             raws.update((yield from self._part_steps(inside, refusals, self._block_steps, block, inside)))
         return raws

@@ -816,7 +816,9 @@ where
         same(vector.raw("raw_min"), P::RAW_MIN)?;
         same(vector.raw("raw_max"), P::RAW_MAX)?;
     }
-    ascending(P::ADDRESS, P::ADDRESSES, P::WORDS, P::SPACE)?;
+    if P::SPAN == P::WORDS {
+        ascending(P::ADDRESS, P::ADDRESSES, P::WORDS, P::SPACE)?;
+    }
     place_of::<P>(vector, references)
 }
 

@@ -59,7 +59,7 @@ def points_fit_into_one_request(subject: Analysis) -> None:
             continue  # any function carries one item
         if not point.generated or "type" in resolved.facts.failed:
             continue
-        functions, span = SPACES[point.space], max(point.addresses) - min(point.addresses) + 1
+        functions, span = SPACES[point.space], point.words
         in_parts = point.text is not None  # clients read and write a long text by several requests
         if point.readable and not in_parts and functions.read in most and span > most[functions.read]:
             too_long.setdefault(("read", functions.read), []).append(resolved)

@@ -89,6 +89,8 @@ def read_text(device: Device, point: Point) -> str:
         return ""
     function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, FAMILY.spaces[point.space])}"
+    if point.place.is_scattered:
+        return f"{how}, which are not neighbours: in several requests"
     if parts := _in_parts(device, point, function, count):
         return how + parts
     return how if point.base else how + _example(device, function, min(point.addresses), count, ())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import CITED, DEVICE, FACTS, GROUP, MEMBER, POINT, POINTS, SET, USE, VARIANT
-from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, TITLE
+from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, PRINTED_NUMBER, TITLE
 from fieldscribe.schema_types import BOOLEAN, NOTHING, YES_NO, Items, Key, Places, Shape, Text, Whole, by, one_of
 
 _TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
@@ -25,11 +25,13 @@ WHICH = (
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
-        "The address on the wire. For a text: its words in reading order (`739..732`). In a record: counted from "
-        "`base`. In a group with `addressing`: the `number` of its rule. ~ if the manual prints none.",
-        ["1028h", 4136, "739..732", "base + 6"],
+        "The address on the wire. For a text: its words in reading order (`739..732`); of words that are not "
+        "neighbours: all, the high part first. In a record: counted from `base`. In a group with `addressing`: the "
+        "`number` of its rule. ~ if the manual prints none.",
+        ["1028h", 4136, "739..732", "base + 6", [604, 700]],
         Whole(),
         Text(200),
+        Items(PRINTED_NUMBER, 1),
         NOTHING,
         identity=True,
     ),

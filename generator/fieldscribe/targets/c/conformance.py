@@ -192,7 +192,7 @@ def _place_cases(view: PointView) -> Iterator[str]:
     yield from (f"{case}({view.macro})" for case, fact in facts.items() if fact is not None)
     calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
     calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
-    if point.text is not None:
+    if point.text is not None or point.place.is_scattered:
         yield f"PLACE_OF_TEXT({view.macro}, {view.function}, {' '.join(calls)})"
     elif addresses and calls:
         words = [f"FIELDSCRIBE_PLACED({view.macro}, {address - min(addresses)}U)" for address in addresses]

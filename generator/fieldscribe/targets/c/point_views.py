@@ -105,7 +105,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
     symbols += [("_check", plain)] * (point.writable and view.shape != "text")
     symbols += [("_to_words", plain), ("_from_words", plain)] * has_words(point)
     symbols += [("_extract", plain), ("_insert", plain)] * (point.bits is not None)
-    symbols += [("_addresses", "OBJECT")] * (view.shape == "text")
+    symbols += [("_addresses", "OBJECT")] * (view.shape == "text" or point.place.is_scattered)
     symbols += [(f"_{flag.name}", plain) for flag in point.flags if flag.width > 1]
     symbols += [(tail, plain) for tail in FUNCTIONS] * (view.special is not None)
     return [(view.function + tail, sort) for tail, sort in symbols]
@@ -113,7 +113,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
 
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield the declarations and rows of a point's arrays: the words of a text, or ranges that no earlier point has."""
-    if point.text is not None:
+    if point.text is not None or point.place.is_scattered:
         rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield f"uint16_t {name}_addresses[{point.words}]", tuple(rows)
     elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):

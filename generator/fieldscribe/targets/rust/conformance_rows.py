@@ -182,7 +182,8 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
 
 def _has_place(point: Point) -> bool:
     """Return True if a single address does not say where the point is: a text, an index or a telegram."""
-    return point.text is not None or point.index is not None or point.telegram is not None
+    listed = point.text is not None or point.place.is_scattered
+    return listed or point.index is not None or point.telegram is not None
 
 
 def _has_words(point: Point) -> bool:

@@ -167,7 +167,8 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         )
         if elsewhere is not None:
             lines.add("write_address", min(elsewhere))
-        if point.index is not None or terms.telegram is not None or shape.text is not None:
+        listed = shape.text is not None or place.is_scattered
+        if point.index is not None or terms.telegram is not None or listed:
             lines.add("place", place.addresses, point.index, terms.telegram)
         if terms.unit.symbol:
             lines.add("symbol", terms.unit.symbol)

@@ -417,7 +417,7 @@ macro_rules! client {
             /// The words of a point as data, in the order of their addresses.
             $($async)? fn words_of(&mut self, point: &PointFacts) -> Result<[u16; 4], ClientError<T::Error>> {
                 let (function, mut words) = (read_function(point.space), [0; 4]);
-                let mut request = Request::new(self.unit.number, function, point.address, point.words)
+                let mut request = Request::new(self.unit.number, function, point.address, point.span())
                     .counted_from(point.base);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
                 self.unit.copy(&request, &mut words);

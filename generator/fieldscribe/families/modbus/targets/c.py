@@ -195,7 +195,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     read = read if profile.most.get(read, 0) >= point.words else 0
     if profile.most.get(write or 0, 0) < point.words or (point.bits is not None and not read):
         write = 0
-    if not read and not write:
+    if point.place.is_scattered or (not read and not write):
         return None
     name, text = f"{view.function}_frame", point.text is not None
     address = view.fields.address

@@ -90,6 +90,8 @@ pub trait Point: Sized {
     const BASE: &'static str = "";
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
+    /// How many items the request has that reads the point; of words that are not neighbours more than any request has.
+    const SPAN: u16 = span(Self::ADDRESSES, Self::WORDS);
     /// The (lowest) address where the point is written, which mostly is where it is read.
     const WRITE_ADDRESS: u16 = Self::ADDRESS;
     /// The index beside the address, if the point is an element of an array.
@@ -428,6 +430,22 @@ pub trait CountWritable: Writable {
         Self::With: NeedsNothing,
     {
         Self::encode_count_with(count, NeedsNothing::nothing())
+    }
+}
+
+/// How many items a request for these addresses has: the words, or if others lie between them more than any has.
+pub(crate) const fn span(mut addresses: &[u16], words: u16) -> u16 {
+    let (mut low, mut high, scattered) = (u16::MAX, 0, u16::MAX);
+    let is_single = addresses.len() == 1;
+    while let [address, rest @ ..] = addresses {
+        low = if *address < low { *address } else { low };
+        high = if *address > high { *address } else { high };
+        addresses = rest;
+    }
+    if is_single || high.saturating_sub(low) < words {
+        words
+    } else {
+        scattered
     }
 }
 

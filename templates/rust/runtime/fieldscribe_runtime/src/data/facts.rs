@@ -3,7 +3,7 @@
 
 use core::fmt;
 
-use crate::point::{joined_in_order, split};
+use crate::point::{joined_in_order, span, split};
 use crate::{Access, Code, Error, Point, Raw, Space};
 
 use super::{DataScale, Needs};
@@ -88,6 +88,12 @@ pub struct Writing {
 }
 
 impl PointFacts {
+    /// How many items the request has that reads the point: [`Point::SPAN`].
+    #[must_use]
+    pub const fn span(&self) -> u16 {
+        span(self.addresses, self.words)
+    }
+
     /// The facts that are constants of the point; [`point!`](crate::point) adds the others.
     #[must_use]
     pub const fn of<P: Point>() -> Self {

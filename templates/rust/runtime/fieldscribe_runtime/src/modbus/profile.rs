@@ -212,7 +212,7 @@ impl<D> Block<D> {
     pub const fn of(point: PointInfo<D>) -> Self {
         let facts = point.facts;
         let function = read_function(facts.space);
-        Self::new(facts.space, function, facts.address, facts.words).counted_from(facts.base)
+        Self::new(facts.space, function, facts.address, facts.span()).counted_from(facts.base)
     }
 
     /// Whether the block brings the point.
@@ -221,7 +221,7 @@ impl<D> Block<D> {
     where
         D: Accepts<P::Device>,
     {
-        self.covers(P::SPACE, P::BASE, P::ADDRESS, P::WORDS)
+        self.covers(P::SPACE, P::BASE, P::ADDRESS, P::SPAN)
     }
 
     /// Whether the block brings the point as data.
@@ -231,7 +231,7 @@ impl<D> Block<D> {
         D: Accepts<P>,
     {
         let facts = point.facts;
-        facts.access.reads() && self.covers(facts.space, facts.base, facts.address, facts.words)
+        facts.access.reads() && self.covers(facts.space, facts.base, facts.address, facts.span())
     }
 
     fn covers(&self, space: Space, base: &str, address: u16, words: u16) -> bool {

@@ -67,7 +67,7 @@ impl<D> Reply<'_, D> {
         };
         let is_bit = is_of_bits(read_function(P::SPACE));
         let offset = self.offset(P::BASE, address);
-        let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
+        let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::SPAN)?));
         let items = places.map(|places| places.map_while(|place| self.item_of(is_bit, place)));
         let raw = items.and_then(|items| P::from_received(items).ok());
         raw.ok_or(Error::NotBrought(Some(P::NAME)))
@@ -86,7 +86,7 @@ impl<D> Reply<'_, D> {
             return Err(Error::WrongSpace(Some(facts.name)));
         }
         let offset = self.offset(facts.base, facts.address);
-        let places = offset.and_then(|offset| Some(offset..offset.checked_add(facts.words)?));
+        let places = offset.and_then(|offset| Some(offset..offset.checked_add(facts.span())?));
         let items = places.map(|places| places.map_while(|place| self.item(place)));
         let raw = items.and_then(|items| facts.raw_from_words(items).ok());
         raw.ok_or(Error::NotBrought(Some(facts.name)))

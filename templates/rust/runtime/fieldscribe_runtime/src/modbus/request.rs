@@ -64,11 +64,11 @@ impl Request<'static> {
 
     /// A request that reads a point.
     ///
-    /// No request reads a text that is longer than the profile allows: read its words by several
-    /// [`Block`]s; [`Point::from_received`] takes the items of all their replies.
+    /// No request reads a text that is longer than the profile allows, or words that are not neighbours: read them by
+    /// several [`Block`]s; [`Point::from_received`] takes the items of all their replies.
     #[must_use]
     pub fn read<P: Readable>(unit: u8) -> Self {
-        let request = Self::new(unit, read_function(P::SPACE), P::ADDRESS, P::WORDS);
+        let request = Self::new(unit, read_function(P::SPACE), P::ADDRESS, P::SPAN);
         request.of::<P>()
     }
 
