@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 
 import pytest
+from fieldscribe.cli import live_options, monitor
 from fieldscribe.live.devices import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
@@ -263,3 +264,25 @@ def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:
     kind = device_class(meter.device.device)
     places = [kind.POINTS[point.item].facts.at for point in readable]
     assert meter.requests == 5 * len(plan(places, kind.PROFILE))  # type: ignore[attr-defined]
+
+
+def test_a_terminal_shows_a_table_in_its_place(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(monitor, "is_coloured", lambda _stream: True)
+    monkeypatch.setattr(monitor, "terminal_size", lambda: (40, 4))
+    monkeypatch.setattr("time.sleep", lambda _seconds: drive.values.update(base_frequency=41))
+    done = on_line("monitor", "hitachi_l200", "A020", "A061", "A062", "--count", "2", "--every", "0")
+    drive.values["base_frequency"] = 50
+    first, second = done.out.split("\x1b[3F\x1b[J")
+    assert re.match(r"A020 base_frequency +50 Hz\n.*\n.*, 1 more below the screen; Ctrl-C ends", first)
+    assert re.match(r"A020 base_frequency +41 Hz\nA061", second)
+
+
+def test_work_that_takes_long_shows_how_far_it_is(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
+    progress = live_options.Progress()
+    progress.show("early")
+    progress._next = float("-inf")
+    progress.show("unit 3 of 9")
+    assert capsys.readouterr().err == "unit 3 of 9\n"

@@ -39,11 +39,12 @@ def terminal_width() -> int:
 
 
 def terminal_size() -> tuple[int, int]:
-    """Return the columns and lines of the terminal, 80 by 24 if there is none."""
+    """Return the columns and lines of the terminal, 80 by 24 if there is none, or it does not tell."""
     try:
-        return os.get_terminal_size(sys.stdout.fileno())
+        columns, lines = os.get_terminal_size(sys.stdout.fileno())
     except (OSError, ValueError):
-        return 80, 24
+        columns = lines = 0
+    return columns or 80, lines or 24
 
 
 def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
