@@ -9,6 +9,7 @@ import pytest
 from fieldscribe.families.modbus.frames import crc16, frame
 from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.line import Line, Stream
 
 
@@ -79,6 +80,8 @@ def test_bytes_are_cut_into_requests_however_they_come() -> None:
             parted += [each.data for each in stream.received(bytes_[at : at + size])]
             at += size
         assert parted == whole
+        behind = Stream(line_of("hitachi_l200", framing=framing))
+        assert len(behind.received(b"\x01\x03\xff" + frame(framing, 1, 1, requests[0]))) == 1
         noise = Stream(line_of("hitachi_l200", framing=framing))
         for _ in range(200):
             noise.received(rnd.randbytes(rnd.randint(1, 30)))
@@ -178,8 +181,9 @@ def test_a_strict_device_counts_cyclic_writes_to_memory_that_wears() -> None:
 
 
 def test_a_strict_device_keeps_the_pause_between_frames() -> None:
-    line = line_of("hitachi_l200", strict=True)
-    line.core.character = 11 / 9600  # type: ignore[attr-defined]  # of this family
+    devices = [{"device": "hitachi_l200", "behaviour": False}]
+    settings = {"serial": "", "speed": 9600, "devices": devices}
+    (line,) = Bench({"lines": [settings], "strict": True, "time_scale": 0}).lines
     clock = device_of(line).clock
     for pause in (1.0, 0.001, 0.5):
         clock.advance(pause)
@@ -214,3 +218,12 @@ def test_the_first_request_of_a_client_decides_the_framing() -> None:
         assert stream.received(request[:5]) == []
         (first,), (second,) = stream.received(request[5:]), stream.received(request)
         assert first.data == second.data == frame(framing, 1, 3, bytes.fromhex("030201f4"))
+
+
+def test_faults_come_so_many_times_and_with_their_chance() -> None:
+    line = line_of("hitachi_l200")
+    line.faults.waiting.extend(map(Fault.of, ("exception x2", "silent x1", "function 25%")))
+    said_by = [said(line, "03 1028 0001")[:2] for _ in range(400)]
+    assert said_by[:3] == ["83", "83", ""]
+    assert 60 < said_by.count("43") < 140
+    assert [fault.kind for fault in line.faults.waiting] == ["function"]
