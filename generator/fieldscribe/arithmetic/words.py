@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from struct import unpack_from
 
 from fieldscribe.arithmetic.codings import coded_number, coded_pattern
@@ -69,6 +70,22 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
     if point.coding:
         return coded_number(pattern, point.width, point.coding)
     return number_of(pattern, point.width, signed=point.info.signed)
+
+
+def reader_of(point: Point) -> Callable[[Sequence[int]], int]:
+    """Return the function that `raw_of` is for this point; it is made once and then quicker."""
+    plain = point.text is None and point.bits is None and not (point.coding or point.swapped)
+    if plain and not point.info.signed and point.width == 16 * point.words and point.words in (1, 2):
+        return _first if point.words == 1 else _first_two
+    return partial(raw_of, point)
+
+
+def _first(words: Sequence[int]) -> int:
+    return words[0]
+
+
+def _first_two(words: Sequence[int]) -> int:
+    return words[0] << 16 | words[1]
 
 
 def pattern_of(point: Point, raw: int) -> int:

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import Any, NamedTuple
 
-from fieldscribe.arithmetic.words import raw_of, split
+from fieldscribe.arithmetic.words import raw_of, reader_of, split
 from fieldscribe.conversation.bases import advice
-from fieldscribe.conversation.decode_state import PARAMETER, Base, DecodeState, named_item, without_variants
+from fieldscribe.conversation.decode_state import (
+    PARAMETER,
+    Base,
+    DecodeState,
+    PointFormatter,
+    named_item,
+    without_variants,
+)
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import Element, Span, Word
@@ -18,12 +26,16 @@ from fieldscribe.wording import address_text, fixed_text, title_text
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import element_text, hex_words, span_text, word_text
 
+_MOST_PLANS = 1024
+"""For how many spans it is kept how their items are made."""
 _MOST_WORDS = 16
 """How many words without a point are printed."""
 
 
 def span_items(state: DecodeState, span: Span) -> list[Item]:
     """Return the items of consecutive addresses; neighbours without a point are one item."""
+    if span.learned and not span.written and len(span.words or ()) >= span.count:
+        return _items_read(state, span)
     here = _SpanItems(state, span)
     if step := here.step_item():
         return [step]
@@ -40,30 +52,87 @@ def span_items(state: DecodeState, span: Span) -> list[Item]:
     return items + here.unknown_items(unknown)
 
 
+class _Step(NamedTuple):
+    """One step of making items: a whole point, or `at`, an address or several without a point."""
+
+    formatter: PointFormatter | None
+    read: Callable[[Sequence[int]], int]
+    places: tuple[int, ...]
+    at: tuple[int, ...] = ()
+
+
+def _items_read(state: DecodeState, span: Span) -> list[Item]:
+    """Return the items of a span whose values came from the device: a plan is made once for its addresses."""
+    plans, key = state.directory.plans, ((span.space, span.address, 0), span.count)
+    if key not in plans:
+        if len(plans) >= _MOST_PLANS:
+            plans.clear()
+        plans[key] = _plan(state, span)
+    taught, steps = plans[key]
+    words, here = span.words or (), None
+    if taught:
+        state.learn([(point, read([words[place] for place in places])) for point, read, places in taught])
+    settings, items = state.settings, []
+    for formatter, read, places, at in steps:
+        if formatter is not None:
+            items.append(formatter.item(read([words[place] for place in places]), settings))
+        else:
+            here = here or _SpanItems(state, span, taught=False)
+            items += (here.items_at(at[0]) if len(at) == 1 else None) or here.unknown_items(at)
+    return items
+
+
+def _plan(state: DecodeState, span: Span) -> tuple[list[tuple[Point, Any, tuple[int, ...]]], list[_Step]]:
+    """Return the points of a span that are settings for others, and the steps to its items."""
+    here, directory = _SpanItems(state, span, taught=False), state.directory
+    taught, steps, unknown = [], list[_Step](), list[int]()
+    for at in here.addresses:
+        places = directory.places(span.space, at)
+        if unknown and places:
+            steps.append(_Step(None, len, (), tuple(unknown)))
+            unknown.clear()
+        if not places:
+            unknown.append(at)
+        beginning = [(point, place) for point, place in places if at == here.inside(place)[0]]
+        for point, place in beginning:
+            offsets = tuple(address - span.address for address in place.addresses)
+            if here.is_whole(point, place) and directory.teaches(point):
+                taught.append((point, reader_of(point), offsets))
+        if all(here.is_whole(point, place) for point, place in beginning):
+            for point, place in beginning:
+                base = (span.space, here.inside(place)[0], len(place.addresses))
+                offsets = tuple(address - span.address for address in place.addresses)
+                steps.append(_Step(state.formatter(point, base), reader_of(point), offsets))
+        elif beginning:
+            steps.append(_Step(None, len, (), (at,)))
+    return taught, steps + ([_Step(None, len, (), tuple(unknown))] if unknown else [])
+
+
 class _SpanItems:
     """Makes the items of one span; its points are settings for each other."""
 
-    def __init__(self, state: DecodeState, span: Span) -> None:
+    def __init__(self, state: DecodeState, span: Span, *, taught: bool = True) -> None:
+        """`taught`: what the points of the span say of each other is not known yet."""
         self._state, self._device, self._directory = state, state.device, state.directory
         self._space, self._start, self._written = span.space, span.address, span.written
         self._words = (span.words or ())[: span.count]
         self.addresses = range(span.address, span.address + span.count)
         self._carried = self.addresses[: len(self._words)]
-        taught = [
+        raws = [
             (point, self._raw(point, place))
-            for at in self._carried
+            for at in (self._carried if taught else ())
             for point, place in self._directory.places(self._space, at)
-            if at == place.addresses[0] and self._is_whole(point, place) and self._directory.teaches(point)
+            if at == place.addresses[0] and self.is_whole(point, place) and self._directory.teaches(point)
         ]
-        if taught:
+        if raws:
             # the points of one frame are settings for each other; what only they tell is not kept
             self._state = state if span.learned else replace(state, settings=dict(state.settings), changed=set())
-            self._state.learn(taught)
+            self._state.learn(raws)
 
     def items_at(self, at: int) -> list[Item] | None:
         """Return the items that begin at an address of the span; None if nothing has this address."""
         places = self._directory.places(self._space, at)
-        items = [self._point(point, place) for point, place in places if at == self._inside(place)[0]]
+        items = [self._point(point, place) for point, place in places if at == self.inside(place)[0]]
         for command in self._device.commands if self._written else ():
             if (command.space, command.address) == (self._space, at):
                 return [*items, self._command(command)]
@@ -101,7 +170,7 @@ class _SpanItems:
             text += f" (carries {' '.join(map(form.format, words[:_MOST_WORDS]))}{more})"
         return [Item(self._space, low, len(addresses), text, findings=(closed,) if closed else ())]
 
-    def _inside(self, place: Place) -> list[int]:
+    def inside(self, place: Place) -> list[int]:
         """Return the addresses of a place in the span, in their order on the wire."""
         return sorted(at for at in place.addresses if at in self.addresses)
 
@@ -109,20 +178,20 @@ class _SpanItems:
         """Return True if the point is read here, or written here, as the frame does."""
         return place is (point.written if self._written else point.place)
 
-    def _is_whole(self, point: Point, place: Place) -> bool:
+    def is_whole(self, point: Point, place: Place) -> bool:
         return self._is_place(point, place) and all(at in self._carried for at in place.addresses)
 
     def _raw(self, point: Point, place: Place) -> int:
         return raw_of(point, [self._words[at - self._start] for at in place.addresses])
 
     def _point(self, point: Point, place: Place) -> Item:
-        inside = self._inside(place)
+        inside = self.inside(place)
         base = (self._space, inside[0], len(inside))
         if not self._is_place(point, place):
             right = point.written if self._written else point.place
             verb = "written" if self._written else "read"
             return named_item(point, base, finding=f"it is {verb} at {address_text(min(right.addresses))}")
-        if self._is_whole(point, place):
+        if self.is_whole(point, place):
             return self._state.value(point, base, self._raw(point, place), written=self._written)
         finding = "" if self._carried and not self._written else absence(self._device, point)
         text = ""

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, partial
+from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings, setting_of
 from fieldscribe.conditions import absent
@@ -57,6 +58,8 @@ class Directory:
         self._settings = {name for name in rules if len(places.get(name, ())) == 1}
         named = ((point.telegram or "", point) for point in device.points if point.addresses)
         self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
+        self.plans: dict[tuple[Where, int], Any] = {}
+        """How items of whole spans and pieces are made, by what they span; those who make them keep it here."""
         self._derived: dict[str, list[Point]] = {}
         for point in device.points:
             for name in point.changes_with:
@@ -170,6 +173,8 @@ class DecodeState:
     words: dict[int, int] = field(default_factory=dict)
     incomplete: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
     """By item, the points whose meaning needs settings that are not known yet, with their raw numbers."""
+    version: int = 0
+    """It grows with each change of what later frames rely on."""
     changed: set[str] = field(default_factory=set)
     """The settings that have changed since the incomplete points were last tried."""
 
@@ -181,9 +186,11 @@ class DecodeState:
             if name not in self.given and (before != setting or type(before) is not type(setting)):
                 self.settings[name] = setting
                 self.changed.add(name)
+                self.version += 1
 
     def forget(self, address: int) -> None:
         """Forget the numbers that the device derives from a parameter: the parameter was written."""
+        self.version += 1
         for written in {point.name for point in self.directory.at(PARAMETER, address)}:
             for point in self.directory.derived(written):
                 if point.name not in self.given:

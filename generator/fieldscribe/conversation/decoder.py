@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -32,6 +31,8 @@ _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
 }
 """Each kind of content of a frame, and the function that makes items of it."""
 
+_MOST_KEPT = 1024
+"""How many results are kept for frames that come again."""
 _LOGGED = re.compile(
     r".{0,200}?\bunit \d+(?:"
     r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8})[:h] )?\[?(?P<data>[0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?"
@@ -72,6 +73,8 @@ class StreamDecoder:
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
+        self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int, FrameResult]] = {}
+        """Results by the identity of what they were made of, each with the state at that time and its version."""
         self._state_of_unit = lru_cache(decoded_frame.MOST_STATES)(
             lambda _unit: DecodeState(device, directory, formatters, given, dict(given), doubting)
         )
@@ -97,10 +100,21 @@ class StreamDecoder:
         requests = self._open_requests if requests is None else requests
         decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
         state = self._state_of_unit(decoded.unit)
-        items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         requests.follow(decoded, expecting=expecting)
-        notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, decoded_frame.CutFrame) else ()))
-        return replace(decoded.result, items=items, notes=decoded.result.notes + notes)
+        kept = self._kept.get(id(decoded))
+        if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] == state.version:
+            return kept[3]
+        items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
+        framings = self._framings
+        notes = tuple(self._warnings(decoded))
+        if isinstance(frame, decoded_frame.CutFrame):
+            return decoded.result.complete(items, (*notes, frame.note))
+        result = decoded.result.complete(items, notes)
+        if self._frame_decoder.remembers and framings is self._framings:
+            if len(self._kept) >= _MOST_KEPT:
+                self._kept.clear()
+            self._kept[id(decoded)] = decoded, state, state.version, result
+        return result
 
     def _warnings(self, decoded: decoded_frame.DecodedFrame) -> Iterator[str]:
         """Yield what may be a mistake in a frame: its framing, an address from 1, a misprint of the manual."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 from functools import lru_cache, partial
 
 from fieldscribe import wording
@@ -14,12 +15,12 @@ from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.notations import date_of
 from fieldscribe.arithmetic.texts import text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
-from fieldscribe.conversation.refusals import amount, failure
+from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.model import Device, Entry, Flag, Point, Text
 from fieldscribe.report import visible
 from fieldscribe.text import line
-from fieldscribe.wording.exact import number_text, rounded
+from fieldscribe.wording.exact import exact, number_text, rounded
 
 _MOST_NUMBERS = 64
 """For how many numbers of a flag its texts are cached."""
@@ -45,10 +46,17 @@ class Meanings:
     def __init__(self, device: Device, point: Point) -> None:
         self._device, self._point = device, point
         self._of_names = _naming(point)
+        self._specials, self._unit = point.specials, point.unit.symbol
+        self._arguments, self._display = point.scale_arguments, point.display
+        self._exact = (
+            not point.info.floating and point.most_raw is None and (point.generated or point.scale is not None)
+        )
+        # typed: a special code equals the plain number, and is no quantity
+        self._rule = lru_cache(_MOST_NUMBERS, typed=True)(self._rule_of)
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """Return the meaning of a raw number, where other points hold these settings."""
-        special = self._point.special(raw)
+        special = self._point.special(raw) if self._specials else None
         if special is not None:
             remark = ", no value" if special.no_value else ""
             return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
@@ -67,7 +75,36 @@ class Meanings:
             return bool(error.missing)
         return False
 
+    def _rule_of(self, *values: int | Fraction | None) -> tuple[int, int, int]:
+        """Return (multiply, add, divide): a value is raw * multiply + add, divided by a positive number."""
+        pairs = zip(self._arguments, values, strict=True)
+        settings = {name: value for name, value in pairs if value is not None}
+        ratio, offset = codec.rule_in_force(self._point, settings)
+        sign = 1 if ratio > 0 else -1
+        multiply, divide = offset.denominator * ratio.denominator, offset.denominator * ratio.numerator
+        return sign * multiply, -sign * offset.numerator * ratio.denominator, sign * divide
+
+    def _exact_quantity(self, raw: int, settings: Settings) -> Meaning | None:
+        """Return what `_quantity` returns where that is a short decimal; else None."""
+        try:
+            multiply, add, divide = self._rule(*[settings.get(name) for name in self._arguments])
+        except CodecError:
+            return None
+        number = raw * multiply + add
+        value = exact(number, divide)
+        if "/" in value:
+            return None
+        if self._display is not None:
+            text = rounded(number, divide, self._display)
+        elif is_short(value):
+            text = value
+        else:
+            return None
+        return Meaning(f"{text} {self._unit}" if self._unit else text, value)
+
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
+        if self._exact and (meaning := self._exact_quantity(raw, settings)) is not None:
+            return meaning
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))

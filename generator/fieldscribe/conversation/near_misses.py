@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import number_of, pattern_of, raw_of, words_of
 from fieldscribe.conversation.meanings import Meanings
-from fieldscribe.conversation.refusals import range_fault
+from fieldscribe.conversation.refusals import in_range, range_fault
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label
@@ -29,7 +29,7 @@ def near_misses(device: Device, point: Point, raw: int, settings: Settings, neig
     """Yield the other readings of a number that lie in range."""
     for text, other, number, tested in _readings(point, raw, words_of(point, raw), neighbours):
         limited = other.allowed.intervals or other.allowed.units or (other.enum is not None and other.enum.closed)
-        if limited and not range_fault(device, other, tested, settings):
+        if limited and in_range(other, tested, settings):
             meaning = Meanings(device, other).of(number, settings)
             if meaning.text and not (meaning.missing or meaning.hint):
                 yield line(f"{text} it is {meaning.text}")

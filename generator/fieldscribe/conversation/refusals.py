@@ -29,7 +29,7 @@ def refusal(
     """
     error, settings = why
     if error.status in ("out_of_range", "unknown_value"):
-        return _out_of_range(device, point, value, raw, settings)
+        return _out_of_range(device, point, (value, raw), settings)
     if error.special is not None:
         return _special_code(point, value, raw, error.special)
     message, hint = failure(device, point, error)
@@ -57,8 +57,17 @@ def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> s
         codec.check(point, raw, settings)
     except CodecError as error:
         if error.status in ("out_of_range", "unknown_value"):
-            return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why
+            return _out_of_range(device, point, (_value(point, raw, settings), raw), settings, hinted=False).why
     return ""
+
+
+def in_range(point: Point, raw: int, settings: Settings) -> bool:
+    """Return False if a raw number lies outside the range of its point; True also where limits are not known."""
+    try:
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        return error.status not in ("out_of_range", "unknown_value")
+    return True
 
 
 def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
@@ -97,8 +106,12 @@ def names_text(device: Device, names: Iterable[str]) -> str:
 def amount(number: Fraction) -> str:
     """Return a number as text: exact if that is short, else rounded and marked as rounded."""
     text = number_text(number)
-    short = "/" not in text and ("." not in text or len(text.lstrip("-")) <= _MOST_DIGITS)
-    return text if short or abs(number) >= 10**300 else f"about {float(number):.9g}"
+    return text if is_short(text) or abs(number) >= 10**300 else f"about {float(number):.9g}"
+
+
+def is_short(text: str) -> bool:
+    """Return True if the text of an exact number is short enough to be read."""
+    return "/" not in text and ("." not in text or len(text.lstrip("-")) <= _MOST_DIGITS)
 
 
 def amount_with_unit(point: Point, number: Fraction) -> str:
@@ -128,7 +141,10 @@ def _special_code(point: Point, value: Fraction | None, raw: int, special: Speci
     return _refused(point, "special", why, hint)
 
 
-def _out_of_range(device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings) -> RefusedError:
+def _out_of_range(
+    device: Device, point: Point, number: tuple[Fraction | None, int], settings: Settings, *, hinted: bool = True
+) -> RefusedError:
+    value, raw = number
     if point.enum is not None and all(isinstance(interval.low, int) for interval in point.allowed.intervals):
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         status = "unknown_value" if point.enum.closed else "out_of_range"
@@ -145,7 +161,7 @@ def _out_of_range(device: Device, point: Point, value: Fraction | None, raw: int
     if point.form in ("enum", "flags", "bit") or raw_alone or not span:
         span = f"raw {wording.raw_range_text(point) or f'{point.least}..{point.greatest}'}"
     span = (_range_now(point, settings) if point.limit_arguments else "") or span
-    nearest = _nearest(point, value, raw, settings)
+    nearest = _nearest(point, value, raw, settings) if hinted else ""
     return _refused(point, "out_of_range", f"{given} is outside {span}", nearest)
 
 

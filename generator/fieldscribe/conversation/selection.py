@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
+from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.conditions import absent
@@ -86,8 +87,15 @@ def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearErr
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:
-    """Return the points by the names that rules and limits use."""
-    return {point.name: point for point in device.points}
+    """Return the points by the names that rules and limits use; those of the last device are kept."""
+    if _named[0] is not device.points:
+        _named[:] = device.points, {point.name: point for point in device.points}
+    points: Mapping[str, Point] = _named[1]
+    return points
+
+
+_named: list[Any] = [None, {}]
+"""The points of a device, and the same by name."""
 
 
 def same_meaning(first: Point, second: Point) -> bool:

@@ -178,7 +178,12 @@ def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> li
 
 
 class FrameDecoder(Protocol):
-    """Decodes the frames of a family; `decoder_of(device, options)` of its part `frame_decoder` makes one."""
+    """Decodes the frames of a family; `decoder_of(device, options)` of its part `frame_decoder` makes one.
+
+    `remembers`: it returns the same object for the same bytes after the same request.
+    """
+
+    remembers: bool
 
     def frames(self, texts: Sequence[str]) -> Sequence[Any]:
         """Return the frames in pasted texts. Raises UnclearError."""

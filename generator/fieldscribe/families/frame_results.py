@@ -167,6 +167,14 @@ class FrameResult:
             "notes": list(self.notes),
         }
 
+    def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
+        """Return the same with items, and further notes."""
+        return FrameResult(
+            self.data, self.framing, self.kind, self.unit, self.function, self.summary, items, self.checks,
+            self.faults, self.findings, self.notes + notes if notes else self.notes, self.exception, self.details,
+            self.captured,
+        )  # fmt: skip
+
     @property
     def wrong(self) -> bool:
         """True if the frame has a fault or a finding."""

@@ -36,6 +36,8 @@ _KINDS = {"request": "request", "response": "reply"}
 class CanFrameDecoder:
     """Decodes the frames of one device; keeps the words of telegrams that come in several frames."""
 
+    remembers = False
+
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._identifier = None if can_id is None else read_identifier(can_id)

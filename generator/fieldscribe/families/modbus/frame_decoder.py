@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span, cut_apart
 from fieldscribe.families.frame_results import FrameResult, Item, Options
@@ -25,13 +26,22 @@ from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.text import counted
 from fieldscribe.wording.frames import hex_words, no_answer_text, spaced
 
+_MOST_FRAMES = 1024
+"""How many decoded frames are kept."""
+
 
 class ModbusFrameDecoder:
-    """Decodes the frames of one device; without `framing` each frame is tried as RTU and as TCP."""
+    """Decodes the frames of one device; without `framing` each frame is tried as RTU and as TCP.
+
+    A bus repeats itself, so what was decoded last is kept.
+    """
+
+    remembers = True
 
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
+        self._decoded = lru_cache(_MOST_FRAMES)(self._decode)
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """Return the frames in pasted texts. Raises UnclearError."""
@@ -40,18 +50,21 @@ class ModbusFrameDecoder:
 
     def decode(self, frame: bytes, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
-        unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
         request: Request | None = None if expecting else requests.request()
+        return self._decoded(frame, request, requests.fixed and request is not None, expecting)
+
+    def _decode(self, frame: bytes, request: Request | None, fixed: bool, expecting: bool) -> DecodedFrame:
+        unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
         sound = unwrapped if unwrapped.flaw is None else replace(unwrapped, flaw=None)
-        decoded = self._read(sound, request, fixed=requests.fixed and request is not None)
-        result = decoded.result
-        faults = (*remarks.frame_faults(unwrapped), *result.faults)
+        decoded = self._read(sound, request, fixed=fixed)
+        result, faults = decoded.result, remarks.frame_faults(unwrapped)
+        if not (faults or expecting):
+            return decoded
+        faults = (*faults, *result.faults)
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
             result = replace(result, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
-        checks = remarks.frame_checks(unwrapped)
-        result = replace(result, data=unwrapped.data, checks=checks, faults=faults)
-        return replace(decoded, result=result, stays_open=decoded.request is not None)
+        return replace(decoded, result=replace(result, checks=remarks.frame_checks(unwrapped), faults=faults))
 
     def _read(self, unwrapped: Unwrapped, request: Request | None, *, fixed: bool) -> DecodedFrame:
         pdu = unwrapped.pdu
@@ -63,7 +76,7 @@ class ModbusFrameDecoder:
         if request and reply.status == "ok":
             words = reply.values if request.function in READS else request.values
             contents = _contents(request, _span(request, words, learned=True))
-            return replace(_reply(unwrapped, request, contents, ()), answers=True)
+            return _reply(unwrapped, request, contents, (), answers=True)
         parsed = request_in(unwrapped)
         if isinstance(parsed, Flaw) or fixed:
             return _unmatched_reply(unwrapped, parsed, request, reply.status)
@@ -73,11 +86,12 @@ class ModbusFrameDecoder:
         broadcast = request.unit == self._device.bus.broadcast
         echo = request.function in SINGLE and not broadcast
         kind, text = ("request_or_reply", "request, or the reply that repeats it") if echo else ("request", "request")
-        result = _result(unwrapped, kind, f"{text}, {remarks.span_of_request(request)}")
         findings = tuple(remarks.request_findings(self._device, request))
         notes = (remarks.BROADCAST_NOTE,) if broadcast and not findings else ()
-        result = replace(result, findings=findings, notes=notes)
-        return DecodedFrame(result, _contents(request, _span(request)), request=request, unanswered=broadcast)
+        text = f"{text}, {remarks.span_of_request(request)}"
+        result = _result(unwrapped, kind, text, findings=findings, notes=notes)
+        contents = _contents(request, _span(request))
+        return DecodedFrame(result, contents, request=request, unanswered=broadcast, stays_open=True)
 
     def _exception(self, unwrapped: Unwrapped, request: Request | None, status: str) -> DecodedFrame:
         if len(unwrapped.pdu) != 2:
@@ -166,15 +180,21 @@ def _unmatched_read(unwrapped: Unwrapped, request: Request | None, faults: tuple
         due_text = f"the request asks for {due} ({counted(request.count, 'item')})"
         faults = (f"it brings {counted(len(data), 'byte')}, {due_text}",)
     came = replace(request, count=min(request.count, len(values)))
-    return replace(_reply(unwrapped, came, (_span(came, values[: came.count]),), faults), answers=True)
+    return _reply(unwrapped, came, (_span(came, values[: came.count]),), faults, answers=True)
 
 
 def _reply(
-    unwrapped: Unwrapped, request: Request, contents: tuple[Span | Item, ...], faults: tuple[str, ...]
+    unwrapped: Unwrapped,
+    request: Request,
+    contents: tuple[Span | Item, ...],
+    faults: tuple[str, ...],
+    *,
+    answers: bool = False,
 ) -> DecodedFrame:
     framing, unit = unwrapped.framing, unwrapped.unit
-    text = remarks.reply_text(framing, unit, request)
-    return DecodedFrame(FrameResult(b"", framing, "reply", unit, request.function, text, faults=faults), contents)
+    text, checks = remarks.reply_text(framing, unit, request), remarks.frame_checks(unwrapped)
+    result = FrameResult(unwrapped.data, framing, "reply", unit, request.function, text, (), checks, faults)
+    return DecodedFrame(result, contents, answers=answers)
 
 
 def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
@@ -191,11 +211,14 @@ def _contents(request: Request, span: Span) -> tuple[Span | Item, ...]:
     return (span,)
 
 
-def _result(unwrapped: Unwrapped, kind: str, text: str) -> FrameResult:
+def _result(
+    unwrapped: Unwrapped, kind: str, text: str, *, findings: tuple[str, ...] = (), notes: tuple[str, ...] = ()
+) -> FrameResult:
     function = unwrapped.pdu[0] if unwrapped.pdu else None
     function = function & 0x7F if function is not None and kind == "exception" else function
     summary = remarks.summary(unwrapped.framing, unwrapped.unit, function, text)
-    return FrameResult(b"", unwrapped.framing, kind, unwrapped.unit, function, summary)
+    framing, unit, checks = unwrapped.framing, unwrapped.unit, remarks.frame_checks(unwrapped)
+    return FrameResult(unwrapped.data, framing, kind, unit, function, summary, (), checks, (), findings, notes)
 
 
 def _unreadable(unwrapped: Unwrapped, flaw: Flaw) -> DecodedFrame:
