@@ -13,7 +13,7 @@ from typing import cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, usage_error
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
-from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_rows
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, is_coloured, print_rows
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.families.frame_results import FrameResult, bits_label
 from fieldscribe.model import Device
@@ -162,12 +162,18 @@ class _Printer:
         self._width = max(map(len, labels | {"Checksum"}))
         self._device = device.id
         self._separator = ""
+        self._coloured = is_coloured(sys.stdout)
 
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
         heading = spaced(result.data) if result.captured is None else visible(result.captured.text)
-        sys.stdout.write(self._separator)
-        print_rows(heading, _rows(result), width=self._width)
+        if self._coloured:
+            sys.stdout.write(self._separator)
+            print_rows(heading, _rows(result), width=self._width)
+        else:
+            width = self._width
+            lines = [f"  {label:<{width}}  {text}".rstrip() for label, text in _rows(result)]
+            sys.stdout.write("\n".join([self._separator + heading, *lines, ""]))
         self._separator = "\n"
 
     def end(self, nothing: str) -> None:

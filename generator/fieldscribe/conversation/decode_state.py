@@ -114,7 +114,7 @@ class PointFormatter:
         self._doubting = doubting
         self.needs = point.arguments if written or doubting else point.scale_arguments
         self._head, self._title = f"{label(point)} = ", english_title(point)
-        self._name = point.item
+        self.name, self._code, self._is_text = point.item, point.code, point.text is not None
         self._raw_text = raw_form(point)
         self._absent = absence(device, point) if written else ""
         self._meanings = Meanings(device, point)
@@ -123,6 +123,8 @@ class PointFormatter:
 
     def item(self, raw: int, settings: Settings) -> Item:
         """Return the point with the meaning of its raw number; if it is written, also why the device refuses it."""
+        if not self.needs:
+            return self._cached_item(raw)
         return self._cached_item(raw, *[settings.get(name) for name in self.needs])
 
     def lacks(self, settings: Settings) -> bool:
@@ -134,18 +136,22 @@ class PointFormatter:
         return f"{self._meanings.text(raw, settings)} ({self._raw_text(raw)})"
 
     def _item(self, raw: int, *values: int | Fraction | None) -> Item:
-        settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
+        settings: dict[str, int | Fraction] = {}
+        if values:
+            settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
         point, meaning, number = self._point, self._meanings.of(raw, settings), self._raw_text(raw)
         finding, remark = self._absent, self._absent
         if self._written and not finding:
             finding, unchecked = written_remarks(self._device, point, raw, settings)
             remark = finding or unchecked
-        rest = "; ".join(text for text in (self._title, remark, meaning.hint) if text)
+        rest = self._title
+        if remark or meaning.hint or not rest:
+            rest = "; ".join(text for text in (self._title, remark, meaning.hint) if text)
         text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
         return Item(
-            *self.base, line(self._head + text), self._name, point.code, None if point.text is not None else raw,
+            *self.base, line(self._head + text), self.name, self._code, None if self._is_text else raw,
             meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags, meaning.text,
-            self._doubts(raw, settings, finding),
+            self._doubts(raw, settings, finding) if self._doubting is not None else (),
         )  # fmt: skip
 
     def _doubts(self, raw: int, settings: Settings, finding: str) -> tuple[str, ...]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
-from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.arithmetic.words import raw_of, reader_of
 from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
 from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
@@ -64,30 +65,44 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
     return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}")
 
 
+class _Part(NamedTuple):
+    """A point in the frames of a telegram: `offsets` of its words if one frame brings all of them, else none.
+
+    Without a formatter it is a place without a point.
+    """
+
+    place: int
+    point: Point | None = None
+    formatter: PointFormatter | None = None
+    read: Callable[[Sequence[int]], int] | None = None
+    offsets: tuple[int, ...] = ()
+    teaches: bool = False
+
+
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     """Return the items of a frame of a telegram, and of earlier points whose missing settings it brings."""
-    telegram = piece.telegram.name
-    at = {place: state.directory.at(telegram, place) for place in piece.positions}
-    raws = {point.item: _raw(point, piece) for points in at.values() for point in points}
-    state.learn((point, raw) for points in at.values() for point in points if (raw := raws[point.item]) is not None)
-    items: list[Item] = []
+    telegram, settings = piece.telegram.name, state.settings
+    taught, items = [], list[Item]()
+    parts = _parts(state, piece)
+    raws = [_raw(part, piece) for part in parts]
+    for part, raw in zip(parts, raws, strict=True):
+        if part.teaches and part.point is not None and raw is not None:
+            taught.append((part.point, raw))
+    if taught:
+        state.learn(taught)
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
-    for place, points in at.items():
-        if not points:
+    for (place, point, formatter, _, _, _), raw in zip(parts, raws, strict=True):
+        if point is None or formatter is None:
             word = hex_words((piece.words[place - piece.positions.start],))
             items.append(Item(telegram, place, 1, f"word {place}: no point is described here ({word})"))
-        for point in points:
-            if place != min(position for position in point.addresses if position in piece.positions):
-                continue
-            formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
-            raw = raws[point.item]
-            if raw is None:
-                items.append(named_item(point, formatter.base, _incomplete_text(state, piece, point, formatter)))
-                continue
-            item = formatter.item(raw, state.settings)
-            state.incomplete.pop(point.item, None)
+        elif raw is None:
+            items.append(named_item(point, formatter.base, _incomplete_text(state, piece, point, formatter)))
+        else:
+            item = formatter.item(raw, settings)
+            if state.incomplete:
+                state.incomplete.pop(formatter.name, None)
             if item.missing:
-                incomplete[point.item] = formatter, raw
+                incomplete[formatter.name] = formatter, raw
                 item = replace(item, summary=item.summary + _source_text(state, piece, item.missing))
             items.append(item)
     if state.changed:
@@ -96,12 +111,35 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     return items
 
 
-def _raw(point: Point, piece: Piece) -> int | None:
+def _parts(state: DecodeState, piece: Piece) -> list[_Part]:
+    """Return the points that a frame of a telegram brings; these are the same for each such frame."""
+    telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
+    key = (telegram, positions.start, -1), len(positions)
+    if key not in directory.plans:
+        parts: list[_Part] = []
+        for place in positions:
+            points = directory.at(telegram, place)
+            parts += [] if points else [_Part(place)]
+            for point in points:
+                if place == min(position for position in point.addresses if position in positions):
+                    formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
+                    whole = all(at in positions for at in point.addresses)
+                    offsets = tuple(at - positions.start for at in point.addresses) if whole else ()
+                    teaches = directory.teaches(point)
+                    parts.append(_Part(place, point, formatter, reader_of(point), offsets, teaches))
+        directory.plans[key] = parts
+    planned: list[_Part] = directory.plans[key]
+    return planned
+
+
+def _raw(part: _Part, piece: Piece) -> int | None:
     """Return the raw number; None while words of other frames are not known."""
-    if all(at in piece.positions for at in point.addresses):
-        return raw_of(point, [piece.words[at - piece.positions.start] for at in point.addresses])
-    status, words = piece.pieces.words(point.addresses)
-    return raw_of(point, words) if status == "ok" else None
+    if part.point is None or part.read is None:
+        return None
+    if part.offsets:
+        return part.read([piece.words[offset] for offset in part.offsets])
+    status, words = piece.pieces.words(part.point.addresses)
+    return part.read(words) if status == "ok" else None
 
 
 def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> str:

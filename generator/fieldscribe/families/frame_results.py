@@ -167,6 +167,13 @@ class FrameResult:
             "notes": list(self.notes),
         }
 
+    def captured_as(self, data: bytes, captured: Captured) -> FrameResult:
+        """Return the same for these bytes, as they were captured."""
+        return FrameResult(
+            data, self.framing, self.kind, self.unit, self.function, self.summary, self.items, self.checks,
+            self.faults, self.findings, self.notes, self.exception, self.details, captured,
+        )  # fmt: skip
+
     def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
         """Return the same with items, and further notes."""
         return FrameResult(

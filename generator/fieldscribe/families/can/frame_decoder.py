@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 from fieldscribe.families.can import frames, signals
 from fieldscribe.families.can.frames import (
@@ -30,6 +31,8 @@ from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import check_text, hex_words, strange_unit
 
 _DAMAGED = "its words are not read, for the frame is damaged"
+_MOST_HEADS = 1024
+"""For how many heads of frames it is kept what they are."""
 _KINDS = {"request": "request", "response": "reply"}
 
 
@@ -44,6 +47,10 @@ class CanFrameDecoder:
         self._receiver = lru_cache(MOST_STATES)(
             lambda message, unit: Receiver(self._telegrams[message], self._messages[message], unit)
         )
+        self._firsts = sorted({place for message in device.messages for place in places(message, "constant")[:1]})
+        self._words = {message.name: message.words for message in device.messages}
+        self._telling: dict[tuple[int, bytes], tuple[int, ...]] = {}
+        self._heads: dict[tuple[int, bytes, bytes], tuple[Head, FrameResult] | None] = {}
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
         self._carrying = [message for message in device.messages if message.fields]
@@ -62,11 +69,43 @@ class CanFrameDecoder:
         for message in () if frame.remote else self._carrying:
             if frames.is_of(message, self._device.bus.units, frame.frame):
                 return self._signals(message, frame)
-        head = None if frame.remote else self.recognise(frame.frame)
-        if head is None:
+        known = None if frame.remote else self._known(frame.frame)
+        if known is None:
             return self._unknown(frame)
+        head, result = known
+        result = result.captured_as(frame.frame.data, frame)
         telegram = self._telegrams.get(head.message.name)
-        return self._parameter(head, frame, requests) if telegram is None else self._cyclic(head, frame, telegram)
+        if telegram is None:
+            return self._parameter(head, result, frame, requests)
+        return self._cyclic(head, result, frame, telegram)
+
+    def _known(self, frame: CanFrame) -> tuple[Head, FrameResult] | None:
+        """Return the message that a frame is, and what its head says; None if no message fits.
+
+        Both depend on the bytes that carry no words alone, so they are kept for frames that differ in these only.
+        """
+        data = frame.data
+        if len(data) != LENGTH:
+            return None  # as `recognise` does
+        beginning = frame.id, bytes([data[place] for place in self._firsts])
+        if beginning not in self._telling:
+            self._telling[beginning] = self._telling_places(frame)
+            _forget_many(self._telling)
+        key = *beginning, bytes([data[place] for place in self._telling[beginning]])
+        if key not in self._heads:
+            head = self.recognise(frame)
+            self._heads[key] = None if head is None else (head, self._result(head, frame))
+            _forget_many(self._heads)
+        return self._heads[key]
+
+    def _telling_places(self, frame: CanFrame) -> tuple[int, ...]:
+        """Return the places of the bytes that tell which message a frame is, or that a check is made of."""
+        messages = [message for message, _ in _senders(self._device, frame) if message.roles and _fits(message, frame)]
+        if any(carries(message, "xor") for message in messages):
+            return tuple(range(LENGTH))
+        return tuple(
+            place for place in range(LENGTH) if any(message.roles[place].kind != "word" for message in messages)
+        )
 
     def recognise(self, frame: CanFrame) -> Head | None:
         """Return the frame as the message with the fewest flaws; None if no message fits."""
@@ -83,9 +122,9 @@ class CanFrameDecoder:
         slot, (here, right) = carried(message, frame, "multiplexer"), sums(message, frame.data)
         return Head(message, unit, slot, address, differences(message, unit or 0, frame), here != right, foreign)
 
-    def _result(self, head: Head, pasted: Pasted) -> FrameResult:
+    def _result(self, head: Head, frame: CanFrame) -> FrameResult:
         """Return what the head of a frame says, whatever words the frame carries."""
-        message, frame = head.message, pasted.frame
+        message = head.message
         telegram = self._telegrams.get(message.name)
         about = {"parameter": head.address} if telegram is None else {"multiplexer": head.slot}
         text = _message_text(head, frame.id, telegram)
@@ -100,12 +139,11 @@ class CanFrameDecoder:
             checks=check_text(*sums(message, frame.data)) if carries(message, "xor") else "",
             faults=tuple(_faults(head, self._device.bus)),
             details=details,
-            captured=pasted,
         )
 
-    def _cyclic(self, head: Head, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
-        message, result = head.message, self._result(head, pasted)
-        if head.slot * message.words >= (telegram.words if message.words else 0):
+    def _cyclic(self, head: Head, result: FrameResult, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
+        message = head.message
+        if head.slot * self._words[message.name] >= (telegram.words if self._words[message.name] else 0):
             last = -(-telegram.words // max(1, message.words)) - 1
             return DecodedFrame(replace(result, findings=(f"the manual knows multiplexers 0 to {last} only",)))
         if head.differences or head.wrong_sum:
@@ -129,8 +167,8 @@ class CanFrameDecoder:
         contents = tuple(Piece(telegram, part, words[part.start : part.stop], pieces) for part in parts)
         return DecodedFrame(result, contents, unit)
 
-    def _parameter(self, head: Head, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
-        result, frame = self._result(head, pasted), pasted.frame
+    def _parameter(self, head: Head, result: FrameResult, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
+        frame = pasted.frame
         if head.address is None:
             return DecodedFrame(result, unit=head.unit)
         message, sound = head.message, not head.flaws
@@ -178,6 +216,11 @@ class Gathered:
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
         """Return ("ok", the words at these positions)."""
         return "ok", tuple(self.carried[position] for position in positions)
+
+
+def _forget_many(kept: dict[Any, Any]) -> None:
+    if len(kept) > _MOST_HEADS:
+        kept.clear()
 
 
 def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
