@@ -67,6 +67,8 @@ CLAIMS = {
     },
     "listen": {
         "hitachi_l200 --capture plant.pcapng": Claim(0, r"10\.0\.0\.1:4000  unit 1  read  output_frequency = 50 Hz"),
+        'hitachi_l200=1 nord_sk5xxe=2 --line "rtu:///dev/ttyUSB0?baud=9600"': Claim(2, "^$", "it cannot be opened"),
+        "woodward_mpu2s --line can://socketcan/can0 --for 60": Claim(2, "^$", "python-can cannot open it"),
         "hitachi_l200=1 nord_sk5xxe=2 --capture gateway.log --write gateway.pcapng": Claim(
             0, r"unit 1  read  base_frequency\n", made="gateway.pcapng"
         ),

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 
+import can
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.families import family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
-from fieldscribe.listening.chunks import Chunk
+from fieldscribe.listening.chunks import BYTES, Chunk
+from fieldscribe.listening.exchanges import Exchange
 from fieldscribe.listening.listener import Listener, Station
+from fieldscribe.live.lines import read_line
+from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
 from support.described import shipped
 
@@ -196,3 +202,59 @@ def test_any_bytes_are_safe(device: str) -> None:
         for exchange in listener.take(chunk):
             assert exchange.as_data()
     assert sum(len(exchange.cuts[0].data) for exchange in listener.rest()) < 10_000
+
+
+def test_a_serial_line_that_others_talk_on() -> None:
+    """The first chunk says that nothing came, so the line is open then."""
+    ours, theirs = os.openpty()
+    try:
+        chunks = family("modbus").part("listening").hear(read_line(f"rtu://{os.ttyname(theirs)}?baud=19200"))
+        assert next(chunks).data == b""
+        os.write(ours, ASKED + CAME)
+        listener, exchanges = Listener([Station(shipped("hitachi_l200"))], Options()), list[Exchange]()
+        while not exchanges:
+            exchanges += listener.take(next(chunks))
+        assert [item.meaning for item in exchanges[0].items] == ["50 Hz", "10 %"]
+    finally:
+        os.close(ours)
+        os.close(theirs)
+    with pytest.raises(UnclearError, match="it went away"):
+        for _ in chunks:
+            pass
+
+
+def test_a_bus_that_others_talk_on() -> None:
+    chunks = family("can").part("listening").hear(read_line("can://virtual/heard"))
+    assert next(chunks).data == b""
+    with can.Bus("heard", interface="virtual") as bus:
+        bus.send(can.Message(arbitration_id=0x321, is_extended_id=False, data=bytes.fromhex("DD00051513880064")))
+    listener = Listener([Station(shipped("woodward_mpu2s"))], Options())
+    [exchange] = listener.take(next(chunks))
+    assert exchange.items[1].meaning == "50 Hz"
+    chunks.close()
+
+
+def test_lines_and_stations_of_a_project(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Names stand for lines and devices; what a line cannot do is said, and Ctrl-C ends with the summary."""
+    (tmp_path / "fieldscribe.toml").write_text(
+        '[lines]\nbench = "rtu:///dev/nowhere"\n[stations.pump]\ndescription = "hitachi_l200"\n'
+        'line = "bench"\nunit = 1\n'
+    )
+    monkeypatch.chdir(tmp_path)
+    for words, expected in (
+        (["pump"], "it cannot be opened"),
+        (["pump", "--line", "tcp://localhost"], "what others say in a network is not on a line"),
+        (["hitachi_l200", "--line", "can://virtual/x"], "its lines are tcp://, rtu://, rtu+tcp://"),
+    ):
+        assert main(["listen", *words]) == 2
+        assert expected in capsys.readouterr().err
+
+    def hear(_: object) -> Iterator[Chunk]:
+        yield Chunk(0.0, BYTES, ASKED + CAME)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(family("modbus").part("listening"), "hear", hear)
+    assert main(["listen", "pump"]) == 0
+    assert f"{READ}\n\n1 exchange\n" in capsys.readouterr().out

@@ -1,22 +1,25 @@
-"""`fieldscribe listen`: what devices and their masters say, from a capture."""
+"""`fieldscribe listen`: what devices and their masters say, from a capture or on a line, without sending."""
 
 from __future__ import annotations
 
 import gc
 import json
 import sys
+import time
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import lru_cache
 from io import BufferedReader
+from pathlib import Path
 from typing import cast
 
 from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, open_device, usage_error
-from fieldscribe.cli.frame_options import add_family_options, add_framing, options_of
+from fieldscribe.cli.frame_options import add_family_options, options_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
+from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import Chunk
 from fieldscribe.listening.exchanges import Exchange, finding_text, item_text, seconds
@@ -24,6 +27,9 @@ from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.logs import timed
 from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
 from fieldscribe.listening.statistics import Statistics
+from fieldscribe.live.lines import LineAddress, read_line, schemes_of
+from fieldscribe.live.project import NAME, Project, read_project
+from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.report import visible
 from fieldscribe.text import counted, shortened
@@ -31,15 +37,19 @@ from fieldscribe.user_errors import UnclearError
 
 EXAMPLE = """examples:
   fieldscribe listen hitachi_l200 --capture plant.pcapng
+  fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --line "rtu:///dev/ttyUSB0?baud=9600"
+  fieldscribe listen woodward_mpu2s --line can://socketcan/can0 --for 60
   fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --capture gateway.log --write gateway.pcapng
   candump -L can0 | fieldscribe listen woodward_mpu2s --capture - --summary
   fieldscribe listen woodward_mpu2s --capture candump.log --format jsonl
 
 DEVICE=N is the device with unit N; without N it stands for all other units. Captures are pcap and pcapng (a network, a
 serial line as DLT 147 to 162, SocketCAN), logs of candump, and lines of hexadecimal bytes, each perhaps with a time.
+On a line nothing is sent; Ctrl-C ends it, and the summary follows.
 
 ends with 1 when there are errors, or something is against the manual
-ends with 2 when a capture is cut off or is none: what came before is printed"""
+ends with 2 when a capture is cut off or is none, or a line cannot be opened or goes away; what came before is printed
+"""
 
 _GC_THRESHOLD = 100_000
 _LAST_MOMENT = 1 << 34
@@ -49,43 +59,76 @@ _LAST_MOMENT = 1 << 34
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
-    add("devices", nargs="+", metavar="DEVICE[=N]", help="a device's id or path, perhaps with its unit number")
+    add(
+        "devices",
+        nargs="+",
+        metavar="DEVICE[=N]",
+        help=f"a device's id or path, perhaps with its unit; or a station of {NAME}",
+    )
     add_descriptions(parser)
     add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
     add_repeated(parser, "--capture", "FILE", "read a capture; - is standard input")
+    add("--line", metavar="LINE", help=f"listen on a line: rtu:///dev/ttyUSB0?baud=9600, or a name from {NAME}")
+    add("--for", type=float, metavar="SECONDS", dest="duration", help="stop listening on the line after this time")
     add_repeated(parser, "--port", "N", "a TCP port of the devices (default: that of the protocol)", type=int)
     add("--write", metavar="FILE", help="also write everything to a new capture (pcapng)")
     add("--summary", action="store_true", help="print only the summary, not each exchange")
     add("-v", "--verbose", action="store_true", help="with each exchange, print its frames and what the manual says")
-    add_framing(parser, "by the bytes")
-    add_family_options(parser, "decode")
+    add_family_options(parser, "listen")
     add("--format", choices=("text", "jsonl"), default="text", help="how to report (default: text)")
 
 
 def run(arguments: Namespace) -> int:
     """Listen and print; return the exit code."""
-    if not arguments.capture:
-        raise StopError("there is nothing to listen to", "give --capture FILE: pcap, pcapng, candump, bytes in lines")
-    stations = [_station(arguments, name) for name in arguments.devices]
+    project = read_project(Path(NAME))
+    stations = [_station(arguments, name, project) for name in arguments.devices]
+    if bool(arguments.capture) == bool(arguments.line):
+        raise StopError("give --capture FILE or --line LINE", "captures are pcap, pcapng, candump, bytes in lines")
+    line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
     gc.set_threshold(_GC_THRESHOLD)
     gc.enable()  # a line may last for days
     with ExitStack() as stack:
         writer = PacketWriter(stack.enter_context(open(arguments.write, "xb"))) if arguments.write else None
         output = _Output(arguments, listener, writer)
+        if line is not None:
+            output.follow_line(line, arguments.duration)
         for name in arguments.capture:
             stream = sys.stdin.buffer if name == "-" else stack.enter_context(open(name, "rb"))
             output.follow(cast("BufferedReader", stream), "standard input" if name == "-" else name)
         return output.end()
 
 
-def _station(arguments: Namespace, text: str) -> Station:
-    """Return a device with its unit, as typed. Raises StopError."""
+def _station(arguments: Namespace, text: str, project: Project) -> Station:
+    """Return a device with its unit: as typed, or as the project's file has it. Raises StopError."""
+    known = project.stations.get(text)
+    if known is not None:
+        arguments.device = known.description
+        arguments.line = arguments.line or (None if arguments.capture else known.line)
+        of_all, arguments.variant = arguments.variant, [*arguments.variant, *known.variants]
+        device = open_device(arguments)
+        arguments.variant = of_all
+        return Station(device, known.unit)
     name, equals, unit = text.rpartition("=")
     if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
         raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
     arguments.device = name if equals else text
     return Station(open_device(arguments), int(unit) if equals else None)
+
+
+def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress:
+    """Return the line, whose settings become options where these are not given. Raises UnclearError."""
+    line = read_line(project.lines.get(arguments.line, arguments.line))
+    own_family = family(device.family)
+    if line.scheme not in schemes_of(own_family):
+        takes = ", ".join(f"{scheme}://" for scheme in schemes_of(own_family))
+        message = f"{device.id} is a {device.family} device, and none is on a line {line.scheme}://"
+        raise StopError(message, f"its lines are {takes}")
+    for option in own_family.options:
+        if option.name in line.settings and not getattr(arguments, option.name, None):
+            is_number, text = option.type is int, line.settings[option.name]
+            setattr(arguments, option.name, line.number(option.name, None, (0, 127)) if is_number else text == "yes")
+    return line
 
 
 class _Output:
@@ -111,6 +154,22 @@ class _Output:
         except UnclearError as error:
             self._broken = True
             usage_error(f"{name}: {error.message}", error.hint)
+
+    def follow_line(self, line: LineAddress, duration: float | None) -> None:
+        """Print what is heard on a line, until Ctrl-C or for so many seconds."""
+        self._listener.each = None if self._writer is None else self._writer.write
+        end = None if duration is None else time.monotonic() + duration
+        try:
+            for chunk in self._listener.part.hear(line):
+                self._take(chunk)
+                sys.stdout.flush()
+                if end is not None and time.monotonic() >= end:
+                    break
+        except KeyboardInterrupt:
+            return
+        except UnclearError as error:
+            self._broken = True
+            usage_error(error.message, error.hint)
 
     def _chunk_of(self, text: str) -> Chunk | None:
         """Return what a line of a log brings; None if it has no frame."""

@@ -6,8 +6,8 @@ from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-BYTES, STREAM, MESSAGE = "bytes", "stream", "message"
-"""How bytes travel: on a serial line, in a connection of a network, or as messages with an identifier."""
+BYTES, STREAM, MESSAGE, SILENT = "bytes", "stream", "message", ""
+"""How bytes travel: on a serial line, in a connection of a network, as messages with an identifier; or nothing came."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
-from fieldscribe.listening.chunks import Chunk, Cut
+from fieldscribe.listening.chunks import SILENT, Chunk, Cut
 from fieldscribe.listening.exchanges import Exchange
 from fieldscribe.listening.packet_files import Packet
 from fieldscribe.model import Device
@@ -65,7 +65,7 @@ class Listener:
     def take(self, chunk: Chunk) -> Iterator[Exchange]:
         """Return the exchanges that end with this chunk."""
         if chunk.kind not in self.part.KINDS:
-            self.others += 1
+            self.others += chunk.kind != SILENT
             return
         for cut in self._cutter.take(chunk):
             yield from self._frame(cut)

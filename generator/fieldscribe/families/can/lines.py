@@ -15,18 +15,23 @@ _FASTEST = 1_000_000
 
 def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
     """Return the runtime's transport; `timeout` is empty for its usual one. Raises UnclearError."""
-    import can
     from fieldscribe_runtime.transports.can import CanLine
+
+    return CanLine(open_bus(line), **timeout)
+
+
+def open_bus(line: LineAddress) -> Any:
+    """Return the bus of python-can. Raises UnclearError."""
+    import can
 
     interface, _, channel = line.place.partition("/")
     if not interface or not channel:
         raise line.wrong("it takes an interface and a channel of python-can")
     settings: Any = {key: line.number(key, 0, (1, _FASTEST)) for key in line.settings}
     try:
-        bus = can.Bus(channel, interface=interface, **settings)
+        return can.Bus(channel, interface=interface, **settings)
     except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
         raise line.wrong(f"python-can cannot open it: {error}") from error
-    return CanLine(bus, **timeout)
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:

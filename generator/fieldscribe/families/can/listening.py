@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 
 from fieldscribe.families.can.frames import LONGEST, CanFrame
+from fieldscribe.families.can.lines import open_bus
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.listening.chunks import MESSAGE, Chunk, Cut
+from fieldscribe.listening.chunks import MESSAGE, SILENT, Chunk, Cut
+from fieldscribe.listening.cutting import SILENCE
 from fieldscribe.listening.packet_files import BUS_SOCKET, Packet
+from fieldscribe.live.lines import LineAddress
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.user_errors import UnclearError
 
@@ -42,6 +46,26 @@ def packet(cut: Cut) -> Packet:
     identifier, data = pasted.frame.id, cut.data[:LONGEST]
     head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if pasted.remote else 0)
     return Packet(cut.time, BUS_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
+
+
+def hear(line: LineAddress) -> Iterator[Chunk]:
+    """Yield the messages on a bus; nothing for a while is a message without data. Raises UnclearError."""
+    try:
+        bus = open_bus(line)
+    except ModuleNotFoundError as error:
+        raise UnclearError(f"{line.scheme}://: {error}", "pip install 'fieldscribe[live]'") from error
+    try:
+        while True:
+            heard = bus.recv(SILENCE)
+            if heard is None:
+                yield Chunk(None, SILENT, b"")
+            elif not heard.is_error_frame:
+                remote, identifier = heard.is_remote_frame, heard.arbitration_id
+                yield Chunk(time.time(), MESSAGE, bytes(heard.data), identifier=identifier, remote=remote)
+    except OSError as error:
+        raise line.wrong(f"it went away: {error}") from error
+    finally:
+        bus.shutdown()
 
 
 def action(result: FrameResult) -> str:

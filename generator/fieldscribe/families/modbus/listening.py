@@ -10,9 +10,11 @@ from fieldscribe.families.modbus import FUNCTIONS
 from fieldscribe.families.modbus.frames import reply_length, request_length, unwrap
 from fieldscribe.listening.chunks import BYTES, STREAM, Chunk, Cut
 from fieldscribe.listening.cutting import ByteCutter, packet
+from fieldscribe.listening.lines import serial_chunks
 from fieldscribe.listening.logs import logged_bytes as chunk_of_text
+from fieldscribe.live.lines import LineAddress
 
-__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "packet"]
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
 
 KINDS = (BYTES, STREAM)
 PORTS = frozenset({502})
@@ -85,6 +87,13 @@ def _size_at(data: bytes, begins: bool) -> int:
 def cutter() -> ModbusCutter:
     """Return what cuts chunks into frames."""
     return ModbusCutter()
+
+
+def hear(line: LineAddress) -> Iterator[Chunk]:
+    """Yield what comes on a line. Raises UnclearError."""
+    if line.scheme == "tcp":
+        raise line.wrong("what others say in a network is not on a line: capture it, and give --capture")
+    return serial_chunks(line, "8N1")
 
 
 def action(result: FrameResult) -> str:

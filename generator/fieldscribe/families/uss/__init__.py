@@ -8,6 +8,7 @@ from fieldscribe.families import BusKeys, Codes, Family, Option
 from fieldscribe.model import Bus, Code, FamilyFacts, Frame, Variant
 
 _BOTH = ("decode", "encode")
+_ALL = (*_BOTH, "listen")
 
 FAMILY = Family(
     name="uss",
@@ -26,12 +27,12 @@ FAMILY = Family(
     frame_keys=("pkw",),
     chooses_memory=True,
     options=(
-        Option("pkw", "words of the parameter part (P2013; default: 127)", _BOTH, int, "N"),
-        Option("pzd", "words of process data (P2012; default: 2)", _BOTH, int, "N"),
+        Option("pkw", "words of the parameter part (P2013; default: 127)", _ALL, int, "N"),
+        Option("pzd", "words of process data (P2012; default: 2)", _ALL, int, "N"),
         Option(
             "single_first",
             "single words stand in the first value word although --pkw is 4 (some firmware)",
-            _BOTH,
+            _ALL,
         ),
         Option(
             "direction",

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.uss import parts
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
-from fieldscribe.listening.chunks import BYTES
+from fieldscribe.listening.chunks import BYTES, Chunk
 from fieldscribe.listening.cutting import ByteCutter, packet
+from fieldscribe.listening.lines import serial_chunks
 from fieldscribe.listening.logs import logged_bytes as chunk_of_text
+from fieldscribe.live.lines import LineAddress
 
-__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "packet"]
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
 
 KINDS = (BYTES,)
 PORTS: frozenset[int] = frozenset()
@@ -29,6 +33,11 @@ def _size_at(data: bytes, begins: bool) -> int:
 def cutter() -> ByteCutter:
     """Return what cuts chunks into telegrams."""
     return ByteCutter(_size_at, _LONGEST, None, 2)
+
+
+def hear(line: LineAddress) -> Iterator[Chunk]:
+    """Yield what comes on a line. Raises UnclearError."""
+    return serial_chunks(line, "8E1")
 
 
 def action(result: FrameResult) -> str:
