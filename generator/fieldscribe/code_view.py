@@ -25,6 +25,7 @@ from fieldscribe.model import (
 )
 
 _NOWHERE = Source("", None, None, None)
+_NO_NOTE: Titles = {}
 
 
 def for_code(device: Device) -> Device:
@@ -86,7 +87,7 @@ def _point(point: Point, shape: Shape, terms: Terms) -> Point:
         point.variant,
         point.code,
         _title(point.item),
-        {},
+        _NO_NOTE,
         _NOWHERE,
         point.place,
         point.write_place,

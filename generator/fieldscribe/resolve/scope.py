@@ -21,6 +21,8 @@ from fieldscribe.model import Base, Document, Enum, Found, Given, Source, Titles
 
 _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
+_NO_TITLES: Titles = {}
+"""One for all points without a note: thousands of empty ones are a megabyte."""
 """The unit of a number that has none."""
 
 _SECTIONS = {
@@ -161,7 +163,7 @@ def humanised(name: str) -> str:
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:
     """Return a title by language from its YAML value; `otherwise` stands in for a missing English one."""
     if value is None:
-        return {"en": otherwise} if otherwise else {}
+        return {"en": otherwise} if otherwise else _NO_TITLES
     if isinstance(value, str):
         return {"en": value}
     return dict(value) if "en" in value else {"en": otherwise, **value}
