@@ -63,7 +63,7 @@ audit-power:        ## change one fact of each manual at a time and list what th
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests $(PYTHON) -m audit_power --manuals $(MANUALS) --seed $(or $(SEED),1) --count $(or $(COUNT),200) $(ONLY)
 
-corpus:             ## measure the importers on a collection of files (FOLDER=templates of wb-mqtt-serial, models of SunSpec, DBC)
+corpus:             ## measure the importers on a collection of files (FOLDER=templates of wb-mqtt-serial, models of SunSpec, DBC; VALUES=1000000: values)
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests nice $(PYTHON) -m corpus "$(FOLDER)" $(VALUES)
 

@@ -18,13 +18,7 @@ from typing import NamedTuple
 from fieldscribe.importing import compilable
 from fieldscribe.importing.tables import UnreadableError
 
-from corpus.collection import Collection
-from corpus.dbc import DBC
-from corpus.sunspec import SUNSPEC
-from corpus.values import compare
-from corpus.wb import WB
-
-COLLECTIONS: tuple[Collection, ...] = (WB, SUNSPEC, DBC)
+from corpus.values import COLLECTIONS, compare
 
 
 class Measured(NamedTuple):
@@ -102,5 +96,5 @@ if __name__ == "__main__":
             "make corpus FOLDER=...: the folder of a collection, templates of wb-mqtt-serial, models of SunSpec, DBC"
         )
     if len(sys.argv) > 2:
-        sys.exit(compare(COLLECTIONS, Path(sys.argv[1]), int(sys.argv[2])) > 0)
+        sys.exit(compare(Path(sys.argv[1]), int(sys.argv[2])) > 0)
     sys.exit(main(Path(sys.argv[1])))

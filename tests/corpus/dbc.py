@@ -130,24 +130,36 @@ def _frame(message: Any, chance: random.Random) -> bytes:
         ]
         named = list(ids or signal.choices or ())
         if named and chance.random() < 0.5:
-            raw = chance.choice(named)
-            for place, bit in enumerate(_bits(signal)):
-                data[bit // 8] = data[bit // 8] & ~(1 << bit % 8) | (raw >> place & 1) << bit % 8
+            _put(data, signal, chance.choice(named))
+    return bytes(data)
+
+
+def _put(data: bytearray, signal: Any, raw: int) -> None:
+    for place, bit in enumerate(_bits(signal)):
+        data[bit // 8] = data[bit // 8] & ~(1 << bit % 8) | (raw >> place & 1) << bit % 8
+
+
+def _alone(message: Any, signal: Any, raw: int) -> bytes:
+    """Return the frame of this signal alone, with multiplexers that select it: at the last number that does."""
+    data = bytearray(message.length)
+    _put(data, signal, raw)
+    while signal.multiplexer_signal:
+        selecting = message.get_signal_by_name(signal.multiplexer_signal)
+        _put(data, selecting, max(signal.multiplexer_ids))
+        signal = selecting
     return bytes(data)
 
 
 def _vectors(message: Any, signal: Any, taken: list[tuple[bytes, float]], point: Mapping[str, Any]) -> Iterator[str]:
     ratio, offset = (Fraction(str(number)) for number in (signal.scale, signal.offset))
     titles = {int(number): str(title) for number, title in (signal.choices or {}).items()}
+    titles = {number: title for number, title in titles.items() if number < 1 << signal.length}
     names = names_of(point, titles) if point["enum"] else {}
     yield f"telegram\t{point['telegram']}\t0"
     for data, found in taken:
-        packed, raw = bytearray(len(data)), 0
-        for place, bit in enumerate(_bits(signal)):
-            packed[bit // 8] |= data[bit // 8] & 1 << bit % 8
-            raw |= (data[bit // 8] >> bit % 8 & 1) << place
-        raw = raw if signal.is_float else int(found)
-        yield f"can_signal\t{message.frame_id}\t{data.hex()}\tok\t{raw}\t{packed.hex()}"
+        pattern = sum((data[bit // 8] >> bit % 8 & 1) << place for place, bit in enumerate(_bits(signal)))
+        raw = pattern if signal.is_float else int(found)
+        yield f"can_signal\t{message.frame_id}\t{data.hex()}\tok\t{raw}\t{_alone(message, signal, raw).hex()}"
         if signal.is_float:
             yield from [f"decode\t{raw}\tok\t{real(found)}"] if math.isfinite(found) else []
         elif ratio == 1 and not offset:

@@ -29,8 +29,12 @@ from support.rust_crates import without_registry
 from support.rust_workspace import RUNTIMES, WORKSPACE
 
 from corpus.collection import Collection
+from corpus.dbc import DBC
 from corpus.registers import KINDS, UnlikeError
+from corpus.sunspec import SUNSPEC
+from corpus.wb import WB
 
+COLLECTIONS: tuple[Collection, ...] = (WB, SUNSPEC, DBC)
 LANGUAGES = ("c", "python", "rust")
 
 
@@ -45,12 +49,12 @@ class Compared(NamedTuple):
     unlike: Sequence[str]
 
 
-def compare(collections: Sequence[Collection], folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
+def compare(folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
     """Print a line of counts for each collection, and what differs; return how much that is."""
     print("| collection | devices | points | compared | values in each language | wrong in C | Python | Rust |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
     different = 0
-    for collection in collections:
+    for collection in COLLECTIONS:
         files = collection.files(folder)
         if files:
             with TemporaryDirectory(prefix="fieldscribe-values-") as out:

@@ -15,40 +15,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.dbc import export
 from fieldscribe.pipeline import load_device
 
-DBC = """VERSION ""
-NS_ :
-BS_:
-BU_: ENGINE DASH
-BO_ 2364540158 EEC1: 8 ENGINE
- SG_ EngSpeed : 24|16@1+ (0.125,0) [0|8031.875] "rpm" DASH
- SG_ EngTorque : 16|8@1+ (1,-125) [-125|125] "%" DASH
- SG_ Mode : 0|4@1+ (1,0) [0|15] "" DASH
- SG_ Counter : 60|4@1+ (1,0) [0|0] "" DASH
-BO_ 288 Sensors: 6 ENGINE
- SG_ Page M : 7|4@0+ (1,0) [0|15] "" DASH
- SG_ Pressure m3 : 3|12@0- (0.1,-1e-05) [-204|204] "bar" DASH
- SG_ Sub m4M : 15|4@0+ (1,0) [0|15] "" DASH
- SG_ Depth m2 : 11|20@0- (-0.25,3) [0|0] "furlong" DASH
- SG_ Level m5 : 15|32@0- (1,0) [0|0] "" DASH
- SG_ Counter : 47|4@0+ (1,0) [0|0] "" DASH
-BO_ 289 Limits: 3 DASH
- SG_ Setpoint : 2|14@1+ (0.01,0) [0|100] "%" ENGINE
- SG_ Whole : 0|8@1+ (1,0) [0|255] "" ENGINE
-BO_ 290 Empty: 0 DASH
-BO_ 291 Wide: 20 ENGINE
- SG_ Far : 75|64@0- (1,0) [0|0] "" DASH
-CM_ SG_ 2364540158 EngSpeed "Actual engine speed";
-BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535;
-BA_DEF_DEF_ "GenMsgCycleTime" 0;
-BA_ "GenMsgCycleTime" BO_ 2364540158 20;
-VAL_ 2364540158 Mode 0 "Low idle" 1 "Accelerator" 99 "Nothing" ;
-VAL_ 2364540158 EngSpeed 65535 "Not available" 65279 "Error" ;
-SG_MUL_VAL_ 288 Pressure Page 3-3, 7-7;
-SG_MUL_VAL_ 288 Sub Page 4-4;
-SG_MUL_VAL_ 288 Depth Sub 2-2;
-SG_MUL_VAL_ 288 Level Page 5-5;
-SIG_VALTYPE_ 288 Level : 1;
-"""
+DBC = (Path(__file__).parent / "engine.dbc").read_text("utf-8")
 FRAMES = 200
 
 
