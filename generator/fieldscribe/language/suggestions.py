@@ -44,6 +44,10 @@ _TYPES = (
     ("s64", "int64|i64|lint|signed64|int64_t|sint64|long[_ ]long|signed[_ ]long[_ ]long", ""),
     ("f32", "float|real|float32|single|ieee754|ieee", ""),
     ("f64", "double|lreal|float64", ""),
+    ("bytes", r"ip|ipv4|ipaddr|ip[_ ]address", " with `notation: ipv4`"),
+    ("bytes", r"mac|eui48|mac[_ ]address", " with `notation: eui48`"),
+    ("bytes", r"raw|hex|octets?|byte\[\]|octet[_ ]string", " with `length: \u2026` in words"),
+    ("u32", r"time|timestamp|unix[_ ]?time|epoch|time_t", " with `notation: time since 1970-01-01`"),
     ("text", r"string|str|ascii|char\[\]|visible_string", " with `characters: \u2026`"),
 )
 """Our type, its names elsewhere, and what else a point of this type needs."""
@@ -154,7 +158,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     (
         "type",
         r"[usi]?(?:int)?128(?:_t)?",
-        'no type here is like this: leave `type` out; say it in words, as `untyped: "a key"` with `length: 8`',
+        "no number here has so many bits: write `type: bytes` with `length: 8`",
     ),
     ("type", "(?:.*[^a])?bcd.*", "write `type: u16` (u32, u48, ...) and `coding: bcd`"),
     ("coding", "packed|packed[-_ ]bcd|bcd[0-9]+", "{key}: bcd"),

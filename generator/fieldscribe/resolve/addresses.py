@@ -191,8 +191,9 @@ class Places:
     def _listed(self, facts: PointFacts, encoding: Encoding, raw: Seq, key: str) -> tuple[int, ...]:
         """Return the words of a number by their addresses, the high part first. Raises FactError."""
         words, span = tuple([self._address(facts, item, key) for item in raw]), facts.span(key)
-        count = 0 if encoding.type == "text" or encoding.space in KEY_OF else self._count(facts, encoding)
-        if facts.untyped is not None or len(set(words)) != count or len(words) != count:
+        typed = facts.untyped is None and encoding.type != "text" and encoding.space not in KEY_OF
+        count = self._count(facts, encoding) if typed else 0
+        if len(set(words)) != count or len(words) != count:
             message = f"these are {counted(len(set(words)), 'word')}, and `{facts.name}` has {count}"
             message = message if count else "a list of words is for numbers that are read by address"
             raise FactError("bad-number", message, span, "name each word of the number once, the high part first")
