@@ -142,7 +142,11 @@ def _csv_writer() -> Show:
 
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(_COLUMNS)
-    return lambda now, reading: writer.writerow((now, *reading))
+
+    def show(now: str, reading: Reading) -> None:
+        writer.writerow([now, *(visible(one) if isinstance(one, str) else one for one in reading)])
+
+    return show
 
 
 class _Table:
