@@ -127,7 +127,7 @@ def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress
     for option in own_family.options:
         if option.name in line.settings and not getattr(arguments, option.name, None):
             is_number, text = option.type is int, line.settings[option.name]
-            setattr(arguments, option.name, line.number(option.name, None, (0, 127)) if is_number else text == "yes")
+            setattr(arguments, option.name, line.number(option.name, 0, (0, 127)) if is_number else text == "yes")
     return line
 
 
