@@ -146,7 +146,8 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
 @pytest.mark.parametrize(
     ("facts", "rule", "hint"),
     [
-        ("type: int128", "wrong-form", "leave `type` out; say it in words"),
+        ("type: int128", "wrong-form", "write `type: bytes` with `length: 8`"),
+        ("type: mac", "wrong-form", "write `type: bytes` with `notation: eui48`"),
         ("type: int48", "wrong-form", "write `type: s48`"),
         ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
         ("scale: [{when: mode == 0, rule: x 0.1}]", "bad-formula", "`rule: value = raw * 0.1`"),
