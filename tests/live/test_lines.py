@@ -99,12 +99,13 @@ def test_a_project_names_lines_and_stations(tmp_path: Path) -> None:
     assert read_project(file) == ({}, {})
     file.write_text(
         'out = "drivers"\n[lines]\nbench = "tcp://a"\n[stations.pump]\ndescription = "hitachi_l200"\nline = "bench"\n'
-        'unit = 3\nvariant = {voltage_class = "400V"}\n[stations.meter]\ndescription = "eastron_sdm630"\n',
+        'unit = 3\nvariant = {voltage_class = "400V"}\nwith = {slot = 3}\n'
+        '[stations.meter]\ndescription = "eastron_sdm630"\n',
         "utf-8",
     )
     lines, stations = read_project(file)
     assert lines == {"bench": "tcp://a"}
-    assert stations["pump"] == Station("hitachi_l200", "bench", 3, ("voltage_class=400V",))
+    assert stations["pump"] == Station("hitachi_l200", "bench", 3, ("voltage_class=400V",), ("slot=3",))
     assert stations["meter"] == Station("eastron_sdm630")
     file.write_text(file.read_text("utf-8") + '[[devices]]\ndevice = "hitachi_l200"\ntargets = ["c"]\n', "utf-8")
     report = Report()

@@ -27,7 +27,7 @@ from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.logs import timed
 from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
 from fieldscribe.listening.statistics import Statistics
-from fieldscribe.live.lines import LineAddress, read_line, schemes_of
+from fieldscribe.live.lines import LineAddress, read_line, require_line
 from fieldscribe.live.project import NAME, Project, read_project
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
@@ -119,12 +119,8 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
 def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress:
     """Return the line, whose settings become options where these are not given. Raises UnclearError."""
     line = read_line(project.lines.get(arguments.line, arguments.line))
-    own_family = family(device.family)
-    if line.scheme not in schemes_of(own_family):
-        takes = ", ".join(f"{scheme}://" for scheme in schemes_of(own_family))
-        message = f"{device.id} is a {device.family} device, and none is on a line {line.scheme}://"
-        raise StopError(message, f"its lines are {takes}")
-    for option in own_family.options:
+    require_line(line, device)
+    for option in family(device.family).options:
         if option.name in line.settings and not getattr(arguments, option.name, None):
             is_number, text = option.type is int, line.settings[option.name]
             setattr(arguments, option.name, line.number(option.name, 0, (0, 127)) if is_number else text == "yes")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from difflib import get_close_matches
 from pathlib import Path
@@ -66,8 +66,14 @@ def _take(arguments: Namespace, station: Station) -> None:
     arguments.line = arguments.line or station.line
     if getattr(arguments, "unit", None) is None:
         arguments.unit = station.unit
-    given = {choice.partition("=")[0] for choice in arguments.variant}
-    arguments.variant += [choice for choice in station.variants if choice.partition("=")[0] not in given]
+    arguments.variant = _without_given(station.variants, arguments.variant)
+    arguments.settings = _without_given(station.settings, arguments.settings)
+
+
+def _without_given(known: Iterable[str], given: list[str]) -> list[str]:
+    """Return the given pairs, and those of the station whose name is not given."""
+    names = {pair.partition("=")[0] for pair in given}
+    return [*given, *(pair for pair in known if pair.partition("=")[0] not in names)]
 
 
 def _named(text: str, project: Project) -> str:

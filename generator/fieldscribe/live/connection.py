@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import family
 from fieldscribe.live.devices import device_class
-from fieldscribe.live.lines import LineAddress, OpenLine, families_of, schemes_of
+from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_line
 from fieldscribe.model import Device
 from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.identifiers import parameter
@@ -58,11 +57,7 @@ class Connection:
         """Return a device of the runtime on this line. Raises UnclearError for what the line or the device cannot."""
         from fieldscribe_runtime import FieldscribeError
 
-        schemes = schemes_of(family(model.family))
-        if self.line.scheme not in schemes:
-            takes = ", ".join(f"{scheme}://" for scheme in schemes)
-            message = f"{model.id} is a {model.family} device, and none is on a line {self.line.scheme}://"
-            raise UnclearError(message, f"its lines are {takes}" if takes else "")
+        require_line(self.line, model)
         if model.id not in self._classes:
             self._classes[model.id] = device_class(model)
         chosen = {parameter(axis): values[0] for axis, values in model.variants.items() if len(values) == 1}

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
-from fieldscribe.families import Family, families
+from fieldscribe.families import Family, families, family
+from fieldscribe.model import Device
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
@@ -96,6 +97,14 @@ def read_line(text: str) -> LineAddress:
             takes = f"it takes {', '.join(known[scheme])}" if known[scheme] else "it takes no settings"
             raise line.wrong(f"there is no setting `{shortened(key)}`; {takes}")
     return line
+
+
+def require_line(line: LineAddress, device: Device) -> None:
+    """Raises UnclearError if such a device is on no such line."""
+    known = schemes_of(family(device.family))
+    if line.scheme not in known:
+        message = f"{device.id} is a {device.family} device, and none is on a line {line.scheme}://"
+        raise UnclearError(message, f"its lines are {', '.join(f'{scheme}://' for scheme in known)}" if known else "")
 
 
 def families_of(line: LineAddress) -> list[Family]:

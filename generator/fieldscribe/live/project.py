@@ -8,6 +8,7 @@ description = "hitachi_l200"  # an id, or a path from the folder of the file
 line = "bench"                # a name from above, or a line itself
 unit = 3
 variant = {voltage_class = "400V"}
+with = {slot = 3}             # numbers that addresses depend on
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from fieldscribe.user_errors import UnclearError, did_you_mean
 
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20
-_KEYS = {"description": str, "line": str, "unit": int, "variant": dict}
+_KEYS = {"description": str, "line": str, "unit": int, "variant": dict, "with": dict}
 
 
 class Station(NamedTuple):
@@ -32,6 +33,8 @@ class Station(NamedTuple):
     line: str | None = None
     unit: int | None = None
     variants: tuple[str, ...] = ()
+    settings: tuple[str, ...] = ()
+    """What `--with` gives: numbers that addresses depend on."""
 
 
 class Project(NamedTuple):
@@ -77,8 +80,8 @@ def _station(file: Path, name: str, facts: Any) -> Station:
             raise UnclearError(f"{file}: stations.{name}.{key} is no {_KINDS[_KEYS[key]]}", _EXAMPLE)
     if "description" not in facts:
         raise UnclearError(f"{file}: stations.{name} has no `description`", _EXAMPLE)
-    variants = tuple(f"{axis}={value}" for axis, value in facts.get("variant", {}).items())
-    return Station(facts["description"], facts.get("line"), facts.get("unit"), variants)
+    pairs = [tuple(f"{name}={value}" for name, value in facts.get(key, {}).items()) for key in ("variant", "with")]
+    return Station(facts["description"], facts.get("line"), facts.get("unit"), *pairs)
 
 
 _KINDS = {str: "text", int: "whole number", dict: "table"}

@@ -94,7 +94,8 @@ def _point(model: Device, name: str, groups: set[str]) -> str:
 
 def in_words(error: object) -> str:
     """Return an error of the runtime as the command line says it: variants are an option there."""
-    return str(error).replace("pass it when the device is made", "give --variant")
+    text = str(error).replace("pass it when the device is made", "give --variant")
+    return text.replace("open the device with ", "give --with ")
 
 
 class Reader:
