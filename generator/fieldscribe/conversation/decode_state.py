@@ -11,7 +11,7 @@ from typing import Any
 from fieldscribe.arithmetic.codec import Settings, setting_of
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.meanings import Meanings, raw_form
-from fieldscribe.conversation.near_misses import doubts
+from fieldscribe.conversation.near_misses import Doubts
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
 from fieldscribe.families import family
@@ -111,7 +111,9 @@ class PointFormatter:
     ) -> None:
         """`doubting` makes each item say whether its number is in range; it has the points for other readings."""
         self._device, self._point, self.base, self._written = device, point, base, written
-        self._doubting = doubting
+        self._doubts = None
+        if doubting is not None and point.text is None and point.generated:
+            self._doubts = Doubts(device, point, partial(doubting.neighbours, point))
         self.needs = point.arguments if written or doubting else point.scale_arguments
         self._head, self._title = f"{label(point)} = ", english_title(point)
         self.name, self._code, self._is_text = point.item, point.code, point.text is not None
@@ -151,16 +153,8 @@ class PointFormatter:
         return Item(
             *self.base, line(self._head + text), self.name, self._code, None if self._is_text else raw,
             meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags, meaning.text,
-            self._doubts(raw, settings, finding) if self._doubting is not None else (),
+            () if self._doubts is None else self._doubts.of(raw, settings, meaning.text)[1 if finding else 0 :],
         )  # fmt: skip
-
-    def _doubts(self, raw: int, settings: Settings, finding: str) -> tuple[str, ...]:
-        """Return what speaks against a number, and other readings of it."""
-        point, directory = self._point, self._doubting
-        if directory is None or point.text is not None or not point.generated:
-            return ()
-        texts = doubts(self._device, point, raw, settings, partial(directory.neighbours, point))
-        return texts[1:] if finding else texts
 
 
 @dataclass(slots=True)

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of, number_of, with_fixed
 from fieldscribe.conversation.decode_state import Directory
 from fieldscribe.conversation.meanings import Meanings, raw_form
-from fieldscribe.conversation.near_misses import doubts
+from fieldscribe.conversation.near_misses import Doubts
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
@@ -64,9 +64,10 @@ def _rows_of_number(device: Device, point: Point, raw: int | None) -> Iterator[R
         yield f"Raw {raw}", f"it does not fit into the {point.width} bits of the point"
         return
     raw = number_of(raw, point.width, signed=point.info.signed) if raw > 0 else raw
-    yield f"R{raw_form(point)(raw)[1:]}", Meanings(device, point).text(raw, {})
-    neighbours = partial(Directory(device).neighbours, point)
-    yield from (("Doubt", text) for text in doubts(device, point, raw, {}, neighbours))
+    meaning = Meanings(device, point).text(raw, {})
+    yield f"R{raw_form(point)(raw)[1:]}", meaning
+    doubts = Doubts(device, point, partial(Directory(device).neighbours, point))
+    yield from (("Doubt", text) for text in doubts.of(raw, {}, meaning))
 
 
 def _rows(device: Device, point: Point, errata: list[Erratum], printed: list[Erratum]) -> Iterator[Row]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from fieldscribe.arithmetic.codec import Settings
-from fieldscribe.arithmetic.words import number_of, pattern_of, raw_of, words_of
+from fieldscribe.arithmetic.words import number_of, pattern_of, reader_of, words_of
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.refusals import in_range, range_fault
 from fieldscribe.model import Device, Point
@@ -19,37 +19,71 @@ Neighbours = Callable[[int], Iterable[Point]]
 """Returns the points that begin at an address of the same space."""
 
 
-def doubts(device: Device, point: Point, raw: int, settings: Settings, neighbours: Neighbours) -> tuple[str, ...]:
-    """Return that a number lies outside the range of its point, then other readings; nothing if it lies in range."""
-    fault = range_fault(device, point, raw, settings)
-    return (fault, *near_misses(device, point, raw, settings, neighbours)) if fault else ()
+class Doubts:
+    """What speaks against the numbers of a point: made once, since its limits and its neighbours stay."""
 
+    def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
+        self._device, self._point, self._fits = device, point, _range_test(point)
+        self._meanings, self._range = Meanings(device, point), ""
+        self._read, self._swaps = reader_of(point), point.words > 1
+        self._is_limited, self._is_signed = _is_limited(point), not point.info.floating
+        first = point.addresses[0] if point.addresses else 0
+        others = [
+            (f"one address {name}, {label(other)},", other)
+            for name, address in ((("up", first + 1), ("down", first - 1)) if point.addresses else ())
+            for other in neighbours(address)
+            if other.words == point.words and other.generated and other.readable and _is_limited(other)
+        ]
+        self._others = [(text, reader_of(one), _range_test(one), Meanings(device, one)) for text, one in others]
 
-def near_misses(device: Device, point: Point, raw: int, settings: Settings, neighbours: Neighbours) -> Iterator[str]:
-    """Yield the other readings of a number that lie in range."""
-    for text, other, number, tested in _readings(point, raw, words_of(point, raw), neighbours):
-        limited = other.allowed.intervals or other.allowed.units or (other.enum is not None and other.enum.closed)
-        if limited and in_range(other, tested, settings):
-            meaning = Meanings(device, other).of(number, settings)
+    def of(self, raw: int, settings: Settings, meaning: str) -> tuple[str, ...]:
+        """Return that a number lies outside the range, then the other readings; nothing if it lies in range.
+
+        `meaning` is what the number means.
+        """
+        if self._fits(raw, settings):
+            return ()
+        if self._range and meaning:
+            fault = f"{meaning} is outside {self._range}"
+        else:
+            fault = range_fault(self._device, self._point, raw, settings)
+            is_fixed = not self._point.limit_arguments and self._point.form in ("scaled", "integer")
+            self._range = fault.partition(" is outside ")[2] if is_fixed else ""
+        return (fault, *self._near_misses(raw, settings)) if fault else ()
+
+    def _near_misses(self, raw: int, settings: Settings) -> Iterator[str]:
+        """Yield the other readings that lie in range and have a meaning."""
+        words = words_of(self._point, raw)
+        for text, number, meanings in self._readings(raw, words, settings):
+            meaning = meanings.of(number, settings)
             if meaning.text and not (meaning.missing or meaning.hint):
                 yield line(f"{text} it is {meaning.text}")
 
+    def _readings(self, raw: int, words: tuple[int, ...], settings: Settings) -> Iterator[tuple[str, int, Meanings]]:
+        """Yield each other reading that lies in range: in words, its raw number, and what that means."""
+        if self._is_limited and self._swaps and self._fits(number := self._read(words[::-1]), settings):
+            yield "with its words swapped", number, self._meanings
+        if self._is_limited and self._is_signed:
+            signed = number_of(pattern_of(self._point, raw), self._point.width, signed=True)
+            if signed < 0 and self._fits(-signed, settings):
+                text, number = ("without its sign", -signed) if raw < 0 else ("as a signed number", signed)
+                yield text, number, self._meanings
+        for text, read, fits, meanings in self._others:
+            if fits(number := read(words), settings):
+                yield text, number, meanings
 
-def _readings(
-    point: Point, raw: int, words: tuple[int, ...], neighbours: Neighbours
-) -> Iterator[tuple[str, Point, int, int]]:
-    """Yield each other reading: in words, the point, its raw number, and the one that must be in range."""
-    if len(words) > 1:
-        swapped = raw_of(point, words[::-1])
-        yield "with its words swapped", point, swapped, swapped
-    if not point.info.floating:
-        signed = number_of(pattern_of(point, raw), point.width, signed=True)
-        if signed < 0:
-            text, number = ("without its sign", -signed) if raw < 0 else ("as a signed number", signed)
-            yield text, point, number, -signed
-    first = point.addresses[0] if point.addresses else 0
-    for name, address in (("up", first + 1), ("down", first - 1)) if point.addresses else ():
-        for other in neighbours(address):
-            if other.words == len(words) and other.generated and other.readable:
-                number = raw_of(other, words)
-                yield f"one address {name}, {label(other)},", other, number, number
+
+def _is_limited(point: Point) -> bool:
+    """Return True if the manual limits the numbers of a point."""
+    return bool(point.allowed.intervals or point.allowed.units or (point.enum is not None and point.enum.closed))
+
+
+def _range_test(point: Point) -> Callable[[int, Settings], bool]:
+    """Return the function that `in_range` is for this point."""
+    spans = [(span.low, span.high) for span in point.allowed.intervals]
+    ends = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
+    special = point.specials or point.fixed or point.digits or point.info.floating
+    if special or len(ends) < len(spans) or not ends:
+        return lambda raw, settings: in_range(point, raw, settings)
+    least, greatest = point.least, point.greatest
+    return lambda raw, _: least <= raw <= greatest and any(low <= raw <= high for low, high in ends)

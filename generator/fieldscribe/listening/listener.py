@@ -158,7 +158,7 @@ class Listener:
         self, waiting: _Open, reply: FrameResult | None, cut: Cut | None, faults: tuple[str, ...] = ()
     ) -> Exchange:
         first, request, station = waiting
-        took = None if cut is None or cut.time is None or first.time is None else cut.time - first.time
+        took = None if cut is None or cut.time is None or first.time is None else round(cut.time - first.time, 6)
         faults = (*request.faults, *(reply.faults if reply else ()), *faults)
         cuts = (first,) if cut is None else (first, cut)
         action = self.part.action(request)

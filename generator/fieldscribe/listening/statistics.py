@@ -40,7 +40,7 @@ class Poll:
         """The seconds from one to the next, on average."""
         if self.first is None or self.last is None or self.count < 2:
             return None
-        return (self.last - self.first) / (self.count - 1)
+        return round((self.last - self.first) / (self.count - 1), 6)
 
     def add(self, exchange: Exchange) -> None:
         """Count an exchange."""
@@ -49,7 +49,7 @@ class Poll:
         self.last = exchange.time
         self.answered += exchange.reply is not None and not exchange.faults
         if exchange.took is not None:
-            self.took += exchange.took
+            self.took = round(self.took + exchange.took, 6)
             self.timed += 1
             self.slowest = max(self.slowest, exchange.took)
 
