@@ -1,5 +1,7 @@
 //! Texts over Modbus: words in the order of their addresses on the line, characters in reading order in the value.
 
+extern crate kitchen_sink;
+
 use fieldscribe_runtime::client::{Client, Transport};
 use fieldscribe_runtime::modbus::{crc, BuildError, Framing, Function, Profile, Request};
 use fieldscribe_runtime::{Error, Text};
@@ -61,6 +63,11 @@ fn main() {
     assert_eq!(points::Note::to_words(raw), [0x6161, 0x6363, 0x6262]);
     assert_eq!(points::Note::from_received([0x6161, 0x6363, 0x6262].into_iter()), Ok(raw));
     assert_eq!(points::Note::from_received([0x6161, 0x6363].into_iter()), Err(Error::WrongLength(Some("note"))));
+
+    // Words that are not neighbours: no request reads all, and the words of several requests are the number.
+    let scattered = Request::read::<kitchen_sink::points::SplitCounter>(1);
+    assert_eq!(scattered.build(&PROFILE, &mut frame), Err(BuildError::BadCount));
+    assert_eq!(kitchen_sink::points::SplitCounter::from_received([1, 2].into_iter()), Ok(0x1_0002));
 
     let blanks = Text::<4>::from_bytes(b"a  ").unwrap();
     assert_eq!((blanks.as_bytes(), blanks), (&b"a"[..], Text::new("a").unwrap()));
