@@ -342,11 +342,13 @@ def snapshots(folder: Path) -> None:
     """Files of a drive with two base frequencies, and of a meter."""
     meter = defaults(shipped("eastron_sdm630"))
     period = meter.points["demand_period"]._replace(value=1.0, text="1 min")
-    replace(meter, line="x", points={**meter.points, "demand_period": period}).write(folder / "meter.json")
+    texts = {"meter": replace(meter, line="x", points={**meter.points, "demand_period": period}).as_text()}
     for name, hertz in (("before", 60), ("after", 40)):
         held = Held("A020", float(hertz), "Hz", f"{hertz} Hz", 10 * hertz, "setting")
         drive = replace(meter, device="hitachi_l200", line="tcp://192.168.0.20", unit=1, taken="2027-01-01T12:00:00")
-        replace(drive, points={"base_frequency": held}).write(folder / f"{name}.json")
+        texts[name] = replace(drive, points={"base_frequency": held}).as_text()
+    for name, text in texts.items():
+        (folder / f"{name}.json").write_text(text, "utf-8")
 
 
 def _interrupted(seconds: float) -> None:

@@ -85,7 +85,8 @@ def devices(small: Path) -> None:
     Path("line.log").write_text(f"{SPEED_50}\n")
     for name, raw in (("one", 1), ("two", 2)):
         points = {"speed": Held("P1", raw, "", "", raw, "setting")}
-        Snapshot("small_drive", "", "", "", 1, "", {}, [], points, {}).write(Path(f"{name}.json"))
+        snapshot = Snapshot("small_drive", "", "", "", 1, "", {}, [], points, {})
+        Path(f"{name}.json").write_text(snapshot.as_text(), "utf-8")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -236,5 +236,5 @@ def test_what_is_no_snapshot_is_said(text: str, run: Run, tmp_path: Path) -> Non
 
 def test_a_snapshot_is_read_as_it_was_written(tmp_path: Path) -> None:
     usual = defaults(shipped("eastron_sdm630"))
-    usual.write(tmp_path / "x.json")
+    (tmp_path / "x.json").write_text(usual.as_text(), "utf-8")
     assert read_snapshot(tmp_path / "x.json") == usual

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from argparse import ArgumentParser, Namespace
 from dataclasses import replace
@@ -10,6 +11,7 @@ from pathlib import Path
 from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.live.snapshots import take
+from fieldscribe.output import writing
 from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
@@ -39,7 +41,7 @@ def run(arguments: Namespace) -> int:
             snapshot = take(live.model, live.device, live.line.text, progress.show)
         finally:
             progress.clear()
-    replace(snapshot, given=given).write(arguments.out)
+    writing.replace(Path(os.path.realpath(arguments.out)), [replace(snapshot, given=given).as_text().encode("utf-8")])
     missing = [[("error", visible(f"{name}: {why}"))] for name, why in snapshot.missing.items()]
     print_lines(missing, sys.stderr)
     without = f", {len(missing)} without a number" if missing else ""

@@ -85,10 +85,10 @@ class Snapshot:
         """The raw numbers by item."""
         return {item: held.raw for item, held in self.points.items() if held.raw is not None}
 
-    def write(self, path: Path) -> None:
-        """Write the file. Raises OSError."""
+    def as_text(self) -> str:
+        """Return the text of its file."""
         facts = asdict(self) | {"points": {name: held._asdict() for name, held in self.points.items()}}
-        path.write_text(json.dumps({"snapshot": _FORMAT, **facts}, indent=1) + "\n", encoding="utf-8")
+        return json.dumps({"snapshot": _FORMAT, **facts}, indent=1) + "\n"
 
 
 def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
