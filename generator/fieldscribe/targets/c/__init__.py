@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from io import StringIO
+from itertools import chain
 from typing import Literal
 
 from fieldscribe.model import Device
@@ -17,6 +19,9 @@ from fieldscribe.targets.c.scope import scope_of
 SEES_TITLES = False
 NEEDS_FAMILY = True
 BEFORE_POINTS = ("", "read", "write", "store")
+
+_HERE = "\0"
+"""Stands for the functions of points: no text of a description holds it."""
 
 FramesPart = Literal["all", "constants", "calls"]
 """What the header of frames holds."""
@@ -47,13 +52,14 @@ def outputs(
     if rows and (macros := "".join(section.rows(scope) for section in sections.values())):
         yield f"c/{device.id}_rows.h", framed(render, f"c/{device.family}_rows.h.j2", context, {"rows": macros})
     if tests:
-        from fieldscribe.targets.c.conformance import adapters_text, suite_context
+        from fieldscribe.targets.c.conformance import adapters, suite_context
 
         suite = {**context, "suite": suite_context(device, points, scope)}
-        adapters = adapters_text(points, scope, sections.values(), render)
-        program = framed(render, f"c/{device.family}_conformance.c.j2", suite, {"adapters": adapters})
-        del adapters
-        yield f"c/conformance/{device.id}_conformance.c", program
+        frame = framed(render, f"c/{device.family}_conformance.c.j2", suite, {"adapters": _HERE})
+        before, _, behind = frame.partition(_HERE)
+        program = StringIO()  # the largest file: it is never in memory twice
+        program.writelines(chain((before,), adapters(points, scope, sections.values(), render), (behind,)))
+        yield f"c/conformance/{device.id}_conformance.c", program.getvalue()
 
 
 def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -> Iterator[tuple[str, str]]:

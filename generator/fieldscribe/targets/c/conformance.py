@@ -57,11 +57,11 @@ def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: Heade
     }
 
 
-def adapters_text(
+def adapters(
     points: Iterable[GeneratedPoint], scope: HeaderScope, sections: Collection[Frames], render: Render
-) -> str:
-    """Return the functions of points that answer vectors."""
-    return "".join(texts_of(points, lambda view: _adapter(view, scope, sections, render)))
+) -> Iterator[str]:
+    """Yield the functions of points that answer vectors."""
+    return texts_of(points, lambda view: _adapter(view, scope, sections, render))
 
 
 def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:
