@@ -14,6 +14,7 @@ from fieldscribe.live.devices import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe_runtime.modbus.planner import plan
+from support.described import DEVICES
 from support.small_drive import Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
@@ -251,6 +252,25 @@ def test_monitor_ends_at_ctrl_c(on_line: Run, monkeypatch: pytest.MonkeyPatch) -
     done = on_line("monitor", "hitachi_l200", "status")
     assert done.code == 0
     assert "ended after 2 requests; nothing was written" in done.err
+
+
+@pytest.mark.parametrize(
+    ("word", "code", "message"),
+    [
+        ("dim:percent=40", 0, "written: dim (Dim), percent 40"),
+        ("dim", 2, "the command dim takes percent\n  hint: write dim:percent=NUMBER"),
+        ("dim:percent=101", 1, "percent of dim is 0..100, not 101"),
+        ("dim:percent=x", 2, "percent of dim: `x` is not a number"),
+    ],
+)
+def test_a_command_has_arguments(word: str, code: int, message: str, run: Run) -> None:
+    given = ("--with", "slot=3", "--with", "half=1")
+    with simulated(DEVICES / "kitchen_blocks", given={"slot": 3, "half": 1}, values={"energy": 0}) as blocks:
+        line = f"tcp://127.0.0.1:{blocks.port}"
+        done = run("write", str(DEVICES / "kitchen_blocks"), word, "--yes", *given, "--line", line)
+        assert (done.code, message in done.out + done.err) == (code, True), done
+        if code == 0:
+            assert blocks.values["level"] == 40.0
 
 
 def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:

@@ -34,7 +34,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
     add = parser.add_argument
-    add("words", nargs="+", metavar="POINT=VALUE|COMMAND", help="a point with a value as for `encode`, or a command")
+    add(
+        "words",
+        nargs="+",
+        metavar="POINT=VALUE|COMMAND",
+        help="a point with a value as for `encode`, or a command; arguments follow it, as in dim:percent=50",
+    )
     add_unit(parser)
     add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("-y", "--yes", action="store_true", help="write without asking")

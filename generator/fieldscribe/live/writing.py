@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +13,11 @@ from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.families import family
+from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.live.readings import Reading
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line, shortened
-from fieldscribe.user_errors import UnclearError
+from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label, title_text
 
 if TYPE_CHECKING:
@@ -37,11 +38,12 @@ class Write:
     text: str
     notes: tuple[str, ...]
     remarks: tuple[str, ...]
+    arguments: Mapping[str, int] = field(default_factory=dict)
 
     def carry_out(self, device: AnyDevice) -> None:
         """Write it. Raises FieldscribeError."""
         if self.raw is None:
-            getattr(device, self.item).send()
+            getattr(device, self.item).send(**self.arguments)
             return
         handle: Any = device.point(self.item)
         handle.write_raw(self.raw, **({"keep": True} if self.keep else {}))
@@ -81,10 +83,11 @@ class Planner:
         return writes
 
     def _of_word(self, word: str) -> Write:
+        name, colon, arguments = word.partition(":")
+        if name in self._commands and (colon or "=" not in word):
+            return self._command(name, arguments)
         name, equals, value = word.partition("=")
         name = name.strip()
-        if not equals and name in self._commands:
-            return self._command(name)
         if not equals:
             message = f"`{shortened(word)}` is no command of {self._model.id}, and has no value"
             raise UnclearError(message, "write POINT=VALUE")
@@ -132,14 +135,34 @@ class Planner:
         if point.write_with:
             yield f"the device wants it in one request with {', '.join(point.write_with)}"
 
-    def _command(self, name: str) -> Write:
-        """Return a command."""
+    def _command(self, name: str, given: str = "") -> Write:
+        """Return a command, with its arguments as in `item=3,from=1`. Raises UnclearError, RefusedError."""
         command = self._commands[name]
+        arguments = _arguments(name, getattr(command, "arguments", {}), given)
         wears = getattr(command, "wears", None)
         remarks = (f"the memory stands {wears} of these",) if wears else ()
-        text = line(f"{name} ({title_text(command.title)})")
+        numbers = "".join(f", {argument} {number}" for argument, number in arguments.items())
+        text = line(f"{name} ({title_text(command.title)}){numbers}")
         reading = Reading(name, None, None, "", text, None, "ok", "")
-        return Write(name, None, False, reading, text, (), remarks)
+        return Write(name, None, False, reading, text, (), remarks, arguments)
+
+
+def _arguments(name: str, ends: Mapping[str, tuple[int, int]], given: str) -> dict[str, int]:
+    """Return the arguments of a command by name. Raises UnclearError, RefusedError."""
+    pairs = [pair.partition("=") for pair in given.split(",") if pair.strip()]
+    texts = {key.strip(): text for key, _, text in pairs}
+    if texts.keys() != ends.keys():
+        takes = f"{name}:{','.join(f'{key}=NUMBER' for key in ends)}" if ends else name
+        raise UnclearError(f"the command {name} takes {', '.join(ends) or 'no arguments'}", f"write {takes}")
+    numbers: dict[str, int] = {}
+    for key, (low, high) in ends.items():
+        try:
+            numbers[key] = parse_integer(texts[key])
+        except NumberError as error:
+            raise UnclearError(f"{key} of {name}: {error.message}", error.hint) from error
+        if not low <= numbers[key] <= high:
+            raise RefusedError("out_of_range", f"{key} of {name} is {low}..{high}, not {numbers[key]}")
+    return numbers
 
 
 def reading_of(model: Device, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
