@@ -48,9 +48,8 @@ class Meanings:
         self._of_names = _naming(point)
         self._specials, self._unit = point.specials, point.unit.symbol
         self._arguments, self._display = point.scale_arguments, point.display
-        self._exact = (
-            not point.info.floating and point.most_raw is None and (point.generated or point.scale is not None)
-        )
+        number = not point.info.floating and not point.epoch
+        self._exact = number and point.most_raw is None and (point.generated or point.scale is not None)
         # typed: a special code equals the plain number, and is no quantity
         self._rule = lru_cache(_MOST_NUMBERS, typed=True)(self._rule_of)
 
