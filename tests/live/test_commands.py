@@ -169,8 +169,11 @@ def test_answers_as_json(on_line: Run) -> None:
     read = json.loads(on_line("read", "hitachi_l200", "A020", "--format", "json").out)
     value = {"name": "base_frequency", "code": "A020", "value": 50.0, "unit": "Hz", "text": "50 Hz", "raw": 500}
     assert read["values"] == [{**value, "status": "ok", "detail": ""}]
-    written = json.loads(on_line("write", "hitachi_l200", "A020=50", "--yes", "--format", "json").out)
+    words = ("A020=50", "A061=inactive", "run_command=stop")
+    written = json.loads(on_line("write", "hitachi_l200", *words, "--yes", "--format", "json").out)
+    read = json.loads(on_line("read", "hitachi_l200", "A020", "A061", "run_command", "--format", "json").out)
     assert written["written"] == read["values"]
+    assert read["values"][1].items() > {"value": None, "status": "special", "detail": "inactive", "raw": 0}.items()
     shown = on_line("monitor", "hitachi_l200", "A020", "--count", "1", "--format", "json").out
     assert json.loads(shown).items() >= value.items()
     scanned = json.loads(on_line("scan", "hitachi_l200", "--units", "1,3", "--format", "json").out)

@@ -96,9 +96,17 @@ class Planner:
         settings = self._needed(point)
         encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))
         self._settings[point.name] = codec.setting_of(point, encoded.raw)
-        reading = reading_of(self._model, point, encoded.raw, settings)
+        reading = self._reading(point, encoded.raw, settings)
         remarks = tuple(self._remarks(point, keep))
         return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks)
+
+    def _reading(self, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
+        """Return what a read would tell of a point once it is written."""
+        reading = reading_of(self._model, point, raw, settings)
+        if not point.readable or point.scale_arguments:
+            return reading
+        handle: Any = self._device.point(point.item)
+        return Reading(**self._device.rows({point.item: handle.decode(raw)})[0], text=reading.text)
 
     def _needed(self, point: Point) -> dict[str, int | Fraction]:
         """Return what the other points hold that a scale or limit depends on."""
