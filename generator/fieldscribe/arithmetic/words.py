@@ -75,9 +75,10 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
 def reader_of(point: Point) -> Callable[[Sequence[int]], int]:
     """Return the function that `raw_of` is for this point; it is made once and then quicker."""
     plain = point.text is None and point.bits is None and not (point.coding or point.swapped)
-    if plain and not point.info.signed and point.width == 16 * point.words and point.words in (1, 2):
-        return _first if point.words == 1 else _first_two
-    return partial(raw_of, point)
+    if not plain or point.width != 16 * point.words or point.words not in (1, 2):
+        return partial(raw_of, point)
+    read, top = (_first, 0x8000) if point.words == 1 else (_first_two, 0x80000000)
+    return (lambda words: (read(words) ^ top) - top) if point.info.signed else read
 
 
 def _first(words: Sequence[int]) -> int:

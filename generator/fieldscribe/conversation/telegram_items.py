@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
 from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
@@ -68,13 +68,13 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
 class _Part(NamedTuple):
     """A point in the frames of a telegram: `offsets` of its words if one frame brings all of them, else none.
 
-    Without a formatter it is a place without a point.
+    Without a formatter it is a place without a point, and nothing else is there.
     """
 
     place: int
-    point: Point | None = None
+    point: Any = None
     formatter: PointFormatter | None = None
-    read: Callable[[Sequence[int]], int] | None = None
+    read: Any = None
     offsets: tuple[int, ...] = ()
     teaches: bool = False
 
@@ -82,62 +82,61 @@ class _Part(NamedTuple):
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     """Return the items of a frame of a telegram, and of earlier points whose missing settings it brings."""
     telegram, settings = piece.telegram.name, state.settings
-    taught, items = [], list[Item]()
-    parts = _parts(state, piece)
-    raws = [_raw(part, piece) for part in parts]
-    for part, raw in zip(parts, raws, strict=True):
-        if part.teaches and part.point is not None and raw is not None:
-            taught.append((part.point, raw))
+    parts = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
+    parts = parts or _planned(state, piece)
+    taught = [(part.point, raw) for part in parts if part.teaches and (raw := _raw(part, piece)) is not None]
     if taught:
         state.learn(taught)
+    items: list[Item] = []
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
-    for (place, point, formatter, _, _, _), raw in zip(parts, raws, strict=True):
-        if point is None or formatter is None:
-            word = hex_words((piece.words[place - piece.positions.start],))
-            items.append(Item(telegram, place, 1, f"word {place}: no point is described here ({word})"))
-        elif raw is None:
-            items.append(named_item(point, formatter.base, _incomplete_text(state, piece, point, formatter)))
-        else:
-            item = formatter.item(raw, settings)
-            if state.incomplete:
-                state.incomplete.pop(formatter.name, None)
-            if item.missing:
-                incomplete[formatter.name] = formatter, raw
-                item = replace(item, summary=item.summary + _source_text(state, piece, item.missing))
-            items.append(item)
+    for part in parts:
+        formatter = part.formatter
+        if formatter is None:
+            word = hex_words((piece.words[part.place - piece.positions.start],))
+            items.append(Item(telegram, part.place, 1, f"word {part.place}: no point is described here ({word})"))
+            continue
+        raw = _raw(part, piece)
+        if raw is None:
+            text = _incomplete_text(state, piece, part.point, formatter)
+            items.append(named_item(part.point, formatter.base, text))
+            continue
+        item = formatter.item(raw, settings)
+        if state.incomplete:
+            state.incomplete.pop(formatter.name, None)
+        if item.missing:
+            incomplete[formatter.name] = formatter, raw
+            item = replace(item, summary=item.summary + _source_text(state, piece, item.missing))
+        items.append(item)
     if state.changed:
         items += _completed_items(state)
-    state.incomplete.update(incomplete)
+    if incomplete:
+        state.incomplete.update(incomplete)
     return items
 
 
-def _parts(state: DecodeState, piece: Piece) -> list[_Part]:
-    """Return the points that a frame of a telegram brings; these are the same for each such frame."""
+def _planned(state: DecodeState, piece: Piece) -> list[_Part]:
+    """Return and keep the points that a frame of a telegram brings; these are the same for each such frame."""
     telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
-    key = (telegram, positions.start, -1), len(positions)
-    if key not in directory.plans:
-        parts: list[_Part] = []
-        for place in positions:
-            points = directory.at(telegram, place)
-            parts += [] if points else [_Part(place)]
-            for point in points:
-                if place == min(position for position in point.addresses if position in positions):
-                    formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
-                    whole = all(at in positions for at in point.addresses)
-                    offsets = tuple(at - positions.start for at in point.addresses) if whole else ()
-                    teaches = directory.teaches(point)
-                    parts.append(_Part(place, point, formatter, reader_of(point), offsets, teaches))
-        directory.plans[key] = parts
-    planned: list[_Part] = directory.plans[key]
-    return planned
+    parts: list[_Part] = []
+    for place in positions:
+        points = directory.at(telegram, place)
+        parts += [] if points else [_Part(place)]
+        for point in points:
+            if place == min(position for position in point.addresses if position in positions):
+                formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
+                whole = all(at in positions for at in point.addresses)
+                offsets = tuple(at - positions.start for at in point.addresses) if whole else ()
+                parts.append(_Part(place, point, formatter, reader_of(point), offsets, directory.teaches(point)))
+    directory.plans[(telegram, positions.start, -1), len(positions)] = parts
+    return parts
 
 
 def _raw(part: _Part, piece: Piece) -> int | None:
     """Return the raw number; None while words of other frames are not known."""
-    if part.point is None or part.read is None:
-        return None
     if part.offsets:
-        return part.read([piece.words[offset] for offset in part.offsets])
+        words = piece.words
+        number: int = part.read([words[offset] for offset in part.offsets])
+        return number
     status, words = piece.pieces.words(part.point.addresses)
     return part.read(words) if status == "ok" else None
 
