@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import cast
 
 from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, open_device, usage_error
-from fieldscribe.cli.frame_options import add_family_options, options_of
+from fieldscribe.cli.frame_options import add_family_options, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.families import family
@@ -27,6 +27,7 @@ from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.logs import timed
 from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
 from fieldscribe.listening.statistics import Statistics
+from fieldscribe.live import project as project_file
 from fieldscribe.live.lines import LineAddress, read_line, require_line
 from fieldscribe.live.project import NAME, Project, read_project
 from fieldscribe.model import Device
@@ -67,6 +68,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add_descriptions(parser)
     add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
+    add_with(parser)
     add_repeated(parser, "--capture", "FILE", "read a capture; - is standard input")
     add("--line", metavar="LINE", help=f"listen on a line: rtu:///dev/ttyUSB0?baud=9600, or a name from {NAME}")
     add("--for", type=float, metavar="SECONDS", dest="duration", help="stop listening on the line after this time")
@@ -102,18 +104,17 @@ def run(arguments: Namespace) -> int:
 def _station(arguments: Namespace, text: str, project: Project) -> Station:
     """Return a device with its unit: as typed, or as the project's file has it. Raises StopError."""
     known = project.stations.get(text)
-    if known is not None:
-        arguments.device = known.description
-        arguments.line = arguments.line or (None if arguments.capture else known.line)
-        of_all, arguments.variant = arguments.variant, [*arguments.variant, *known.variants]
-        device = open_device(arguments)
-        arguments.variant = of_all
-        return Station(device, known.unit)
-    name, equals, unit = text.rpartition("=")
-    if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
-        raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
-    arguments.device = name if equals else text
-    return Station(open_device(arguments), int(unit) if equals else None)
+    if known is None:
+        name, equals, unit = text.rpartition("=")
+        if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
+            raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
+        known = project_file.Station(name if equals else text, None, int(unit) if equals else None)
+    arguments.line = arguments.line or (None if arguments.capture else known.line)
+    own = Namespace(**vars(arguments))
+    own.device = known.description
+    own.variant, own.settings = [*arguments.variant, *known.variants], [*arguments.settings, *known.settings]
+    device = placed(open_device(own), own)
+    return Station(device, known.unit, settings_of(device, own))
 
 
 def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress:

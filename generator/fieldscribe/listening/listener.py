@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterator, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import OpenRequests
@@ -30,6 +32,8 @@ class Station(NamedTuple):
 
     device: Device
     unit: int | None = None
+    settings: Settings = MappingProxyType({})
+    """What other points hold, where values depend on them."""
 
 
 class _Open(NamedTuple):
@@ -150,7 +154,7 @@ class Listener:
         if key not in self._decoders:
             options = Options(framing or self._options.framing, own=self._options.own)
             self._decoders[key] = StreamDecoder(
-                station.device, {}, frame_decoder(station.device, options), doubting=True
+                station.device, station.settings, frame_decoder(station.device, options), doubting=True
             )
         return self._decoders[key]
 
