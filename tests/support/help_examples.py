@@ -109,7 +109,8 @@ def workplace(folder: Path) -> Path:
 def ran(example: Example, folder: Path, capsys: pytest.CaptureFixture[str], patch: pytest.MonkeyPatch) -> Ran:
     """Run an example in the folder: without its pipe, and with a log of candump as its input."""
     read = folder / (example.file if example.sign == "<" else "candump.log")
-    patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(read.read_bytes()), encoding="utf-8"))
+    buffer = io.BufferedReader(io.BytesIO(read.read_bytes()))  # as standard input has it, with `peek`
+    patch.setattr(sys, "stdin", io.TextIOWrapper(buffer, encoding="utf-8"))
     with chdir(folder):
         code = main(shlex.split(example.words))
     said, told = capsys.readouterr()
