@@ -143,7 +143,7 @@ CLAIMS = {
             0, "d001 .*\n.*d002", "ended after"
         ),
         "pump status --format csv > pump.csv": Claim(0, "^time,name,code,value", "ended after"),
-        "pump status --format json --count 60": Claim(0, '^{"time": ', "ended after"),
+        "pump status --format jsonl --count 60": Claim(0, '^{"time": ', "ended after"),
     },
     "scan": {
         '--line "rtu:///dev/ttyUSB0?baud=19200"': Claim(0, "^unit 3  holding 0x0000: "),

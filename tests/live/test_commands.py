@@ -174,7 +174,7 @@ def test_answers_as_json(on_line: Run) -> None:
     read = json.loads(on_line("read", "hitachi_l200", "A020", "A061", "run_command", "--format", "json").out)
     assert written["written"] == read["values"]
     assert read["values"][1].items() > {"value": None, "status": "special", "detail": "inactive", "raw": 0}.items()
-    shown = on_line("monitor", "hitachi_l200", "A020", "--count", "1", "--format", "json").out
+    shown = on_line("monitor", "hitachi_l200", "A020", "--count", "1", "--format", "jsonl").out
     assert json.loads(shown).items() >= value.items()
     scanned = json.loads(on_line("scan", "hitachi_l200", "--units", "1,3", "--format", "json").out)
     assert (scanned["asked"], [one["unit"] for one in scanned["answers"]]) == ([1, 3], [1])

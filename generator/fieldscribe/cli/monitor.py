@@ -23,7 +23,7 @@ EXAMPLE = f"""examples:
   fieldscribe monitor hitachi_l200 status --line tcp://192.168.0.20
   fieldscribe monitor hitachi_l200 d001 d002 --every 0.2 --line rtu:///dev/ttyUSB0 --unit 3
   fieldscribe monitor pump status --format csv > pump.csv
-  fieldscribe monitor pump status --format json --count 60
+  fieldscribe monitor pump status --format jsonl --count 60
 
 A terminal shows a table, in which what changed last stands out. Elsewhere each change is a line: as text, as CSV, or as
 JSON. --all prints what did not change, too.
@@ -44,7 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--every", type=_seconds, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
     add("--count", type=int, metavar="N", help="so often (default: until Ctrl-C)")
     add("--all", action="store_true", help="print all points each time, not only what changed")
-    add("--format", choices=("text", "csv", "json"), default="text", help="how to print (default: text)")
+    add("--format", choices=("text", "csv", "jsonl"), default="text", help="how to print (default: text)")
 
 
 def _seconds(text: str) -> float:
@@ -108,7 +108,7 @@ def _printer(arguments: Namespace) -> Printer:
     if arguments.format == "text" and is_coloured(sys.stdout) and not arguments.verbose:
         return _Table()
     show: Show = _csv_writer() if arguments.format == "csv" else _show_line
-    return _Changes(_show_json if arguments.format == "json" else show, everything=arguments.all)
+    return _Changes(_show_json if arguments.format == "jsonl" else show, everything=arguments.all)
 
 
 class _Changes:
