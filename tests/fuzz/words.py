@@ -33,7 +33,7 @@ FREE = (
     *_WITHOUT_BLANKS.split(),
 )
 
-ENDLESS = ("watch", "monitor")
+ENDLESS = ("watch", "monitor", "simulate")
 """Commands that run until somebody stops them."""
 
 
