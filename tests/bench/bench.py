@@ -23,7 +23,7 @@ from line_bench import print_lines
 from m0_bench import print_m0
 from python_bench import print_python
 from simulation_bench import print_simulation
-from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
+from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_listening, print_streams
 from synthetic import write_dbc, write_device
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -182,6 +182,7 @@ def main() -> None:
     print_simulation(3 * arguments.runs)
     print_python(3 * arguments.runs)
     print_streams(STREAMED)
+    print_listening(STREAMED)
     print_m0()
 
 

@@ -6,7 +6,9 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,6 +19,8 @@ from random import Random
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+captured = importlib.import_module("support.captured")
 FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
 CANTOOLS = str(Path(sys.executable).with_name("cantools"))
 KEEPS_BYTECODE = {
@@ -101,6 +105,35 @@ def measured(words: list[str], file: Path) -> tuple[float, float]:
     return usage.ru_utime, usage.ru_maxrss / 1024
 
 
+def polls(random: Random, count: int) -> Iterator[bytes]:
+    """A poll of Modbus in a network, of which one word in ten moves a little: Ethernet frames."""
+    word, sent, came = slowly(random), 1, 1
+    for number in range(count // 2):
+        address, items = random.choice(REGISTERS), random.randint(1, 4)
+        head = (number & 0xFFFF).to_bytes(2, "big") + b"\0\0"
+        asked = head + bytes((0, 6, 1, 3, *divmod(address, 256), 0, items))
+        values = b"".join(word((address, at)).to_bytes(2, "big") for at in range(items))
+        answer = head + bytes((0, 3 + 2 * items, 1, 3, 2 * items)) + values
+        yield captured.segment(sent, asked, seen=came)
+        sent += len(asked)
+        yield captured.segment(came, answer, back=True, seen=sent)
+        came += len(answer)
+
+
+def print_listening(packets: int) -> None:
+    """Print what `listen` takes for a capture, and `tshark -V` where it is installed."""
+    print(f"\n{f'a capture with {packets:,} packets':<48} {'seconds':>8} {'MiB':>5} {'ratio':>7}")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "poll.pcap"
+        with file.open("wb") as stream:
+            stream.writelines(captured.classic_pieces(polls(Random(1), packets)))
+        tshark = shutil.which("tshark")
+        peer, memory = measured([tshark, "-V", "-r", str(file)], file) if tshark else (0.0, 0.0)
+        print(f"{'tshark -V':<48} {peer:8.2f} {memory:5.0f}" if tshark else "tshark is not installed")
+        seconds, memory = measured([FIELDSCRIBE, "listen", "hitachi_l200", "--capture", str(file)], file)
+        print(f"{'listen, which may take twice as long':<48} {seconds:8.2f} {memory:5.0f} {seconds / (peer or 1):7.2f}")
+
+
 def print_streams(lines: int) -> None:
     """Print a line a stream; the ratio is to cantools for the first one, with as many lines."""
     print(f"\n{f'decode, {lines:,} lines':<48} {'seconds':>8} {'MiB':>5} {'ratio':>7}")
@@ -121,4 +154,6 @@ def print_streams(lines: int) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lines", type=int, default=200_000)
-    print_streams(parser.parse_args().lines)
+    arguments = parser.parse_args()
+    print_streams(arguments.lines)
+    print_listening(arguments.lines)

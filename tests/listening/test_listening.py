@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Callable, Iterator
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 from random import Random
 
@@ -15,9 +17,10 @@ from fieldscribe.families import family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
-from fieldscribe.listening.chunks import BYTES, Chunk
+from fieldscribe.listening.chunks import BYTES, STREAM, Chunk
 from fieldscribe.listening.exchanges import Exchange
 from fieldscribe.listening.listener import Listener, Station
+from fieldscribe.listening.statistics import Statistics
 from fieldscribe.live.lines import read_line
 from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
@@ -258,3 +261,33 @@ def test_lines_and_stations_of_a_project(
     monkeypatch.setattr(family("modbus").part("listening"), "hear", hear)
     assert main(["listen", "pump"]) == 0
     assert f"{READ}\n\n1 exchange\n" in capsys.readouterr().out
+
+
+def test_what_never_comes_again_does_not_fill_the_memory() -> None:
+    """Each connection, unit, address and finding is new; what no longer fits is counted together."""
+    listener, statistics = Listener([Station(shipped("hitachi_l200"))], Options()), Statistics()
+    count = 2500
+    for number in range(count):
+        asked = tcp(1, f"{number % 255 + 1:02X} 06 {number:04X} FFFF")
+        place = f"10.0.0.{number}:4000"
+        for sent in (True, False):
+            for exchange in listener.take(Chunk(number * 0.01, STREAM, asked, place, sent)):
+                statistics.add(exchange)
+    data = statistics.as_data()
+    assert data["exchanges"] == count
+    for key in ("polls", "errors", "findings"):
+        rows = data[key]
+        assert isinstance(rows, list)
+        assert len(rows) <= 2001
+    assert sum(poll["count"] for poll in data["polls"]) == count  # type: ignore[attr-defined]  # it is a list of rows
+    assert len(listener._requests) <= 1024
+
+
+def test_standard_input(listen: Listen, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    expected = listen("hitachi_l200", logged([ASKED, CAME]))
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(logged([ASKED, CAME]).encode())))
+    code = main(["listen", "hitachi_l200", "--capture", "-"])
+    assert (code, capsys.readouterr().out.splitlines(), "") == expected
+    monkeypatch.setattr(sys, "stdin", None)
+    assert main(["listen", "hitachi_l200", "--capture", "-"]) == 2
+    assert "standard input is closed" in capsys.readouterr().err

@@ -96,9 +96,19 @@ def run(arguments: Namespace) -> int:
         if line is not None:
             output.follow_line(line, arguments.duration)
         for name in arguments.capture:
-            stream = sys.stdin.buffer if name == "-" else stack.enter_context(open(name, "rb"))
-            output.follow(cast("BufferedReader", stream), "standard input" if name == "-" else name)
+            if name == "-":
+                output.follow(_standard_input(), "standard input")
+            else:
+                output.follow(stack.enter_context(open(name, "rb")), name)
         return output.end()
+
+
+def _standard_input() -> BufferedReader:
+    """Return standard input as bytes, which come as they are written. Raises StopError."""
+    if sys.stdin is None:
+        raise StopError("standard input is closed", "give --capture FILE")
+    stream = cast("BufferedReader", sys.stdin.buffer)
+    return stream if hasattr(stream, "peek") else BufferedReader(stream)
 
 
 def _station(arguments: Namespace, text: str, project: Project) -> Station:
