@@ -105,8 +105,9 @@ def _place(item: Mapping[str, Any]) -> tuple[str, int, tuple[int, ...]]:
 
 def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     form, (space, _, bits) = str(item.get("format", "u16")), _place(item)
+    ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
     if space in ("coil", "discrete"):
-        return Register("u", 1)
+        return Register("u", 1, names=_states(item, ratio, offset) if offset else {})
     if form in ("string", "string8"):
         return Register("t", 16 * int(item["string_data_size"]), per_word=1 if form == "string" else 2)
     kind, width = {"float": ("f", 32), "double": ("f", 64), "char8": ("u", 8)}.get(form) or (
@@ -117,7 +118,6 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     one.low_word_first = item.get("word_order") == "little_endian"
     one.low_byte_first = item.get("byte_order") == "little_endian"
     one.clears = width == 8 and ":" not in str(item["address"])
-    ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
     for key, name in (("unsupported_value", "unsupported"), ("error_value", "error")):
         if key in item:
             code = item[key]
@@ -127,9 +127,18 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
         titles = item.get("enum_titles", [])
         titles = [str(title) for title in (titles if len(titles) == len(raws) else item["enum"])]
         one.names = {int(raw): english.get(title, title) for raw, title in zip(raws, titles, strict=True)}
-    elif item.get("type") not in ("switch", "alarm") and not (item.get("type") == "pushbutton" and "on_value" in item):
+    elif item.get("type") in ("switch", "alarm"):
+        one.names = _states(item, ratio, offset)
+    elif item.get("type") != "pushbutton" or "on_value" not in item:
         one.ratio, one.offset = ratio, offset
     return one
+
+
+def _states(item: Mapping[str, Any], ratio: Fraction, offset: Fraction) -> Mapping[int, str]:
+    """Return the raw numbers of a switch: 1 is on if the template does not say otherwise."""
+    if "on_value" in item or "off_value" in item:
+        return {}
+    return {int((value - offset) / ratio): title for value, title in enumerate(("Off", "On"))}
 
 
 WB = Collection("wb", _files, _draft, expected)

@@ -206,7 +206,11 @@ class Row:
                 self.lose("enum", numbers)
         elif control == "pushbutton" and on not in (None, 1):
             self.labels, self.point.facts["open"] = {int(on or 0): "Press"}, "yes"
-        elif control in ("switch", "alarm") and (self.is_number or on is not None or off is not None):
+        elif control in ("switch", "alarm") and on is None and off is None:
+            ends = self.raw(Fraction(0)), self.raw(Fraction(1))  # scale -1 and offset 1: 0 is on
+            if (self.is_number or self._offset) and ends[0].denominator == ends[1].denominator == 1:
+                self.labels = {int(ends[0]): "Off", int(ends[1]): "On"}
+        elif control in ("switch", "alarm"):
             self.labels = {int(on == 0 if off is None else off): "Off", int(off != 1 if on is None else on): "On"}
         elif on not in (None, 1) or off not in (None, 0):
             self.lose("on_value", f"{on}, off_value: {off}")
