@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from random import Random
 
 import pytest
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.conversation.explanation import read_text
 from fieldscribe.families.frame_results import FrameResult, refused
+from fieldscribe.families.modbus import SPACES
 from fieldscribe.families.modbus.frame_builder import words_of, write_requests
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
-from fieldscribe.families.modbus.frames import crc16
+from fieldscribe.families.modbus.frames import crc16, data_size, frame
 from fieldscribe.model import Code, Place
 from fieldscribe.pasted_numbers import typed_bytes
 from fieldscribe.user_errors import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
+from support.described import kitchen_sink
 from support.models import changed, named, sample_device, titles
 
 DEVICE = sample_device()
@@ -280,3 +283,28 @@ def test_what_a_person_says_is_a_request_is_read_as_one_whatever_came_before() -
     assert decoder.decode(frame).kind == "request_or_reply"
     assert decoder.decode(frame, expecting=True).kind == "request_or_reply"
     assert decoder.decode(frame).kind == "reply"
+
+
+def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
+    """Also where other frames have changed what a scale depends on; a decoder that keeps nothing says the same."""
+    model, random = kitchen_sink(), Random(26)
+    framing = model.bus.framings[0]
+    forgetful = ModbusFrameDecoder(model)
+    vars(forgetful).update(remembers=False, _decoded=forgetful._decode)
+    keeping, forgetting = (StreamDecoder(model, {}, each) for each in (ModbusFrameDecoder(model), forgetful))
+    scaled = [point for point in model.points if point.scale_arguments and point.addresses]
+    needed = {name for point in scaled for name in point.scale_arguments}
+    known = [*scaled[:6], *(point for point in model.points if point.name in needed and point.addresses)]
+    again, seen = 0, list[FrameResult]()
+    for _ in range(1500):
+        point = random.choice(known)
+        function, count = SPACES[point.space].read, point.words
+        values = bytes(random.choice((0, 0, 1, 2)) for _ in range(data_size(function, count)))
+        asked = bytes((function, *divmod(point.addresses[0], 256), 0, count))
+        for pdu in (asked, bytes((function, len(values))) + values):
+            data = frame(framing, 1, 1, pdu)
+            first = keeping.decode(data)
+            assert first.as_data() == forgetting.decode(data).as_data()
+            again += any(first is kept for kept in seen)
+            seen = [first, *seen[:200]]
+    assert again > 50
