@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 BYTES, STREAM, MESSAGE, SILENT = "bytes", "stream", "message", ""
 """How bytes travel: on a serial line, in a connection of a network, as messages with an identifier; or nothing came."""
@@ -45,15 +45,3 @@ class Cut:
     exchange: Hashable = None
     sent: bool | None = None
     damaged: bool = False
-
-
-class Cutter(Protocol):
-    """Cuts chunks into frames; a family's `listening.py` makes it."""
-
-    def take(self, chunk: Chunk) -> Iterator[Cut]:
-        """Return the frames that are complete with this chunk; damaged ones, too."""
-        ...
-
-    def rest(self) -> Iterator[Cut]:
-        """Return what is left at the end."""
-        ...

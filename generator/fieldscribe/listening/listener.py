@@ -52,6 +52,8 @@ class Listener:
         if len(names) > 1:
             raise UnclearError(f"devices of {' and '.join(sorted(names))} are not on one line", "listen to one family")
         self.part = family(stations[0].device.family).part("listening")
+        if self.part is None:
+            raise UnclearError(f"nothing here cuts what devices of {', '.join(names)} say into frames")
         self.each: Callable[[Packet], object] | None = None
         """Gets each frame as a packet of a capture."""
         self._cutter = self.part.cutter()

@@ -11,8 +11,8 @@ from typing import BinaryIO, NamedTuple
 
 from fieldscribe.user_errors import UnclearError
 
-ETHERNET, SERIAL, BUS_SOCKET = 1, 147, 227
-"""Types of link that are written: a network, bytes of a serial line (reserved for users), and messages of SocketCAN."""
+SERIAL, BUS_SOCKET = 147, 227
+"""Types of link that are written: bytes of a serial line (reserved for users), and messages of SocketCAN."""
 
 _CLASSIC = {
     b"\xd4\xc3\xb2\xa1": ("<", 1e6),
