@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import socket
+import struct
 import subprocess
 import sys
 from collections.abc import Callable
@@ -154,3 +155,20 @@ def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) ->
         drive.values["A999"] = 1
     with pytest.raises(ValueError, match="cannot hold"):
         drive.values["A020"] = 1e9
+
+
+def test_clients_that_do_not_wait_for_their_answers_do_no_harm(
+    simulated_device: Callable[..., Simulated],  # noqa: F811
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    drive = simulated_device(L200, behaviour=False)
+    request = bytes.fromhex("000100000006010310280001")
+    for noise in (b"", b"\x00\x01\xff", request[:7]):
+        client = socket.create_connection(("127.0.0.1", drive.port))
+        client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # it ends with a reset
+        client.sendall((noise + request) * 400)
+        client.close()
+    with socket.create_connection(("127.0.0.1", drive.port)) as client:
+        client.sendall(request)
+        assert client.recv(300).hex() == "00010000000501030201f4"
+    assert caplog.messages == []

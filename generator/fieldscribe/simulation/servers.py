@@ -95,7 +95,9 @@ class _End(asyncio.Protocol):
         self._write(outcome)
 
     def _write(self, outcome: Outcome) -> None:
-        if self._writer is not None and outcome.data:
+        if self._writer is None or self._writer.is_closing():
+            return
+        if outcome.data:
             self._writer.write(outcome.data)
         if outcome.drop and self._writer is self._reader:  # a serial port stays
             self.close()
