@@ -6,7 +6,9 @@ import gc
 import json
 import sys
 from argparse import ArgumentParser, Namespace
+from codecs import BOM_UTF8
 from collections.abc import Iterable, Iterator
+from functools import cache
 from io import BufferedIOBase
 from itertools import groupby
 from typing import cast
@@ -124,6 +126,7 @@ class _Output:
 
     def follow(self, stream: BufferedIOBase, name: str) -> None:
         """Decode the lines of a stream, and print each before waiting for the next; skip lines that are no frames."""
+        gc.freeze()  # what was read before stays
         gc.set_threshold(_GC_THRESHOLD)
         gc.enable()  # a stream may last for days
         for number, text in enumerate(_lines(stream), 1):
@@ -150,7 +153,7 @@ def _lines(stream: BufferedIOBase) -> Iterator[str]:
         rest = line
         while rest and not rest.endswith(b"\n"):
             rest = stream.readline(_LONGEST_LINE)
-        text = line[:_LONGEST_LINE].decode("utf-8-sig", "replace").strip()
+        text = line[:_LONGEST_LINE].removeprefix(BOM_UTF8).decode("utf-8", "replace").strip()
         yield text if len(line) <= _LONGEST_LINE else f"{text}..."
 
 
@@ -163,6 +166,7 @@ class _Printer:
         self._device = device.id
         self._separator = ""
         self._coloured = is_coloured(sys.stdout)
+        self._margin = cache(lambda label: f"  {label:<{self._width}}  ")
 
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
@@ -171,8 +175,7 @@ class _Printer:
             sys.stdout.write(self._separator)
             print_rows(heading, _rows(result), width=self._width)
         else:
-            width = self._width
-            lines = [f"  {label:<{width}}  {text}".rstrip() for label, text in _rows(result)]
+            lines = [self._margin(label) + text for label, text in _rows(result)]
             sys.stdout.write("\n".join([self._separator + heading, *lines, ""]))
         self._separator = "\n"
 

@@ -88,6 +88,7 @@ def run(arguments: Namespace) -> int:
         raise StopError("give --capture FILE or --line LINE", "captures are pcap, pcapng, candump, bytes in lines")
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
+    gc.freeze()  # what was read before stays
     gc.set_threshold(_GC_THRESHOLD)
     gc.enable()  # a line may last for days
     with ExitStack() as stack:

@@ -52,6 +52,7 @@ class Meanings:
         self._exact = number and point.most_raw is None and (point.generated or point.scale is not None)
         # typed: a special code equals the plain number, and is no quantity
         self._rule = lru_cache(_MOST_NUMBERS, typed=True)(self._rule_of)
+        self._fixed = self._rule_of() if self._exact and not self._arguments else (1, 0, 1)
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """Return the meaning of a raw number, where other points hold these settings."""
@@ -86,7 +87,8 @@ class Meanings:
     def _exact_quantity(self, raw: int, settings: Settings) -> Meaning | None:
         """Return what `_quantity` returns where that is a short decimal; else None."""
         try:
-            multiply, add, divide = self._rule(*[settings.get(name) for name in self._arguments])
+            names = self._arguments
+            multiply, add, divide = self._rule(*[settings.get(name) for name in names]) if names else self._fixed
         except CodecError:
             return None
         number = raw * multiply + add
