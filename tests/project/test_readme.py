@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.simulation import simulated
 from support.described import group, head
 from support.places import ROOT
 from support.python_package import imported
@@ -35,6 +36,15 @@ def test_the_point_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 def test_the_first_program_is_that_of_its_page(language: str) -> None:
     """The page's own test runs it."""
     assert block(language) in (USING / f"{language}.md").read_text("utf-8")
+
+
+def test_the_first_commands_print_what_stands_there(capsys: pytest.CaptureFixture[str]) -> None:
+    """A drive is simulated as the README's words do it: with the numbers of its manual."""
+    command, _, expected = block("console").partition("\n")
+    with simulated("hitachi_l200") as drive:
+        words = command.removeprefix("$ fieldscribe ").replace(":5020", f":{drive.port}")
+        assert main(shlex.split(words)) == 0
+    assert capsys.readouterr().out == expected
 
 
 def test_points_convert_without_a_line() -> None:
