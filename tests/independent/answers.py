@@ -19,6 +19,8 @@ Settings = dict[str, int]
 """Raw numbers of other points, by item."""
 
 _BIT_SPACES = ("coil", "discrete")
+_BYTES = {"ipv4": 4, "ipv6": 16, "eui48": 6, "eui64": 8}
+"""How many bytes a notation has; of others two a word."""
 
 
 class UnknownError(Exception):
@@ -26,8 +28,8 @@ class UnknownError(Exception):
 
 
 def _width_of(kind: str) -> int:
-    """How many bits a type has; of a text, one word."""
-    return {"bit": 1, "text": 16}.get(kind) or int(kind[1:])
+    """How many bits a type has; of a text or bytes, one word."""
+    return {"bit": 1, "text": 16, "bytes": 16}.get(kind) or int(kind[1:])
 
 
 class Point:
@@ -38,6 +40,7 @@ class Point:
         self.row = row
         self.item: str = row["item"]
         self.type: str = row.get("type", "bit" if row.get("space") in _BIT_SPACES else "u16")
+        self.has_bytes = self.type in ("text", "bytes")
 
     @cached_property
     def settled(self) -> bool:
@@ -75,13 +78,18 @@ class Point:
     @cached_property
     def addresses(self) -> list[int]:
         """All words, the one with the high part or the first characters first."""
+        if isinstance(self.row["at"], list):
+            return [number(each) for each in self.row["at"]]
         first, _, last = self.row["at"].partition("..")
         if last:
             start, end = number(first), number(last)
             return list(range(start, end + 1)) if start <= end else list(range(start, end - 1, -1))
         two = self.row.get("per_word") != "1" and self.row.get("encoding") != "utf-16"
-        held = (2 if two else 1) if self.type == "text" else 16
-        count = -(-int(self.row["characters"] if self.type == "text" else _width_of(self.type)) // held)
+        held = (2 if two else 1) if self.has_bytes else 16
+        size = self.row["characters"] if self.type == "text" else _width_of(self.type)
+        if self.type == "bytes":
+            size = _BYTES.get(self.row.get("notation", "hex")) or 2 * int(self.row.get("length", 1))
+        count = -(-int(size) // held)
         if self.device.family == "uss" and self.row["space"] == "parameter":
             return [number(first)]
         ascending = list(range(number(first), number(first) + count))
@@ -110,9 +118,7 @@ class Point:
     @cached_property
     def references(self) -> dict[str, int]:
         """What the group's `numbering` makes of the address on the wire."""
-        found: dict[str, Fraction] = {
-            "wire": Fraction(self.addresses[0] if self.type == "text" else min(self.addresses))
-        }
+        found: dict[str, Fraction] = {"wire": Fraction(self.addresses[0] if self.has_bytes else min(self.addresses))}
         for key, rule in self.row.get("numbering", {}).items():
             found[key] = evaluate(rule, lambda name, _: found[name])
         return {key: int(exact) for key, exact in found.items() if key != "wire"}
@@ -258,7 +264,7 @@ class Point:
     def _layers(self) -> list[Row]:
         """Maps of special codes, the farthest first: device, group, format, the point's own."""
         own = [self.row.get("format_special", {}), self.row.get("special", {})]
-        if self.bits or self.type in ("bit", "text"):
+        if self.bits or self.type in ("bit", "text", "bytes"):
             return own
         floating = self.type in ("f32", "f64")
         around = [

@@ -137,8 +137,10 @@ def _own_of(each: Row, chosen: Mapping[str, int], by: str) -> Row:
     return own
 
 
-def _by_rule(row: Row, chosen: Mapping[str, int], key: str) -> str:
-    """The address that the group's rule gives, for both ends of a text."""
+def _by_rule(row: Row, chosen: Mapping[str, int], key: str) -> str | list[str]:
+    """The address that the group's rule gives, for both ends of a text; of words in a list, each."""
+    if isinstance(row[key], list):
+        return [str(_by_rule({**row, key: each}, chosen, key)) for each in row[key]]
     if "addressing" not in row or row[key] in NOTHING:
         return str(row[key])
     counts = {many: number(row[many]) if is_number(row.get(many, "")) else 1 for many in _CHOICES.values()}
