@@ -291,3 +291,14 @@ def test_standard_input(listen: Listen, monkeypatch: pytest.MonkeyPatch, capsys:
     monkeypatch.setattr(sys, "stdin", None)
     assert main(["listen", "hitachi_l200", "--capture", "-"]) == 2
     assert "standard input is closed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("framed", [rtu, lambda text: tcp(7, text)], ids=["rtu", "tcp"])
+def test_logs_and_traces_have_frames_of_both_kinds(listen: Listen, framed: Callable[[str], bytes]) -> None:
+    asked, came = (framed(text).hex(" ") for text in ("01 03 1001 0002", "01 03 04 01F4 0064"))
+    log = f"08:00:01.000 TX {asked}\n08:00:01.031 RX {came}\n"
+    trace = json.dumps({"time": 1.5, "request": asked, "answer": came, "delay": 0.25, "refused": None}) + "\n"
+    assert listen("hitachi_l200", log, "-v")[1][0].startswith(f"08:00:01.000  {READ}")
+    assert listen("hitachi_l200", trace)[1][0] == f"00:00:01.500  {READ}  (250.0 ms)"
+    for wrong in ('{"time": 1', "{}", '{"time": "x", "request": "", "answer": "", "delay": 0}', "[" * 9999, "{" * 9999):
+        assert listen("hitachi_l200", f"{wrong}\n{trace}")[0] in (0, 2)

@@ -128,7 +128,7 @@ def _trace(file: Path | None) -> Iterator[Trace | None]:
     elif str(file) == "-":
         yield lambda entry: print(entry, flush=True)
     else:
-        with open(file, "w", encoding="utf-8", newline="\n") as stream:
+        with open(file, "w", encoding="utf-8", newline="\n", buffering=1) as stream:  # others read while it grows
             yield lambda entry: print(entry, file=stream)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from io import BufferedReader
 
@@ -35,10 +36,10 @@ def chunks_of(
     read = skipped = 0
     while line := stream.readline(_LONGEST_LINE):
         text = line.decode("utf-8-sig", "replace").strip()
-        chunk = chunk_of(text) if text else None
-        if chunk is not None:
+        chunks = [chunk for frame in _frames_in(text) if (chunk := chunk_of(frame)) is not None]
+        if chunks:
             read += 1
-            yield chunk
+            yield from chunks
         elif text:
             skipped += 1
             if skipped == _ENOUGH and not read:
@@ -47,4 +48,20 @@ def chunks_of(
         raise UnclearError(*_NONE)
 
 
-_NONE = "it has no frame", "captures are pcap, pcapng, logs of candump, and lines of hexadecimal bytes with times"
+def _frames_in(text: str) -> list[str]:
+    """Return the frames in a line of a log, each with its time; a line of the trace of `simulate` has two."""
+    if not text.startswith("{"):
+        return [text] if text else []
+    try:
+        entry = json.loads(text)
+        begin = float(entry["time"])
+        times = {"request": begin, "answer": begin + float(entry["delay"])}
+        return [f"{time:.6f} {entry[key]}" for key, time in times.items() if entry[key]]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return [text]
+
+
+_NONE = (
+    "it has no frame",
+    "captures are pcap, pcapng, logs of candump, traces of `simulate`, and lines of hexadecimal bytes with times",
+)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterator
+from dataclasses import replace
 
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.modbus import FUNCTIONS
@@ -11,7 +12,7 @@ from fieldscribe.families.modbus.frames import reply_length, request_length, unw
 from fieldscribe.listening.chunks import BYTES, STREAM, Chunk, Cut
 from fieldscribe.listening.cutting import ByteCutter, packet
 from fieldscribe.listening.lines import serial_chunks
-from fieldscribe.listening.logs import logged_bytes as chunk_of_text
+from fieldscribe.listening.logs import logged_bytes
 from fieldscribe.live.lines import LineAddress
 
 __all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
@@ -87,6 +88,14 @@ def _size_at(data: bytes, begins: bool) -> int:
 def cutter() -> ModbusCutter:
     """Return what cuts chunks into frames."""
     return ModbusCutter()
+
+
+def chunk_of_text(text: str) -> Chunk:
+    """Return the bytes in a line of a log, perhaps a frame of a network. Raises HexError for a line without any."""
+    chunk = logged_bytes(text)
+    if unwrap("rtu", chunk.data).flaw is None or unwrap("tcp", chunk.data).flaw is not None:
+        return chunk
+    return replace(chunk, kind=STREAM)
 
 
 def hear(line: LineAddress) -> Iterator[Chunk]:
