@@ -156,7 +156,7 @@ def test_other_families(words: str, code: int, out: str, err: str, other: Run) -
     [
         ("tcp://127.0.0.1:1", "Connection refused\n  hint: is the line right"),
         ("rtu:///dev/nothing_here", "could not open port"),
-        ("bench", "`bench` is no line, and no name of one\n  hint: fieldscribe.toml here has no table"),
+        ("bench", "`bench` is no line, and no name of one\n  hint: there is no fieldscribe.toml here"),
     ],
 )
 def test_a_line_that_cannot_be_opened(line: str, message: str, run: Run, small: object) -> None:

@@ -56,7 +56,8 @@ def line_of(arguments: Namespace) -> LineAddress:
     if station is not None:
         _take(arguments, station)
     if not arguments.line:
-        raise StopError("no line is given", f"give --line tcp://HOST:PORT, or a station in {NAME}")
+        none = "" if station or not arguments.device else f", and `{shortened(arguments.device)}` is no station"
+        raise StopError(f"no line is given{none}", f"give --line tcp://HOST:PORT, or name stations in {NAME}")
     return read_line(_named(arguments.line, project))
 
 
@@ -80,7 +81,8 @@ def _named(text: str, project: Project) -> str:
     """Return the line of that name, or the text itself. Raises StopError."""
     if "://" in text or text in project.lines:
         return project.lines.get(text, text)
-    names = f"{NAME} has {', '.join(project.lines)}" if project.lines else f"{NAME} here has no table `lines`"
+    none = f"{NAME} here has no table `lines`" if Path(NAME).exists() else f"there is no {NAME} here"
+    names = f"{NAME} has {', '.join(project.lines)}" if project.lines else none
     near = did_you_mean(get_close_matches(text, project.lines, 1)) or f"{names}; a line itself is tcp://HOST:PORT"
     raise StopError(f"`{shortened(text)}` is no line, and no name of one", near)
 

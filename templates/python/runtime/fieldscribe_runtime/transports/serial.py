@@ -60,7 +60,8 @@ class _Port:
         except (OSError, ValueError, TypeError):
             raise
         except Exception as error:  # of settings that a port does not take, pyserial lets termios.error through
-            raise OSError(f"{url} cannot be set as the line needs it: {error}") from error
+            why = "a pseudo terminal has no parity" if "/pts/" in url else error
+            raise OSError(f"{url} cannot be set as the line needs it: {why}") from error
 
     def drop_old(self) -> None:
         """Drop what has come already; raises OSError."""
