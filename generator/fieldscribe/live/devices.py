@@ -67,7 +67,7 @@ def points_class(device: Device) -> type[runtime.PointTable]:
 def _constructor(device: Device, base: Any) -> Any:
     """Return the constructor, which takes variants and given numbers by keyword."""
     axes = {axis: parameter(axis) for axis in device.variants}
-    given = {each.name: parameter(each.name) for each in device.given}
+    given = {each.name: parameter(each.name) for each in device.given} if device.bases else {}
 
     def construct(made: Any, transport: object, unit: int, *settings: object, **chosen: Any) -> None:
         """Make the device on a transport."""
