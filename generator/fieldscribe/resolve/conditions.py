@@ -167,7 +167,8 @@ def _comparison(
         return conditions.Comparison(name, comparison.op, tuple(values))
     if comparison.key:
         message = f"`{name}.{comparison.key}`: a point has `.raw` and `.value` only"
-        raise FormulaError(message, comparison.name.column, "names hold letters, digits and _")
+        hint = "leave it out; a single bit or flag is a point of its own, with `bits`"
+        raise FormulaError(message, comparison.name.column, hint)
     used = scales.symbols.find(name, facts)
     if used is None:
         scales.symbols.unknown(name, written.of(name), scope.axes)

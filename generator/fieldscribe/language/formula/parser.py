@@ -149,9 +149,8 @@ class Parser:
             self.refuse("a name")
         if token.part not in ("", "raw", "value"):
             column = token.column + len(token.text)
-            raise FormulaError(
-                f"{token}: a point has `.raw` and `.value` only", column, "names hold letters, digits and _"
-            )
+            hint = "leave it out; a single bit or flag is a point of its own, with `bits`"
+            raise FormulaError(f"{token}: a point has `.raw` and `.value` only", column, hint)
         if token.part and token.text in VARIABLES:
             raise FormulaError(f"{token}: `{token.text}` is a number and has no part", token.column, "leave it out")
         self.take()
