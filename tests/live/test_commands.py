@@ -7,6 +7,7 @@ import json
 import re
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import live_options, monitor
@@ -14,7 +15,7 @@ from fieldscribe.live.devices import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe_runtime.modbus.planner import plan
-from support.described import DEVICES
+from support.described import DEVICES, group, head, together, write
 from support.small_drive import Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
@@ -274,6 +275,20 @@ def test_a_command_has_arguments(word: str, code: int, message: str, run: Run) -
         assert (done.code, message in done.out + done.err) == (code, True), done
         if code == 0:
             assert blocks.values["level"] == 40.0
+
+
+def test_a_base_that_only_a_given_number_moves_and_steps_where_no_point_lies(tmp_path: Path, run: Run) -> None:
+    """The words of a mailbox belong to no point: the device takes them, and nothing else beside them."""
+    modules = head(
+        given="{slot: {range: 1..15, title: {en: Slot}}}",
+        commands="[{name: reset, title: {en: Reset}, arguments: {key: 1..9}, steps: [{at: 7000, words: [key, 5]}]}]",
+    )
+    device = write(tmp_path, together(modules, group("- {name: level, at: 5}\n", base="slot * 1000")))
+    with simulated(tmp_path, given={"slot": 3}, values={"level": 7}) as drive:
+        words = (str(device), "--with", "slot=3", "--line", f"tcp://127.0.0.1:{drive.port}")
+        assert run("read", words[0], "level", *words[1:]).out == "level  7\n"
+        assert run("write", words[0], "level=8", "reset:key=4", "--yes", *words[1:]).code == 0
+        assert (drive.values["level"], drive.device.read(("holding", 0), (7000, 7001))) == (8, [4, 5])
 
 
 def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:

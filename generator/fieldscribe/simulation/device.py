@@ -122,9 +122,10 @@ class SimulatedDevice:
         self.advance()
         held = self.memory.areas.get(area, {})
         readers, fixed = self.layout.readers.get(area, {}), self.layout.fixed.get(area, {})
+        steps = self.layout.steps.get(area, ())
         for address in addresses:
             points = readers.get(address, ())
-            if not points and address not in fixed:
+            if not points and address not in fixed and address not in steps:
                 raise Refusal("address", f"nothing is at {area[0]} {address}")
             if points and not any(point.access != "w" for point in points):
                 raise Refusal("write_only", f"{label(points[0])} can only be written", points[0])
@@ -156,6 +157,8 @@ class SimulatedDevice:
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
         for point in changed:
             self.memory.put(point.name, numbers[point.name])
+        writers = self.layout.writers.get(area, {})  # steps of commands also write where no point lies
+        self.memory.areas[area].update((at, word) for at, word in cells.items() if at not in writers)
         if self.behaviour is not None and changed:
             self.behaviour.written(self, changed, self.clock.now())
         return points
@@ -208,8 +211,11 @@ class SimulatedDevice:
     def _touched(self, area: Area, cells: Mapping[int, int]) -> list[Point]:
         """Return the existing points in these cells. Raises Refusal where there is none."""
         writers, touched = self.layout.writers.get(area, {}), dict[str, Point]()
+        steps = self.layout.steps.get(area, ())
         for address in cells:
             points = [point for point in writers.get(address, ()) if self.memory.exists(point)]
+            if not points and address in steps:
+                continue
             if not points:
                 raise Refusal("address", f"nothing is at {area[0]} {address}")
             writable = [point for point in points if point.writable]

@@ -61,6 +61,11 @@ class Layout:
         self.commands: dict[tuple[Area, int], Command] = {
             ((command.space, 0), command.address): command for command in self.device.commands
         }
+        self.steps: dict[Area, set[int]] = {}
+        """The cells that steps of commands reach; where no point lies, they hold what was written."""
+        for step in [step for command in self.device.stepped_commands for step in command.steps]:
+            reached = range(step.address, step.address + len(step.words))
+            self.steps.setdefault((step.space, 0), set()).update(reached)
         self.least = {
             factor.point
             for point in self.points.values()

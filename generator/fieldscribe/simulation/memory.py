@@ -118,7 +118,8 @@ def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
     for cells in (*layout.cells.values(), *layout.written.values()):
         for address in cells.addresses:
             areas.setdefault(cells.area, {}).setdefault(address, 0)
-    for area, address in layout.commands:
+    reached = [(area, address) for area, addresses in layout.steps.items() for address in addresses]
+    for area, address in (*layout.commands, *reached):
         areas.setdefault(area, {}).setdefault(address, 0)
     memory = Memory(layout, areas)
     for point in layout.order:
