@@ -44,6 +44,7 @@ def test_a_port_that_is_taken_ends_with_the_reason(capsys: pytest.CaptureFixture
         ([L200, "--tcp", "99999"], "port 99999 of 127.0.0.1 cannot be served: "),
         ([L200, "--tcp", "x"], "`x` is no TCP port"),
         ([L200, "--can", "virtual:x"], "hitachi_l200 is on no can line"),
+        ([L200, "--with", "slot=3"], "no address depends on `slot=3`"),
         ([L200, "--tcp", "0", "--framing", "uss"], "hitachi_l200 is on no tcp line with uss"),
         ([L200, "--unit", "99"], "hitachi_l200 has no unit 99"),
         ([L200, f"{L200}@1"], "two devices on the line have the unit 1"),

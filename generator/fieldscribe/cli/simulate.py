@@ -63,6 +63,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--unit", type=int, metavar="N", help="the unit of the device (default: its usual one)")
     add_descriptions(parser)
     add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
+    add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="given")
     add_repeated(parser, "--set", "POINT=VALUE", "what it holds at the start", dest="values")
     add_repeated(parser, "--unmet", "CONDITION", "refuse the writes that need a condition, such as stopped")
     add_repeated(parser, "--fault", "KIND", 'spoil answers, as in "late 0.5 x3"', dest="faults")
@@ -101,6 +102,7 @@ def _settings(arguments: Namespace) -> Mapping[str, Any]:
         raise StopError("there is nothing to simulate", "name a device, or a file after --bench")
     common: dict[str, Any] = {"unmet": arguments.unmet} | ({"behaviour": False} if arguments.still else {})
     common["values"] = dict(_pair("--set", text) for text in arguments.values)
+    common["given"] = dict(_pair("--with", text) for text in arguments.given)
     common["variant"] = dict(_pair("--variant", text) for text in arguments.variant)
     devices = []
     for text in arguments.devices:

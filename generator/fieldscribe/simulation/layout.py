@@ -10,6 +10,8 @@ from fieldscribe.conversation.bases import at_bases
 from fieldscribe.conversation.selection import choose_variants
 from fieldscribe.families import family
 from fieldscribe.model import Base, Command, Device, Place, Point
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError
 
 Area = tuple[str, int]
 """A space or a telegram, and the index where one travels with the address (else 0)."""
@@ -40,7 +42,10 @@ class Layout:
         device = choose_variants(device, chosen.values())
         self.fixed: dict[Area, dict[int, int]] = {}
         starts = {each.name: each.low for each in device.given} | self._chain(device) | dict(given or {})
-        self.device, _ = at_bases(device, [f"{name}={number}" for name, number in starts.items()])
+        self.device, others = at_bases(device, [f"{name}={number}" for name, number in starts.items()])
+        if others:
+            known = ", ".join(each.name for each in device.given) or "none"
+            raise UnclearError(f"no address depends on `{shortened(others[0])}`", f"given numbers: {known}")
         self.family = family(device.family)
         self.variants = {axis: values[0] for axis, values in self.device.variants.items()}
         existing = (point for point in self.device.points if not absent(point.when, self.device.variants))
