@@ -44,6 +44,7 @@ def of_point(point: Point, codes: Mapping[str, str], language: str) -> Facts:
         "access": point.access,
         "unit": point.unit.symbol,
         "scale": _scale(point, codes),
+        "epoch": point.epoch,
         "range": _ranges(point, codes),
         "default": None if point.default is None else str(point.default),
         "steps": [list(one) for one in point.steps],
