@@ -143,18 +143,18 @@ class SpecialCodes:
         """Return the codes of all levels, nearest first, without those that a nearer level removes."""
         kept: list[_Code] = []
         away: list[_Code] = []
-        used: set[Span] = set()
+        used: set[int] = set()  # by identity: places in the file are looked up for findings alone
         for codes in levels:
             nearer, takers = list(kept), list(away)
             for code in codes:
-                taken = [taker.span for taker in takers if taker[:2] == code[:2]]
+                taken = [id(taker) for taker in takers if taker[:2] == code[:2]]
                 used.update(taken)
                 if code.name is None:
                     away.append(code)
                 elif not taken and not any(self._beats(nearer_code, code) for nearer_code in nearer):
                     kept.append(code)
         for taker in away:
-            if taker.span not in used:
+            if id(taker) not in used:
                 message = f"there is no special code {taker.key} to take away"
                 hint = "give it a name, or leave it out; a band is taken away as it was declared"
                 self._report("unknown-code", message, taker.span, hint)
