@@ -109,16 +109,19 @@ if [ "$purpose" = tests ] && command -v rustup >/dev/null 2>&1 && [ ! -d "$(rust
     fi
 fi
 
-language_server=yaml-language-server@1.25.0
-if [ "$purpose" = tests ] && [ "$(cat .cache/node/installed 2>/dev/null)" != "$language_server" ] && command -v npm >/dev/null 2>&1; then
-    echo "setting up $language_server in .cache"
+# what the tests take from npm, each at a version: editors, types, packages and pages are tried with the real tools
+from_npm="yaml-language-server@1.25.0 typescript@5.9.3 @types/node@20 playwright-core@1.65.1 axe-core@4.14.1
+publint@0.3.25 @arethetypeswrong/cli@0.18.5 esbuild@0.28.2 modbus-serial@8.0.25 serialport@13.0.0"
+if [ "$purpose" = tests ] && [ "$(cat .cache/node/installed 2>/dev/null)" != "$from_npm" ] && command -v npm >/dev/null 2>&1; then
+    echo "setting up packages of npm in .cache"
     mkdir -p .cache/node
     system_certificates=/etc/ssl/certs/ca-certificates.crt # npm brings its own and knows none that a firm added
     [ -f "$system_certificates" ] && export npm_config_cafile="$system_certificates"
-    # without it one test is skipped, which says so; the rest needs no network
-    if timeout 300 npm install --fetch-retries=1 --prefix .cache/node --no-save --no-package-lock --no-audit --no-fund --silent "$language_server"; then
-        echo "$language_server" >.cache/node/installed
+    # without them some tests are skipped, which say so; the rest needs no network
+    # shellcheck disable=SC2086 # a list of packages
+    if timeout 300 npm install --fetch-retries=1 --prefix .cache/node --no-save --no-package-lock --no-audit --no-fund --silent $from_npm; then
+        echo "$from_npm" >.cache/node/installed
     else
-        echo "npm could not install $language_server: the tests that need it are skipped" >&2
+        echo "npm could not install $from_npm: the tests that need them are skipped" >&2
     fi
 fi

@@ -38,7 +38,8 @@ _PACKAGES = {
     "soffice": "libreoffice-calc-nogui",
     "chromium-headless-shell": "chromium-headless-shell",
 }
-_LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
+NODE_MODULES = ROOT / ".cache/node/node_modules"
+"""The packages of npm that setup.sh fetches."""
 _LIBMODBUS = Path("/usr/include/modbus")
 
 LIMIT = 300
@@ -55,10 +56,20 @@ def tool(name: str) -> str:
 
 def language_server() -> tuple[str, ...]:
     """Return the command that starts yaml-language-server; without it as for `tool`."""
-    node = tool("node")
-    if not _LANGUAGE_SERVER.is_file():
-        _do_without("yaml-language-server", "npm, and run `sh generator/setup.sh tests`, which fetches the server")
-    return node, str(_LANGUAGE_SERVER), "--stdio"
+    return *npm_program("yaml-language-server", "bin/yaml-language-server"), "--stdio"
+
+
+def npm_program(package: str, script: str) -> tuple[str, str]:
+    """Return the command that runs a script of a package of npm under node; without it as for `tool`."""
+    return tool("node"), str(npm_package(package) / script)
+
+
+def npm_package(package: str) -> Path:
+    """Return the folder of a package of npm; without it as for `tool`."""
+    folder = NODE_MODULES / package
+    if not folder.is_dir():
+        _do_without(package, "npm, and run `sh generator/setup.sh tests`, which fetches it")
+    return folder
 
 
 def gcc_for_32_bits() -> str:
