@@ -27,15 +27,33 @@ _WIDE = 20_000
 
 def starting_raw(layout: Layout, point: Point, settings: Settings, random: Random) -> int:
     """Return the raw number that a point holds at the start, with the settings that it depends on."""
+    identifying, others = _identifying(layout, point)
+    if identifying:
+        return identifying[0]
     if point.default_raw is not None:
         return point.default_raw
     try:
         if point.default is not None:
             return codec.encode(point, point.default, settings)
         found = (raw for raw in _candidates(layout, point, settings, random) if _allowed(point, raw, settings))
-        return next(found)
+        return next(raw for raw in found if raw not in others)
     except (CodecError, StopIteration):
         return with_fixed(point, 0)
+
+
+def _identifying(layout: Layout, point: Point) -> tuple[list[int], set[int]]:
+    """Return the raw numbers by which a point tells this device, the best one first, and those of other variants."""
+    asked: list[list[int]] = []
+    others: set[int] = set()
+    for known in layout.device.identifications:
+        if known.point == point.name:
+            raws = [*known.raws, *(pattern_of_text(point.text, text) for text in known.texts if point.text is not None)]
+            if known.variant is None or layout.variants[known.variant.axis] == known.variant.value:
+                asked.append(raws)
+            else:
+                others.update(raws)
+    both = [raw for raw in asked[0] if all(raw in raws for raws in asked)] if asked else []
+    return sorted(both, key=lambda raw: (raw in others, raw != point.default_raw)), others
 
 
 def corrected_raw(point: Point, raw: int, settings: Settings) -> int:
@@ -59,10 +77,6 @@ def _allowed(point: Point, raw: int, settings: Settings) -> bool:
 
 def _candidates(layout: Layout, point: Point, settings: Settings, random: Random) -> Iterator[int]:
     """Yield raw numbers, the most plausible one first."""
-    for known in layout.device.identifications:
-        if known.point == point.name and (known.variant is None or layout.variants.get(known.variant.axis)):
-            yield from known.raws
-            yield from (pattern_of_text(point.text, text) for text in known.texts if point.text is not None)
     if point.text is not None:
         yield 0 if point.text.is_bytes else pattern_of_text(point.text, "")
     if point.enum is not None:
