@@ -65,7 +65,7 @@ typedef fieldscribe_real eastron_sdm630_real;
 
 /* ---- measurements (input) ---- */
 
-/* phase 1 voltage: any number; r, reference 30001; exists only when system_type != three_phase_three_wire */
+/* phase 1 voltage: any number in V; r, reference 30001; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_VOLTAGE_ADDRESS 0x0000U
 #define EASTRON_SDM630_PHASE_1_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_phase_1_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -77,7 +77,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_voltage_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 voltage: any number; r, reference 30003; exists only when system_type == three_phase_four_wire */
+/* phase 2 voltage: any number in V; r, reference 30003; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_ADDRESS 0x0002U
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_phase_2_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -89,7 +89,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_voltage_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 voltage: any number; r, reference 30005; exists only when system_type == three_phase_four_wire */
+/* phase 3 voltage: any number in V; r, reference 30005; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_ADDRESS 0x0004U
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_phase_3_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -101,7 +101,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_voltage_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 current: any number; r, reference 30007 */
+/* phase 1 current: any number in A; r, reference 30007 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_ADDRESS 0x0006U
 #define EASTRON_SDM630_PHASE_1_CURRENT_WORDS 2U
 static inline void eastron_sdm630_phase_1_current_to_words(uint32_t raw, uint16_t words[2])
@@ -113,7 +113,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_current_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 current: any number; r, reference 30009; exists only when system_type != single_phase_two_wire */
+/* phase 2 current: any number in A; r, reference 30009; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_ADDRESS 0x0008U
 #define EASTRON_SDM630_PHASE_2_CURRENT_WORDS 2U
 static inline void eastron_sdm630_phase_2_current_to_words(uint32_t raw, uint16_t words[2])
@@ -125,7 +125,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_current_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 current: any number; r, reference 30011; exists only when system_type != single_phase_two_wire */
+/* phase 3 current: any number in A; r, reference 30011; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_ADDRESS 0x000AU
 #define EASTRON_SDM630_PHASE_3_CURRENT_WORDS 2U
 static inline void eastron_sdm630_phase_3_current_to_words(uint32_t raw, uint16_t words[2])
@@ -137,7 +137,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_current_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 active power: any number; r, reference 30013; exists only when system_type != three_phase_three_wire */
+/* phase 1 active power: any number in W; r, reference 30013; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_ACTIVE_POWER_ADDRESS 0x000CU
 #define EASTRON_SDM630_PHASE_1_ACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_1_active_power_to_words(uint32_t raw, uint16_t words[2])
@@ -149,7 +149,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_active_power_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 active power: any number; r, reference 30015; exists only when system_type == three_phase_four_wire */
+/* phase 2 active power: any number in W; r, reference 30015; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_ACTIVE_POWER_ADDRESS 0x000EU
 #define EASTRON_SDM630_PHASE_2_ACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_2_active_power_to_words(uint32_t raw, uint16_t words[2])
@@ -161,7 +161,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_active_power_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 active power: any number; r, reference 30017; exists only when system_type == three_phase_four_wire */
+/* phase 3 active power: any number in W; r, reference 30017; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_ACTIVE_POWER_ADDRESS 0x0010U
 #define EASTRON_SDM630_PHASE_3_ACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_3_active_power_to_words(uint32_t raw, uint16_t words[2])
@@ -173,7 +173,9 @@ static inline fieldscribe_real eastron_sdm630_phase_3_active_power_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 apparent power: any number; r, reference 30019; exists only when system_type != three_phase_three_wire */
+/*
+ * phase 1 apparent power: any number in VA; r, reference 30019; exists only when system_type != three_phase_three_wire
+ */
 #define EASTRON_SDM630_PHASE_1_APPARENT_POWER_ADDRESS 0x0012U
 #define EASTRON_SDM630_PHASE_1_APPARENT_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_1_apparent_power_to_words(uint32_t raw, uint16_t words[2])
@@ -185,7 +187,9 @@ static inline fieldscribe_real eastron_sdm630_phase_1_apparent_power_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 apparent power: any number; r, reference 30021; exists only when system_type == three_phase_four_wire */
+/*
+ * phase 2 apparent power: any number in VA; r, reference 30021; exists only when system_type == three_phase_four_wire
+ */
 #define EASTRON_SDM630_PHASE_2_APPARENT_POWER_ADDRESS 0x0014U
 #define EASTRON_SDM630_PHASE_2_APPARENT_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_2_apparent_power_to_words(uint32_t raw, uint16_t words[2])
@@ -197,7 +201,9 @@ static inline fieldscribe_real eastron_sdm630_phase_2_apparent_power_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 apparent power: any number; r, reference 30023; exists only when system_type == three_phase_four_wire */
+/*
+ * phase 3 apparent power: any number in VA; r, reference 30023; exists only when system_type == three_phase_four_wire
+ */
 #define EASTRON_SDM630_PHASE_3_APPARENT_POWER_ADDRESS 0x0016U
 #define EASTRON_SDM630_PHASE_3_APPARENT_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_3_apparent_power_to_words(uint32_t raw, uint16_t words[2])
@@ -209,7 +215,9 @@ static inline fieldscribe_real eastron_sdm630_phase_3_apparent_power_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 reactive power: any number; r, reference 30025; exists only when system_type != three_phase_three_wire */
+/*
+ * phase 1 reactive power: any number in var; r, reference 30025; exists only when system_type != three_phase_three_wire
+ */
 #define EASTRON_SDM630_PHASE_1_REACTIVE_POWER_ADDRESS 0x0018U
 #define EASTRON_SDM630_PHASE_1_REACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_1_reactive_power_to_words(uint32_t raw, uint16_t words[2])
@@ -221,7 +229,9 @@ static inline fieldscribe_real eastron_sdm630_phase_1_reactive_power_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 reactive power: any number; r, reference 30027; exists only when system_type == three_phase_four_wire */
+/*
+ * phase 2 reactive power: any number in var; r, reference 30027; exists only when system_type == three_phase_four_wire
+ */
 #define EASTRON_SDM630_PHASE_2_REACTIVE_POWER_ADDRESS 0x001AU
 #define EASTRON_SDM630_PHASE_2_REACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_2_reactive_power_to_words(uint32_t raw, uint16_t words[2])
@@ -233,7 +243,9 @@ static inline fieldscribe_real eastron_sdm630_phase_2_reactive_power_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 reactive power: any number; r, reference 30029; exists only when system_type == three_phase_four_wire */
+/*
+ * phase 3 reactive power: any number in var; r, reference 30029; exists only when system_type == three_phase_four_wire
+ */
 #define EASTRON_SDM630_PHASE_3_REACTIVE_POWER_ADDRESS 0x001CU
 #define EASTRON_SDM630_PHASE_3_REACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_phase_3_reactive_power_to_words(uint32_t raw, uint16_t words[2])
@@ -281,7 +293,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_power_factor_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 phase angle: any number; r, reference 30037; exists only when system_type != three_phase_three_wire */
+/* phase 1 phase angle: any number in °; r, reference 30037; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_PHASE_ANGLE_ADDRESS 0x0024U
 #define EASTRON_SDM630_PHASE_1_PHASE_ANGLE_WORDS 2U
 static inline void eastron_sdm630_phase_1_phase_angle_to_words(uint32_t raw, uint16_t words[2])
@@ -293,7 +305,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_phase_angle_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 phase angle: any number; r, reference 30039; exists only when system_type == three_phase_four_wire */
+/* phase 2 phase angle: any number in °; r, reference 30039; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_PHASE_ANGLE_ADDRESS 0x0026U
 #define EASTRON_SDM630_PHASE_2_PHASE_ANGLE_WORDS 2U
 static inline void eastron_sdm630_phase_2_phase_angle_to_words(uint32_t raw, uint16_t words[2])
@@ -305,7 +317,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_phase_angle_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 phase angle: any number; r, reference 30041; exists only when system_type == three_phase_four_wire */
+/* phase 3 phase angle: any number in °; r, reference 30041; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_PHASE_ANGLE_ADDRESS 0x0028U
 #define EASTRON_SDM630_PHASE_3_PHASE_ANGLE_WORDS 2U
 static inline void eastron_sdm630_phase_3_phase_angle_to_words(uint32_t raw, uint16_t words[2])
@@ -318,8 +330,8 @@ static inline fieldscribe_real eastron_sdm630_phase_3_phase_angle_decode(uint32_
 #endif
 
 /*
- * average voltage: any number; r, reference 30043; exists only when system_type == three_phase_four_wire; the manual
- * leaves open whether it is 0 in 1p2w (average_voltage_in_1p2w)
+ * average voltage: any number in V; r, reference 30043; exists only when system_type == three_phase_four_wire; the
+ * manual leaves open whether it is 0 in 1p2w (average_voltage_in_1p2w)
  */
 #define EASTRON_SDM630_AVERAGE_VOLTAGE_ADDRESS 0x002AU
 #define EASTRON_SDM630_AVERAGE_VOLTAGE_WORDS 2U
@@ -332,7 +344,7 @@ static inline fieldscribe_real eastron_sdm630_average_voltage_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* average current: any number; r, reference 30047 */
+/* average current: any number in A; r, reference 30047 */
 #define EASTRON_SDM630_AVERAGE_CURRENT_ADDRESS 0x002EU
 #define EASTRON_SDM630_AVERAGE_CURRENT_WORDS 2U
 static inline void eastron_sdm630_average_current_to_words(uint32_t raw, uint16_t words[2])
@@ -344,7 +356,7 @@ static inline fieldscribe_real eastron_sdm630_average_current_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* sum of currents: any number; r, reference 30049 */
+/* sum of currents: any number in A; r, reference 30049 */
 #define EASTRON_SDM630_SUM_OF_CURRENTS_ADDRESS 0x0030U
 #define EASTRON_SDM630_SUM_OF_CURRENTS_WORDS 2U
 static inline void eastron_sdm630_sum_of_currents_to_words(uint32_t raw, uint16_t words[2])
@@ -356,7 +368,7 @@ static inline fieldscribe_real eastron_sdm630_sum_of_currents_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total active power: any number; r, reference 30053 */
+/* total active power: any number in W; r, reference 30053 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_ADDRESS 0x0034U
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_total_active_power_to_words(uint32_t raw, uint16_t words[2])
@@ -368,7 +380,7 @@ static inline fieldscribe_real eastron_sdm630_total_active_power_decode(uint32_t
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total apparent power: any number; r, reference 30057 */
+/* total apparent power: any number in VA; r, reference 30057 */
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_ADDRESS 0x0038U
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_WORDS 2U
 static inline void eastron_sdm630_total_apparent_power_to_words(uint32_t raw, uint16_t words[2])
@@ -380,7 +392,7 @@ static inline fieldscribe_real eastron_sdm630_total_apparent_power_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total reactive power: any number; r, reference 30061 */
+/* total reactive power: any number in var; r, reference 30061 */
 #define EASTRON_SDM630_TOTAL_REACTIVE_POWER_ADDRESS 0x003CU
 #define EASTRON_SDM630_TOTAL_REACTIVE_POWER_WORDS 2U
 static inline void eastron_sdm630_total_reactive_power_to_words(uint32_t raw, uint16_t words[2])
@@ -404,7 +416,7 @@ static inline fieldscribe_real eastron_sdm630_total_power_factor_decode(uint32_t
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total phase angle: any number; r, reference 30067 */
+/* total phase angle: any number in °; r, reference 30067 */
 #define EASTRON_SDM630_TOTAL_PHASE_ANGLE_ADDRESS 0x0042U
 #define EASTRON_SDM630_TOTAL_PHASE_ANGLE_WORDS 2U
 static inline void eastron_sdm630_total_phase_angle_to_words(uint32_t raw, uint16_t words[2])
@@ -416,7 +428,7 @@ static inline fieldscribe_real eastron_sdm630_total_phase_angle_decode(uint32_t 
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* frequency: any number; r, reference 30071 */
+/* frequency: any number in Hz; r, reference 30071 */
 #define EASTRON_SDM630_FREQUENCY_ADDRESS 0x0046U
 #define EASTRON_SDM630_FREQUENCY_WORDS 2U
 static inline void eastron_sdm630_frequency_to_words(uint32_t raw, uint16_t words[2])
@@ -427,7 +439,7 @@ static inline uint32_t eastron_sdm630_frequency_from_words(const uint16_t words[
 static inline fieldscribe_real eastron_sdm630_frequency_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* import active energy: any number; r, reference 30073 */
+/* import active energy: any number in kWh; r, reference 30073 */
 #define EASTRON_SDM630_IMPORT_ACTIVE_ENERGY_ADDRESS 0x0048U
 #define EASTRON_SDM630_IMPORT_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_import_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -439,7 +451,7 @@ static inline fieldscribe_real eastron_sdm630_import_active_energy_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* export active energy: any number; r, reference 30075 */
+/* export active energy: any number in kWh; r, reference 30075 */
 #define EASTRON_SDM630_EXPORT_ACTIVE_ENERGY_ADDRESS 0x004AU
 #define EASTRON_SDM630_EXPORT_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_export_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -451,7 +463,7 @@ static inline fieldscribe_real eastron_sdm630_export_active_energy_decode(uint32
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* import reactive energy: any number; r, reference 30077 */
+/* import reactive energy: any number in kvarh; r, reference 30077 */
 #define EASTRON_SDM630_IMPORT_REACTIVE_ENERGY_ADDRESS 0x004CU
 #define EASTRON_SDM630_IMPORT_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_import_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -463,7 +475,7 @@ static inline fieldscribe_real eastron_sdm630_import_reactive_energy_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* export reactive energy: any number; r, reference 30079 */
+/* export reactive energy: any number in kvarh; r, reference 30079 */
 #define EASTRON_SDM630_EXPORT_REACTIVE_ENERGY_ADDRESS 0x004EU
 #define EASTRON_SDM630_EXPORT_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_export_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -475,7 +487,7 @@ static inline fieldscribe_real eastron_sdm630_export_reactive_energy_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* apparent energy: any number; r, reference 30081 */
+/* apparent energy: any number in kVAh; r, reference 30081 */
 #define EASTRON_SDM630_APPARENT_ENERGY_ADDRESS 0x0050U
 #define EASTRON_SDM630_APPARENT_ENERGY_WORDS 2U
 static inline void eastron_sdm630_apparent_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -487,7 +499,7 @@ static inline fieldscribe_real eastron_sdm630_apparent_energy_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* charge: any number; r, reference 30083 */
+/* charge: any number in Ah; r, reference 30083 */
 #define EASTRON_SDM630_CHARGE_ADDRESS 0x0052U
 #define EASTRON_SDM630_CHARGE_WORDS 2U
 static inline void eastron_sdm630_charge_to_words(uint32_t raw, uint16_t words[2])
@@ -498,7 +510,7 @@ static inline uint32_t eastron_sdm630_charge_from_words(const uint16_t words[2])
 static inline fieldscribe_real eastron_sdm630_charge_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total active power demand: any number; r, reference 30085 */
+/* total active power demand: any number in W; r, reference 30085 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND_ADDRESS 0x0054U
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND_WORDS 2U
 static inline void eastron_sdm630_total_active_power_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -510,7 +522,7 @@ static inline fieldscribe_real eastron_sdm630_total_active_power_demand_decode(u
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* maximum total active power demand: any number; r, reference 30087 */
+/* maximum total active power demand: any number in W; r, reference 30087 */
 #define EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND_ADDRESS 0x0056U
 #define EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND_WORDS 2U
 static inline void eastron_sdm630_maximum_total_active_power_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -522,7 +534,7 @@ static inline fieldscribe_real eastron_sdm630_maximum_total_active_power_demand_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total apparent power demand: any number; r, reference 30101 */
+/* total apparent power demand: any number in VA; r, reference 30101 */
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND_ADDRESS 0x0064U
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND_WORDS 2U
 static inline void eastron_sdm630_total_apparent_power_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -534,7 +546,7 @@ static inline fieldscribe_real eastron_sdm630_total_apparent_power_demand_decode
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* maximum total apparent power demand: any number; r, reference 30103 */
+/* maximum total apparent power demand: any number in VA; r, reference 30103 */
 #define EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND_ADDRESS 0x0066U
 #define EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND_WORDS 2U
 static inline void eastron_sdm630_maximum_total_apparent_power_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -546,7 +558,7 @@ static inline fieldscribe_real eastron_sdm630_maximum_total_apparent_power_deman
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* neutral current demand: any number; r, reference 30105; exists only when system_type == three_phase_four_wire */
+/* neutral current demand: any number in A; r, reference 30105; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND_ADDRESS 0x0068U
 #define EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND_WORDS 2U
 static inline void eastron_sdm630_neutral_current_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -559,7 +571,8 @@ static inline fieldscribe_real eastron_sdm630_neutral_current_demand_decode(uint
 #endif
 
 /*
- * maximum neutral current demand: any number; r, reference 30107; exists only when system_type == three_phase_four_wire
+ * maximum neutral current demand: any number in A; r, reference 30107; exists only when system_type ==
+ * three_phase_four_wire
  */
 #define EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND_ADDRESS 0x006AU
 #define EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND_WORDS 2U
@@ -572,7 +585,7 @@ static inline fieldscribe_real eastron_sdm630_maximum_neutral_current_demand_dec
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 1 to 2 voltage: any number; r, reference 30201; exists only when system_type != single_phase_two_wire */
+/* line 1 to 2 voltage: any number in V; r, reference 30201; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_ADDRESS 0x00C8U
 #define EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_line_1_to_2_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -584,7 +597,7 @@ static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 2 to 3 voltage: any number; r, reference 30203; exists only when system_type != single_phase_two_wire */
+/* line 2 to 3 voltage: any number in V; r, reference 30203; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_ADDRESS 0x00CAU
 #define EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_line_2_to_3_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -596,7 +609,7 @@ static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 3 to 1 voltage: any number; r, reference 30205; exists only when system_type != single_phase_two_wire */
+/* line 3 to 1 voltage: any number in V; r, reference 30205; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_ADDRESS 0x00CCU
 #define EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_WORDS 2U
 static inline void eastron_sdm630_line_3_to_1_voltage_to_words(uint32_t raw, uint16_t words[2])
@@ -609,7 +622,8 @@ static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_decode(uint32_
 #endif
 
 /*
- * average line to line voltage: any number; r, reference 30207; exists only when system_type != single_phase_two_wire
+ * average line to line voltage: any number in V; r, reference 30207; exists only when system_type !=
+ * single_phase_two_wire
  */
 #define EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_ADDRESS 0x00CEU
 #define EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_WORDS 2U
@@ -622,7 +636,7 @@ static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_decod
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* neutral current: any number; r, reference 30225; exists only when system_type == three_phase_four_wire */
+/* neutral current: any number in A; r, reference 30225; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_NEUTRAL_CURRENT_ADDRESS 0x00E0U
 #define EASTRON_SDM630_NEUTRAL_CURRENT_WORDS 2U
 static inline void eastron_sdm630_neutral_current_to_words(uint32_t raw, uint16_t words[2])
@@ -634,7 +648,7 @@ static inline fieldscribe_real eastron_sdm630_neutral_current_decode(uint32_t ra
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 voltage thd: any number; r, reference 30235; exists only when system_type != three_phase_three_wire */
+/* phase 1 voltage thd: any number in %; r, reference 30235; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_VOLTAGE_THD_ADDRESS 0x00EAU
 #define EASTRON_SDM630_PHASE_1_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_phase_1_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -646,7 +660,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_voltage_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 voltage thd: any number; r, reference 30237; exists only when system_type == three_phase_four_wire */
+/* phase 2 voltage thd: any number in %; r, reference 30237; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_THD_ADDRESS 0x00ECU
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_phase_2_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -658,7 +672,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_voltage_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 voltage thd: any number; r, reference 30239; exists only when system_type == three_phase_four_wire */
+/* phase 3 voltage thd: any number in %; r, reference 30239; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_THD_ADDRESS 0x00EEU
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_phase_3_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -670,7 +684,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_voltage_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 current thd: any number; r, reference 30241 */
+/* phase 1 current thd: any number in %; r, reference 30241 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_THD_ADDRESS 0x00F0U
 #define EASTRON_SDM630_PHASE_1_CURRENT_THD_WORDS 2U
 static inline void eastron_sdm630_phase_1_current_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -682,7 +696,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_current_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 current thd: any number; r, reference 30243; exists only when system_type != single_phase_two_wire */
+/* phase 2 current thd: any number in %; r, reference 30243; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_THD_ADDRESS 0x00F2U
 #define EASTRON_SDM630_PHASE_2_CURRENT_THD_WORDS 2U
 static inline void eastron_sdm630_phase_2_current_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -694,7 +708,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_current_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 current thd: any number; r, reference 30245; exists only when system_type != single_phase_two_wire */
+/* phase 3 current thd: any number in %; r, reference 30245; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_THD_ADDRESS 0x00F4U
 #define EASTRON_SDM630_PHASE_3_CURRENT_THD_WORDS 2U
 static inline void eastron_sdm630_phase_3_current_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -707,7 +721,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_current_thd_decode(uint32_
 #endif
 
 /*
- * average voltage thd: any number; r, reference 30249; exists only when system_type != three_phase_three_wire; the
+ * average voltage thd: any number in %; r, reference 30249; exists only when system_type != three_phase_three_wire; the
  * manual leaves open whether it is 0 in 1p2w (average_voltage_in_1p2w)
  */
 #define EASTRON_SDM630_AVERAGE_VOLTAGE_THD_ADDRESS 0x00F8U
@@ -721,7 +735,7 @@ static inline fieldscribe_real eastron_sdm630_average_voltage_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* average current thd: any number; r, reference 30251 */
+/* average current thd: any number in %; r, reference 30251 */
 #define EASTRON_SDM630_AVERAGE_CURRENT_THD_ADDRESS 0x00FAU
 #define EASTRON_SDM630_AVERAGE_CURRENT_THD_WORDS 2U
 static inline void eastron_sdm630_average_current_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -733,7 +747,7 @@ static inline fieldscribe_real eastron_sdm630_average_current_thd_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 current demand: any number; r, reference 30259 */
+/* phase 1 current demand: any number in A; r, reference 30259 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_DEMAND_ADDRESS 0x0102U
 #define EASTRON_SDM630_PHASE_1_CURRENT_DEMAND_WORDS 2U
 static inline void eastron_sdm630_phase_1_current_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -745,7 +759,7 @@ static inline fieldscribe_real eastron_sdm630_phase_1_current_demand_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 2 current demand: any number; r, reference 30261; exists only when system_type != single_phase_two_wire */
+/* phase 2 current demand: any number in A; r, reference 30261; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_DEMAND_ADDRESS 0x0104U
 #define EASTRON_SDM630_PHASE_2_CURRENT_DEMAND_WORDS 2U
 static inline void eastron_sdm630_phase_2_current_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -757,7 +771,7 @@ static inline fieldscribe_real eastron_sdm630_phase_2_current_demand_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 3 current demand: any number; r, reference 30263; exists only when system_type != single_phase_two_wire */
+/* phase 3 current demand: any number in A; r, reference 30263; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_DEMAND_ADDRESS 0x0106U
 #define EASTRON_SDM630_PHASE_3_CURRENT_DEMAND_WORDS 2U
 static inline void eastron_sdm630_phase_3_current_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -769,7 +783,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_current_demand_decode(uint
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* maximum phase 1 current demand: any number; r, reference 30265 */
+/* maximum phase 1 current demand: any number in A; r, reference 30265 */
 #define EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND_ADDRESS 0x0108U
 #define EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND_WORDS 2U
 static inline void eastron_sdm630_maximum_phase_1_current_demand_to_words(uint32_t raw, uint16_t words[2])
@@ -782,7 +796,8 @@ static inline fieldscribe_real eastron_sdm630_maximum_phase_1_current_demand_dec
 #endif
 
 /*
- * maximum phase 2 current demand: any number; r, reference 30267; exists only when system_type != single_phase_two_wire
+ * maximum phase 2 current demand: any number in A; r, reference 30267; exists only when system_type !=
+ * single_phase_two_wire
  */
 #define EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND_ADDRESS 0x010AU
 #define EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND_WORDS 2U
@@ -796,7 +811,8 @@ static inline fieldscribe_real eastron_sdm630_maximum_phase_2_current_demand_dec
 #endif
 
 /*
- * maximum phase 3 current demand: any number; r, reference 30269; exists only when system_type != single_phase_two_wire
+ * maximum phase 3 current demand: any number in A; r, reference 30269; exists only when system_type !=
+ * single_phase_two_wire
  */
 #define EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND_ADDRESS 0x010CU
 #define EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND_WORDS 2U
@@ -809,7 +825,9 @@ static inline fieldscribe_real eastron_sdm630_maximum_phase_3_current_demand_dec
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 1 to 2 voltage thd: any number; r, reference 30335; exists only when system_type != single_phase_two_wire */
+/*
+ * line 1 to 2 voltage thd: any number in %; r, reference 30335; exists only when system_type != single_phase_two_wire
+ */
 #define EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD_ADDRESS 0x014EU
 #define EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_line_1_to_2_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -821,7 +839,9 @@ static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_thd_decode(uin
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 2 to 3 voltage thd: any number; r, reference 30337; exists only when system_type != single_phase_two_wire */
+/*
+ * line 2 to 3 voltage thd: any number in %; r, reference 30337; exists only when system_type != single_phase_two_wire
+ */
 #define EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD_ADDRESS 0x0150U
 #define EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_line_2_to_3_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -833,7 +853,9 @@ static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_thd_decode(uin
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* line 3 to 1 voltage thd: any number; r, reference 30339; exists only when system_type != single_phase_two_wire */
+/*
+ * line 3 to 1 voltage thd: any number in %; r, reference 30339; exists only when system_type != single_phase_two_wire
+ */
 #define EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD_ADDRESS 0x0152U
 #define EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD_WORDS 2U
 static inline void eastron_sdm630_line_3_to_1_voltage_thd_to_words(uint32_t raw, uint16_t words[2])
@@ -846,7 +868,7 @@ static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_thd_decode(uin
 #endif
 
 /*
- * average line to line voltage thd: any number; r, reference 30341; exists only when system_type !=
+ * average line to line voltage thd: any number in %; r, reference 30341; exists only when system_type !=
  * single_phase_two_wire
  */
 #define EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_THD_ADDRESS 0x0154U
@@ -860,7 +882,7 @@ static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_thd_d
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total active energy: any number; r, reference 30343 */
+/* total active energy: any number in kWh; r, reference 30343 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_ENERGY_ADDRESS 0x0156U
 #define EASTRON_SDM630_TOTAL_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_total_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -872,7 +894,7 @@ static inline fieldscribe_real eastron_sdm630_total_active_energy_decode(uint32_
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* total reactive energy: any number; r, reference 30345 */
+/* total reactive energy: any number in kvarh; r, reference 30345 */
 #define EASTRON_SDM630_TOTAL_REACTIVE_ENERGY_ADDRESS 0x0158U
 #define EASTRON_SDM630_TOTAL_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_total_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -884,7 +906,7 @@ static inline fieldscribe_real eastron_sdm630_total_reactive_energy_decode(uint3
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 import active energy: any number; r, reference 30347 */
+/* phase 1 import active energy: any number in kWh; r, reference 30347 */
 #define EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY_ADDRESS 0x015AU
 #define EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_import_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -897,8 +919,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_import_active_energy_decod
 #endif
 
 /*
- * phase 2 import active energy: any number; r, reference 30349; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 import active energy: any number in kWh; r, reference 30349; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY_ADDRESS 0x015CU
 #define EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY_WORDS 2U
@@ -912,8 +934,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_import_active_energy_decod
 #endif
 
 /*
- * phase 3 import active energy: any number; r, reference 30351; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 import active energy: any number in kWh; r, reference 30351; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY_ADDRESS 0x015EU
 #define EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY_WORDS 2U
@@ -926,7 +948,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_import_active_energy_decod
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 export active energy: any number; r, reference 30353 */
+/* phase 1 export active energy: any number in kWh; r, reference 30353 */
 #define EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY_ADDRESS 0x0160U
 #define EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_export_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -939,8 +961,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_export_active_energy_decod
 #endif
 
 /*
- * phase 2 export active energy: any number; r, reference 30355; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 export active energy: any number in kWh; r, reference 30355; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY_ADDRESS 0x0162U
 #define EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY_WORDS 2U
@@ -954,8 +976,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_export_active_energy_decod
 #endif
 
 /*
- * phase 3 export active energy: any number; r, reference 30357; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 export active energy: any number in kWh; r, reference 30357; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY_ADDRESS 0x0164U
 #define EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY_WORDS 2U
@@ -968,7 +990,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_export_active_energy_decod
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 total active energy: any number; r, reference 30359 */
+/* phase 1 total active energy: any number in kWh; r, reference 30359 */
 #define EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY_ADDRESS 0x0166U
 #define EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_total_active_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -981,8 +1003,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_total_active_energy_decode
 #endif
 
 /*
- * phase 2 total active energy: any number; r, reference 30361; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 total active energy: any number in kWh; r, reference 30361; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY_ADDRESS 0x0168U
 #define EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY_WORDS 2U
@@ -996,8 +1018,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_total_active_energy_decode
 #endif
 
 /*
- * phase 3 total active energy: any number; r, reference 30363; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 total active energy: any number in kWh; r, reference 30363; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY_ADDRESS 0x016AU
 #define EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY_WORDS 2U
@@ -1010,7 +1032,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_total_active_energy_decode
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 import reactive energy: any number; r, reference 30365 */
+/* phase 1 import reactive energy: any number in kvarh; r, reference 30365 */
 #define EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY_ADDRESS 0x016CU
 #define EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_import_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -1023,8 +1045,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_import_reactive_energy_dec
 #endif
 
 /*
- * phase 2 import reactive energy: any number; r, reference 30367; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 import reactive energy: any number in kvarh; r, reference 30367; the manual leaves open what the energies of
+ * a phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY_ADDRESS 0x016EU
 #define EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY_WORDS 2U
@@ -1038,8 +1060,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_import_reactive_energy_dec
 #endif
 
 /*
- * phase 3 import reactive energy: any number; r, reference 30369; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 import reactive energy: any number in kvarh; r, reference 30369; the manual leaves open what the energies of
+ * a phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY_ADDRESS 0x0170U
 #define EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY_WORDS 2U
@@ -1052,7 +1074,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_import_reactive_energy_dec
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 export reactive energy: any number; r, reference 30371 */
+/* phase 1 export reactive energy: any number in kvarh; r, reference 30371 */
 #define EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY_ADDRESS 0x0172U
 #define EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_export_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -1065,8 +1087,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_export_reactive_energy_dec
 #endif
 
 /*
- * phase 2 export reactive energy: any number; r, reference 30373; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 export reactive energy: any number in kvarh; r, reference 30373; the manual leaves open what the energies of
+ * a phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY_ADDRESS 0x0174U
 #define EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY_WORDS 2U
@@ -1080,8 +1102,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_export_reactive_energy_dec
 #endif
 
 /*
- * phase 3 export reactive energy: any number; r, reference 30375; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 export reactive energy: any number in kvarh; r, reference 30375; the manual leaves open what the energies of
+ * a phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY_ADDRESS 0x0176U
 #define EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY_WORDS 2U
@@ -1094,7 +1116,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_export_reactive_energy_dec
 { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-/* phase 1 total reactive energy: any number; r, reference 30377 */
+/* phase 1 total reactive energy: any number in kvarh; r, reference 30377 */
 #define EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY_ADDRESS 0x0178U
 #define EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY_WORDS 2U
 static inline void eastron_sdm630_phase_1_total_reactive_energy_to_words(uint32_t raw, uint16_t words[2])
@@ -1107,8 +1129,8 @@ static inline fieldscribe_real eastron_sdm630_phase_1_total_reactive_energy_deco
 #endif
 
 /*
- * phase 2 total reactive energy: any number; r, reference 30379; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 2 total reactive energy: any number in kvarh; r, reference 30379; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY_ADDRESS 0x017AU
 #define EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY_WORDS 2U
@@ -1122,8 +1144,8 @@ static inline fieldscribe_real eastron_sdm630_phase_2_total_reactive_energy_deco
 #endif
 
 /*
- * phase 3 total reactive energy: any number; r, reference 30381; the manual leaves open what the energies of a phase
- * count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
+ * phase 3 total reactive energy: any number in kvarh; r, reference 30381; the manual leaves open what the energies of a
+ * phase count in a wiring in which its power is 0 (phase_energies_in_all_wirings)
  */
 #define EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY_ADDRESS 0x017CU
 #define EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY_WORDS 2U
@@ -1138,7 +1160,7 @@ static inline fieldscribe_real eastron_sdm630_phase_3_total_reactive_energy_deco
 
 /* ---- settings (holding) ---- */
 
-/* demand time: any number; r, reference 40001 */
+/* demand time: any number in min; r, reference 40001 */
 #define EASTRON_SDM630_DEMAND_TIME_ADDRESS 0x0000U
 #define EASTRON_SDM630_DEMAND_TIME_WORDS 2U
 static inline void eastron_sdm630_demand_time_to_words(uint32_t raw, uint16_t words[2])

@@ -125,8 +125,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_device_address_decode(uint16_t raw, int32
 /* ---- inverter (holding) ---- */
 
 /*
- * A ac current: raw 0..65534; r, register 40072; no integer path: its counts need more than 64 bits; Special code:
- * FFFFh not_implemented
+ * A ac current: raw 0..65534; values in A; r, register 40072; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_AC_CURRENT_ADDRESS 0x0002U
 #define fronius_datamanager_ac_current_is_special fronius_datamanager_inverter_u16_is_special
@@ -155,8 +155,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_ac_current_decode(uint16_t raw, int16_t a
 #endif
 
 /*
- * AphA phase a current: raw 0..65534; r, register 40073; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * AphA phase a current: raw 0..65534; values in A; r, register 40073; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_A_CURRENT_ADDRESS 0x0003U
 #define fronius_datamanager_phase_a_current_is_special fronius_datamanager_inverter_u16_is_special
@@ -172,8 +172,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_current_decode(
 #endif
 
 /*
- * AphB phase b current: raw 0..65534; r, register 40074; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * AphB phase b current: raw 0..65534; values in A; r, register 40074; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_B_CURRENT_ADDRESS 0x0004U
 #define fronius_datamanager_phase_b_current_is_special fronius_datamanager_inverter_u16_is_special
@@ -189,8 +189,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_current_decode(
 #endif
 
 /*
- * AphC phase c current: raw 0..65534; r, register 40075; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * AphC phase c current: raw 0..65534; values in A; r, register 40075; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_C_CURRENT_ADDRESS 0x0005U
 #define fronius_datamanager_phase_c_current_is_special fronius_datamanager_inverter_u16_is_special
@@ -229,8 +229,8 @@ static inline int16_t fronius_datamanager_ac_current_exponent_from_words(const u
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * PPVphAB phase a to b voltage: raw 0..65534; r, register 40077; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * PPVphAB phase a to b voltage: raw 0..65534; values in V; r, register 40077; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_A_TO_B_VOLTAGE_ADDRESS 0x0007U
 #define fronius_datamanager_phase_a_to_b_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -246,8 +246,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_to_b_voltage_decode(
 #endif
 
 /*
- * PPVphBC phase b to c voltage: raw 0..65534; r, register 40078; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * PPVphBC phase b to c voltage: raw 0..65534; values in V; r, register 40078; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_B_TO_C_VOLTAGE_ADDRESS 0x0008U
 #define fronius_datamanager_phase_b_to_c_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -263,8 +263,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_to_c_voltage_decode(
 #endif
 
 /*
- * PPVphCA phase c to a voltage: raw 0..65534; r, register 40079; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * PPVphCA phase c to a voltage: raw 0..65534; values in V; r, register 40079; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_C_TO_A_VOLTAGE_ADDRESS 0x0009U
 #define fronius_datamanager_phase_c_to_a_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -280,8 +280,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_c_to_a_voltage_decode(
 #endif
 
 /*
- * PhVphA phase a voltage: raw 0..65534; r, register 40080; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * PhVphA phase a voltage: raw 0..65534; values in V; r, register 40080; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_A_VOLTAGE_ADDRESS 0x000AU
 #define fronius_datamanager_phase_a_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -297,8 +297,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_voltage_decode(
 #endif
 
 /*
- * PhVphB phase b voltage: raw 0..65534; r, register 40081; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * PhVphB phase b voltage: raw 0..65534; values in V; r, register 40081; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_B_VOLTAGE_ADDRESS 0x000BU
 #define fronius_datamanager_phase_b_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -314,8 +314,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_voltage_decode(
 #endif
 
 /*
- * PhVphC phase c voltage: raw 0..65534; r, register 40082; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * PhVphC phase c voltage: raw 0..65534; values in V; r, register 40082; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_PHASE_C_VOLTAGE_ADDRESS 0x000CU
 #define fronius_datamanager_phase_c_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -346,8 +346,8 @@ static inline int16_t fronius_datamanager_ac_voltage_exponent_from_words(const u
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * W ac power: raw -32767..32767; r, register 40084; no integer path: its counts need more than 64 bits; Special code:
- * 8000h not_implemented
+ * W ac power: raw -32767..32767; values in W; r, register 40084; no integer path: its counts need more than 64 bits;
+ * Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_AC_POWER_ADDRESS 0x000EU
 #define fronius_datamanager_ac_power_is_special fronius_datamanager_inverter_s16_is_special
@@ -380,8 +380,8 @@ static inline int16_t fronius_datamanager_ac_power_exponent_from_words(const uin
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * Hz frequency: raw 0..65534; r, register 40086; no integer path: its counts need more than 64 bits; Special code:
- * FFFFh not_implemented
+ * Hz frequency: raw 0..65534; values in Hz; r, register 40086; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_FREQUENCY_ADDRESS 0x0010U
 #define fronius_datamanager_frequency_is_special fronius_datamanager_inverter_u16_is_special
@@ -411,8 +411,8 @@ static inline int16_t fronius_datamanager_frequency_exponent_from_words(const ui
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * VA apparent power: raw -32767..32767; r, register 40088; no integer path: its counts need more than 64 bits; Special
- * code: 8000h not_implemented
+ * VA apparent power: raw -32767..32767; values in VA; r, register 40088; no integer path: its counts need more than 64
+ * bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_APPARENT_POWER_ADDRESS 0x0012U
 #define fronius_datamanager_apparent_power_is_special fronius_datamanager_inverter_s16_is_special
@@ -448,8 +448,8 @@ static inline int16_t fronius_datamanager_apparent_power_exponent_from_words(con
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * VAr reactive power: raw -32767..32767; r, register 40090; no integer path: its counts need more than 64 bits; Special
- * code: 8000h not_implemented
+ * VAr reactive power: raw -32767..32767; values in var; r, register 40090; no integer path: its counts need more than
+ * 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_ADDRESS 0x0014U
 #define fronius_datamanager_reactive_power_is_special fronius_datamanager_inverter_s16_is_special
@@ -485,8 +485,8 @@ static inline int16_t fronius_datamanager_reactive_power_exponent_from_words(con
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * PF power factor: raw -32767..32767; r, register 40092; no integer path: its counts need more than 64 bits; Special
- * code: 8000h not_implemented
+ * PF power factor: raw -32767..32767; values in %; r, register 40092; no integer path: its counts need more than 64
+ * bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_POWER_FACTOR_ADDRESS 0x0016U
 #define fronius_datamanager_power_factor_is_special fronius_datamanager_inverter_s16_is_special
@@ -521,8 +521,8 @@ static inline int16_t fronius_datamanager_power_factor_exponent_from_words(const
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * WH lifetime energy: raw 0..4294967294; r, register 40094; no integer path: its counts need more than 64 bits; values
- * are only decoded: its numbers have more than 53 bits; Special code: FFFFFFFFh not_implemented
+ * WH lifetime energy: raw 0..4294967294; values in Wh; r, register 40094; no integer path: its counts need more than 64
+ * bits; values are only decoded: its numbers have more than 53 bits; Special code: FFFFFFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_LIFETIME_ENERGY_ADDRESS 0x0018U
 #define FRONIUS_DATAMANAGER_LIFETIME_ENERGY_WORDS 2U
@@ -566,8 +566,8 @@ static inline int16_t fronius_datamanager_lifetime_energy_exponent_from_words(co
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * DCA dc current: raw 0..65534; r, register 40097; no integer path: its counts need more than 64 bits; Special code:
- * FFFFh not_implemented
+ * DCA dc current: raw 0..65534; values in A; r, register 40097; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_DC_CURRENT_ADDRESS 0x001BU
 #define fronius_datamanager_dc_current_is_special fronius_datamanager_inverter_u16_is_special
@@ -597,8 +597,8 @@ static inline int16_t fronius_datamanager_dc_current_exponent_from_words(const u
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * DCV dc voltage: raw 0..65534; r, register 40099; no integer path: its counts need more than 64 bits; Special code:
- * FFFFh not_implemented
+ * DCV dc voltage: raw 0..65534; values in V; r, register 40099; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_DC_VOLTAGE_ADDRESS 0x001DU
 #define fronius_datamanager_dc_voltage_is_special fronius_datamanager_inverter_u16_is_special
@@ -628,8 +628,8 @@ static inline int16_t fronius_datamanager_dc_voltage_exponent_from_words(const u
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * DCW dc power: raw -32767..32767; r, register 40101; no integer path: its counts need more than 64 bits; Special code:
- * 8000h not_implemented
+ * DCW dc power: raw -32767..32767; values in W; r, register 40101; no integer path: its counts need more than 64 bits;
+ * Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_DC_POWER_ADDRESS 0x001FU
 #define fronius_datamanager_dc_power_is_special fronius_datamanager_inverter_s16_is_special
@@ -662,8 +662,8 @@ static inline int16_t fronius_datamanager_dc_power_exponent_from_words(const uin
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * TmpCab cabinet temperature: raw -32767..32767; r, register 40103; no integer path: its counts need more than 64 bits;
- * Special code: 8000h not_implemented
+ * TmpCab cabinet temperature: raw -32767..32767; values in °C; r, register 40103; no integer path: its counts need more
+ * than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_CABINET_TEMPERATURE_ADDRESS 0x0021U
 #define fronius_datamanager_cabinet_temperature_is_special fronius_datamanager_inverter_s16_is_special
@@ -683,8 +683,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_cabinet_temperature_decode(
 #endif
 
 /*
- * TmpSnk heat sink temperature: raw -32767..32767; r, register 40104; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * TmpSnk heat sink temperature: raw -32767..32767; values in °C; r, register 40104; no integer path: its counts need
+ * more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_HEAT_SINK_TEMPERATURE_ADDRESS 0x0022U
 #define fronius_datamanager_heat_sink_temperature_is_special fronius_datamanager_inverter_s16_is_special
@@ -704,8 +704,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_heat_sink_temperature_decode(
 #endif
 
 /*
- * TmpTrns transformer temperature: raw -32767..32767; r, register 40105; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * TmpTrns transformer temperature: raw -32767..32767; values in °C; r, register 40105; no integer path: its counts need
+ * more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_TRANSFORMER_TEMPERATURE_ADDRESS 0x0023U
 #define fronius_datamanager_transformer_temperature_is_special fronius_datamanager_inverter_s16_is_special
@@ -725,8 +725,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_transformer_temperature_decode(
 #endif
 
 /*
- * TmpOt other temperature: raw -32767..32767; r, register 40106; no integer path: its counts need more than 64 bits;
- * Special code: 8000h not_implemented
+ * TmpOt other temperature: raw -32767..32767; values in °C; r, register 40106; no integer path: its counts need more
+ * than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_OTHER_TEMPERATURE_ADDRESS 0x0024U
 #define fronius_datamanager_other_temperature_is_special fronius_datamanager_inverter_s16_is_special
@@ -987,8 +987,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_der_type_decode(uint16_t raw, int32_t *va
 }
 
 /*
- * WRtg rated power: raw 0..65534; r, register 40125; no integer path: its counts need more than 64 bits; Special code:
- * FFFFh not_implemented
+ * WRtg rated power: raw 0..65534; values in W; r, register 40125; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_POWER_ADDRESS 0x0003U
 #define fronius_datamanager_rated_power_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1026,8 +1026,8 @@ static inline int16_t fronius_datamanager_rated_power_exponent_from_words(const 
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * VARtg rated apparent power: raw 0..65534; r, register 40127; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * VARtg rated apparent power: raw 0..65534; values in VA; r, register 40127; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_APPARENT_POWER_ADDRESS 0x0005U
 #define fronius_datamanager_rated_apparent_power_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1059,8 +1059,8 @@ static inline int16_t fronius_datamanager_rated_apparent_power_exponent_from_wor
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * VArRtgQ1 rated reactive power q1: raw -32767..32767; r, register 40129; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * VArRtgQ1 rated reactive power q1: raw -32767..32767; values in var; r, register 40129; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q1_ADDRESS 0x0007U
 #define fronius_datamanager_rated_reactive_power_q1_is_special fronius_datamanager_nameplate_s16_is_special
@@ -1081,8 +1081,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q1_decode(
 #endif
 
 /*
- * VArRtgQ2 rated reactive power q2: raw -32767..32767; r, register 40130; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * VArRtgQ2 rated reactive power q2: raw -32767..32767; values in var; r, register 40130; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q2_ADDRESS 0x0008U
 #define fronius_datamanager_rated_reactive_power_q2_is_special fronius_datamanager_nameplate_s16_is_special
@@ -1103,8 +1103,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q2_decode(
 #endif
 
 /*
- * VArRtgQ3 rated reactive power q3: raw -32767..32767; r, register 40131; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * VArRtgQ3 rated reactive power q3: raw -32767..32767; values in var; r, register 40131; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q3_ADDRESS 0x0009U
 #define fronius_datamanager_rated_reactive_power_q3_is_special fronius_datamanager_nameplate_s16_is_special
@@ -1125,8 +1125,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q3_decode(
 #endif
 
 /*
- * VArRtgQ4 rated reactive power q4: raw -32767..32767; r, register 40132; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * VArRtgQ4 rated reactive power q4: raw -32767..32767; values in var; r, register 40132; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q4_ADDRESS 0x000AU
 #define fronius_datamanager_rated_reactive_power_q4_is_special fronius_datamanager_nameplate_s16_is_special
@@ -1162,8 +1162,8 @@ static inline int16_t fronius_datamanager_rated_reactive_power_exponent_from_wor
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * ARtg rated current: raw 0..65534; r, register 40134; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * ARtg rated current: raw 0..65534; values in A; r, register 40134; no integer path: its counts need more than 64 bits;
+ * Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_CURRENT_ADDRESS 0x000CU
 #define fronius_datamanager_rated_current_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1298,8 +1298,8 @@ static inline int16_t fronius_datamanager_rated_power_factor_exponent_from_words
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * WHRtg rated energy: raw 0..65534; r, register 40141; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * WHRtg rated energy: raw 0..65534; values in Wh; r, register 40141; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_ENERGY_ADDRESS 0x0013U
 #define fronius_datamanager_rated_energy_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1330,8 +1330,8 @@ static inline int16_t fronius_datamanager_rated_energy_exponent_from_words(const
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * AhrRtg rated charge: raw 0..65534; r, register 40143; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * AhrRtg rated charge: raw 0..65534; values in Ah; r, register 40143; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_RATED_CHARGE_ADDRESS 0x0015U
 #define fronius_datamanager_rated_charge_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1362,8 +1362,8 @@ static inline int16_t fronius_datamanager_rated_charge_exponent_from_words(const
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * MaxChaRte maximum charge rate: raw 0..65534; r, register 40145; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * MaxChaRte maximum charge rate: raw 0..65534; values in W; r, register 40145; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE_ADDRESS 0x0017U
 #define fronius_datamanager_maximum_charge_rate_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1395,8 +1395,8 @@ static inline int16_t fronius_datamanager_maximum_charge_rate_exponent_from_word
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * MaxDisChaRte maximum discharge rate: raw 0..65534; r, register 40147; no integer path: its counts need more than 64
- * bits; Special code: FFFFh not_implemented
+ * MaxDisChaRte maximum discharge rate: raw 0..65534; values in W; r, register 40147; no integer path: its counts need
+ * more than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE_ADDRESS 0x0019U
 #define fronius_datamanager_maximum_discharge_rate_is_special fronius_datamanager_nameplate_u16_is_special
@@ -1434,8 +1434,8 @@ static inline int16_t fronius_datamanager_maximum_discharge_rate_exponent_from_w
 /* ---- settings (holding) ---- */
 
 /*
- * WMax maximum power: raw 0..65534; rw, register 40152; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * WMax maximum power: raw 0..65534; values in W; rw, register 40152; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_POWER_ADDRESS 0x0002U
 #define FRONIUS_DATAMANAGER_MAXIMUM_POWER_RAW_MIN 0
@@ -1472,8 +1472,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_decode(
 #endif
 
 /*
- * VRef reference voltage: raw 0..65534; rw, register 40153; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * VRef reference voltage: raw 0..65534; values in V; rw, register 40153; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_ADDRESS 0x0003U
 #define FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_RAW_MIN 0
@@ -1502,8 +1502,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_decode(
 #endif
 
 /*
- * VRefOfs reference voltage offset: raw -32767..32767; rw, register 40154; no integer path: its counts need more than
- * 64 bits; Special code: 8000h not_implemented
+ * VRefOfs reference voltage offset: raw -32767..32767; values in V; rw, register 40154; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET_ADDRESS 0x0004U
 #define FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET_RAW_MIN (-32767)
@@ -1544,8 +1544,9 @@ FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_decode(
 #endif
 
 /*
- * VMax maximum voltage: raw 0..65534; rw, register 40155; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented; the manual leaves open whether a write does anything (voltage_limits_written)
+ * VMax maximum voltage: raw 0..65534; values in V; rw, register 40155; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented; the manual leaves open whether a write does anything
+ * (voltage_limits_written)
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE_ADDRESS 0x0005U
 #define FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE_RAW_MIN 0
@@ -1574,8 +1575,9 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_decode(
 #endif
 
 /*
- * VMin minimum voltage: raw 0..65534; rw, register 40156; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented; the manual leaves open whether a write does anything (voltage_limits_written)
+ * VMin minimum voltage: raw 0..65534; values in V; rw, register 40156; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented; the manual leaves open whether a write does anything
+ * (voltage_limits_written)
  */
 #define FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE_ADDRESS 0x0006U
 #define FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE_RAW_MIN 0
@@ -1604,8 +1606,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_decode(
 #endif
 
 /*
- * VAMax maximum apparent power: raw 0..65534; rw, register 40157; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented; the manual leaves open whether it can be written (vamax_access)
+ * VAMax maximum apparent power: raw 0..65534; values in VA; rw, register 40157; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented; the manual leaves open whether it can be written (vamax_access)
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER_ADDRESS 0x0007U
 #define FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER_RAW_MIN 0
@@ -1634,8 +1636,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_decode(
 #endif
 
 /*
- * VARMaxQ1 maximum reactive power q1: raw -32767..32767; r, register 40158; no integer path: its counts need more than
- * 64 bits; Special code: 8000h not_implemented
+ * VARMaxQ1 maximum reactive power q1: raw -32767..32767; values in var; r, register 40158; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q1_ADDRESS 0x0008U
 #define fronius_datamanager_maximum_reactive_power_q1_is_special fronius_datamanager_settings_s16_is_special
@@ -1656,8 +1658,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q1_decode(
 #endif
 
 /*
- * VARMaxQ2 maximum reactive power q2: raw -32767..32767; r, register 40159; no integer path: its counts need more than
- * 64 bits; Special code: 8000h not_implemented
+ * VARMaxQ2 maximum reactive power q2: raw -32767..32767; values in var; r, register 40159; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q2_ADDRESS 0x0009U
 #define fronius_datamanager_maximum_reactive_power_q2_is_special fronius_datamanager_settings_s16_is_special
@@ -1678,8 +1680,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q2_decode(
 #endif
 
 /*
- * VARMaxQ3 maximum reactive power q3: raw -32767..32767; r, register 40160; no integer path: its counts need more than
- * 64 bits; Special code: 8000h not_implemented
+ * VARMaxQ3 maximum reactive power q3: raw -32767..32767; values in var; r, register 40160; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q3_ADDRESS 0x000AU
 #define fronius_datamanager_maximum_reactive_power_q3_is_special fronius_datamanager_settings_s16_is_special
@@ -1700,8 +1702,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q3_decode(
 #endif
 
 /*
- * VARMaxQ4 maximum reactive power q4: raw -32767..32767; r, register 40161; no integer path: its counts need more than
- * 64 bits; Special code: 8000h not_implemented
+ * VARMaxQ4 maximum reactive power q4: raw -32767..32767; values in var; r, register 40161; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q4_ADDRESS 0x000BU
 #define fronius_datamanager_maximum_reactive_power_q4_is_special fronius_datamanager_settings_s16_is_special
@@ -1722,8 +1724,9 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q4_decode(
 #endif
 
 /*
- * WGra power ramp rate: raw 0..65534; r, register 40162; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented; the manual leaves open whether it counts per minute or per second (wgra_unit)
+ * WGra power ramp rate: raw 0..65534; values in %/min; r, register 40162; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented; the manual leaves open whether it counts per minute or per second
+ * (wgra_unit)
  */
 #define FRONIUS_DATAMANAGER_POWER_RAMP_RATE_ADDRESS 0x000CU
 #define fronius_datamanager_power_ramp_rate_is_special fronius_datamanager_settings_u16_is_special
@@ -1878,8 +1881,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_apparent_power_method_decode(uint16_t raw
 }
 
 /*
- * MaxRmpRte maximum ramp rate: raw 0..65534; r, register 40169; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * MaxRmpRte maximum ramp rate: raw 0..65534; values in %; r, register 40169; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE_ADDRESS 0x0013U
 #define fronius_datamanager_maximum_ramp_rate_is_special fronius_datamanager_settings_u16_is_special
@@ -1896,8 +1899,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_ramp_rate_decode(
 #endif
 
 /*
- * ECPNomHz nominal frequency: raw 0..65534; r, register 40170; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * ECPNomHz nominal frequency: raw 0..65534; values in Hz; r, register 40170; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY_ADDRESS 0x0014U
 #define fronius_datamanager_nominal_frequency_is_special fronius_datamanager_settings_u16_is_special
@@ -2205,8 +2208,8 @@ static inline uint64_t fronius_datamanager_reactive_energy_q4_from_words(const u
 { return fieldscribe_join64(words[0], words[1], words[2], words[3]); }
 
 /*
- * VArAval available reactive power: raw -32767..32767; r, register 40211; no integer path: its counts need more than 64
- * bits; Special code: 8000h not_implemented
+ * VArAval available reactive power: raw -32767..32767; values in var; r, register 40211; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER_ADDRESS 0x001DU
 #define fronius_datamanager_available_reactive_power_is_special fronius_datamanager_status_s16_is_special
@@ -2250,8 +2253,8 @@ static inline int16_t fronius_datamanager_available_reactive_power_exponent_from
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
 /*
- * WAval available power: raw 0..65534; r, register 40213; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * WAval available power: raw 0..65534; values in W; r, register 40213; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_AVAILABLE_POWER_ADDRESS 0x001FU
 #define fronius_datamanager_available_power_is_special fronius_datamanager_status_u16_is_special
@@ -2367,8 +2370,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_ride_through_status_decode(uint16_t raw, 
 }
 
 /*
- * Ris isolation resistance: raw 0..65534; r, register 40226; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * Ris isolation resistance: raw 0..65534; values in ohm; r, register 40226; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE_ADDRESS 0x002CU
 #define fronius_datamanager_isolation_resistance_is_special fronius_datamanager_status_u16_is_special
@@ -2486,8 +2489,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_connection_decode(uint16_t raw, int32_t *
 }
 
 /*
- * WMaxLimPct power limit: raw 0..65534; rw, register 40233; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * WMaxLimPct power limit: raw 0..65534; values in %; rw, register 40233; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_POWER_LIMIT_ADDRESS 0x0005U
 #define FRONIUS_DATAMANAGER_POWER_LIMIT_RAW_MIN 0
@@ -2755,8 +2758,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_power_factor_enabled_decode(uint16_t raw,
 }
 
 /*
- * VArWMaxPct reactive power of maximum power: raw -32767..32767; r, register 40243; no integer path: its counts need
- * more than 64 bits; Special code: 8000h not_implemented
+ * VArWMaxPct reactive power of maximum power: raw -32767..32767; values in %; r, register 40243; no integer path: its
+ * counts need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_POWER_ADDRESS 0x000FU
 #define fronius_datamanager_reactive_power_of_maximum_power_is_special fronius_datamanager_controls_s16_is_special
@@ -2777,8 +2780,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_power_decode(
 #endif
 
 /*
- * VArMaxPct reactive power of maximum: raw -32767..32767; rw, register 40244; no integer path: its counts need more
- * than 64 bits; Special code: 8000h not_implemented
+ * VArMaxPct reactive power of maximum: raw -32767..32767; values in %; rw, register 40244; no integer path: its counts
+ * need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_ADDRESS 0x0010U
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_RAW_MIN (-32767)
@@ -2811,8 +2814,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_decode(
 #endif
 
 /*
- * VArAvalPct reactive power of available: raw -32767..32767; r, register 40245; no integer path: its counts need more
- * than 64 bits; Special code: 8000h not_implemented
+ * VArAvalPct reactive power of available: raw -32767..32767; values in %; r, register 40245; no integer path: its
+ * counts need more than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_AVAILABLE_ADDRESS 0x0011U
 #define fronius_datamanager_reactive_power_of_available_is_special fronius_datamanager_controls_s16_is_special
@@ -3181,8 +3184,8 @@ static inline size_t fronius_datamanager_module_name_index_2_decode(const uint16
 { return fieldscribe_packed_text_of_words(words, 16U, 2U, false, 0U, text); }
 
 /*
- * module current index 1: raw 0..65534; r, register 40273; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module current index 1: raw 0..65534; values in A; r, register 40273; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_1_ADDRESS 0x0013U
 #define FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_1_INDEX 1U
@@ -3200,8 +3203,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_1_decode(
 #endif
 
 /*
- * module current index 2: raw 0..65534; r, register 40293; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module current index 2: raw 0..65534; values in A; r, register 40293; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_2_ADDRESS 0x0027U
 #define FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_2_INDEX 2U
@@ -3219,8 +3222,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_2_decode(
 #endif
 
 /*
- * module voltage index 1: raw 0..65534; r, register 40274; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module voltage index 1: raw 0..65534; values in V; r, register 40274; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_1_ADDRESS 0x0014U
 #define FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_1_INDEX 1U
@@ -3238,8 +3241,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_1_decode(
 #endif
 
 /*
- * module voltage index 2: raw 0..65534; r, register 40294; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module voltage index 2: raw 0..65534; values in V; r, register 40294; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_2_ADDRESS 0x0028U
 #define FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_2_INDEX 2U
@@ -3257,8 +3260,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_2_decode(
 #endif
 
 /*
- * module power index 1: raw 0..65534; r, register 40275; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module power index 1: raw 0..65534; values in W; r, register 40275; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_1_ADDRESS 0x0015U
 #define FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_1_INDEX 1U
@@ -3275,8 +3278,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_1_decode(
 #endif
 
 /*
- * module power index 2: raw 0..65534; r, register 40295; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * module power index 2: raw 0..65534; values in W; r, register 40295; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_2_ADDRESS 0x0029U
 #define FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_2_INDEX 2U
@@ -3293,8 +3296,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_2_decode(
 #endif
 
 /*
- * module energy index 1: raw 0..4294967295; r, register 40276; no integer path: its counts need more than 64 bits;
- * values are only decoded: its numbers have more than 53 bits
+ * module energy index 1: raw 0..4294967295; values in Wh; r, register 40276; no integer path: its counts need more than
+ * 64 bits; values are only decoded: its numbers have more than 53 bits
  */
 #define FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1_ADDRESS 0x0016U
 #define FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1_INDEX 1U
@@ -3310,8 +3313,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_energy_index_1_decode(
 #endif
 
 /*
- * module energy index 2: raw 0..4294967295; r, register 40296; no integer path: its counts need more than 64 bits;
- * values are only decoded: its numbers have more than 53 bits
+ * module energy index 2: raw 0..4294967295; values in Wh; r, register 40296; no integer path: its counts need more than
+ * 64 bits; values are only decoded: its numbers have more than 53 bits
  */
 #define FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2_ADDRESS 0x002AU
 #define FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2_INDEX 2U
@@ -3459,8 +3462,8 @@ static inline uint32_t fronius_datamanager_module_events_index_2_from_words(cons
 /* ---- storage (holding) ---- */
 
 /*
- * WchaMax maximum charge power: raw 0..65534; r, register 40306; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * WchaMax maximum charge power: raw 0..65534; values in W; r, register 40306; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER_ADDRESS 0x0002U
 #define fronius_datamanager_maximum_charge_power_is_special fronius_datamanager_storage_u16_is_special
@@ -3485,8 +3488,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_power_decode(
 #endif
 
 /*
- * WchaGra charge ramp rate: raw 0..65534; r, register 40307; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * WchaGra charge ramp rate: raw 0..65534; values in %/s; r, register 40307; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE_ADDRESS 0x0003U
 #define fronius_datamanager_charge_ramp_rate_is_special fronius_datamanager_storage_u16_is_special
@@ -3503,8 +3506,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_charge_ramp_rate_decode(
 #endif
 
 /*
- * WdisChaGra discharge ramp rate: raw 0..65534; r, register 40308; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * WdisChaGra discharge ramp rate: raw 0..65534; values in %/s; r, register 40308; no integer path: its counts need more
+ * than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_DISCHARGE_RAMP_RATE_ADDRESS 0x0004U
 #define fronius_datamanager_discharge_ramp_rate_is_special fronius_datamanager_storage_u16_is_special
@@ -3544,8 +3547,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_storage_control_mode_decode(uint16_t raw,
 }
 
 /*
- * VAChaMax maximum charge apparent power: raw 0..65534; r, register 40310; no integer path: its counts need more than
- * 64 bits; Special code: FFFFh not_implemented
+ * VAChaMax maximum charge apparent power: raw 0..65534; values in VA; r, register 40310; no integer path: its counts
+ * need more than 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER_ADDRESS 0x0006U
 #define fronius_datamanager_maximum_charge_apparent_power_is_special fronius_datamanager_storage_u16_is_special
@@ -3562,8 +3565,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_apparent_power_decode(
 #endif
 
 /*
- * MinRsvPct minimum reserve: raw 0..65534; rw, register 40311; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * MinRsvPct minimum reserve: raw 0..65534; values in %; rw, register 40311; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_MINIMUM_RESERVE_ADDRESS 0x0007U
 #define FRONIUS_DATAMANAGER_MINIMUM_RESERVE_RAW_MIN 0
@@ -3592,8 +3595,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_decode(
 #endif
 
 /*
- * ChaState state of charge: raw 0..65534; r, register 40312; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * ChaState state of charge: raw 0..65534; values in %; r, register 40312; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_STATE_OF_CHARGE_ADDRESS 0x0008U
 #define fronius_datamanager_state_of_charge_is_special fronius_datamanager_storage_u16_is_special
@@ -3610,8 +3613,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_state_of_charge_decode(
 #endif
 
 /*
- * StorAval available charge: raw 0..65534; r, register 40313; no integer path: its counts need more than 64 bits;
- * Special code: FFFFh not_implemented
+ * StorAval available charge: raw 0..65534; values in Ah; r, register 40313; no integer path: its counts need more than
+ * 64 bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_AVAILABLE_CHARGE_ADDRESS 0x0009U
 #define fronius_datamanager_available_charge_is_special fronius_datamanager_storage_u16_is_special
@@ -3628,8 +3631,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_available_charge_decode(
 #endif
 
 /*
- * InBatV battery voltage: raw 0..65534; r, register 40314; no integer path: its counts need more than 64 bits; Special
- * code: FFFFh not_implemented
+ * InBatV battery voltage: raw 0..65534; values in V; r, register 40314; no integer path: its counts need more than 64
+ * bits; Special code: FFFFh not_implemented
  */
 #define FRONIUS_DATAMANAGER_BATTERY_VOLTAGE_ADDRESS 0x000AU
 #define fronius_datamanager_battery_voltage_is_special fronius_datamanager_storage_u16_is_special
@@ -3678,8 +3681,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_charge_state_decode(uint16_t raw, int32_t
 }
 
 /*
- * OutWRte discharge limit: raw -32767..32767; rw, register 40316; no integer path: its counts need more than 64 bits;
- * Special code: 8000h not_implemented
+ * OutWRte discharge limit: raw -32767..32767; values in %; rw, register 40316; no integer path: its counts need more
+ * than 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_DISCHARGE_LIMIT_ADDRESS 0x000CU
 #define FRONIUS_DATAMANAGER_DISCHARGE_LIMIT_RAW_MIN (-32767)
@@ -3720,8 +3723,8 @@ FIELDSCRIBE_STATUS fronius_datamanager_discharge_limit_decode(
 #endif
 
 /*
- * InWRte charge limit: raw -32767..32767; rw, register 40317; no integer path: its counts need more than 64 bits;
- * Special code: 8000h not_implemented
+ * InWRte charge limit: raw -32767..32767; values in %; rw, register 40317; no integer path: its counts need more than
+ * 64 bits; Special code: 8000h not_implemented
  */
 #define FRONIUS_DATAMANAGER_CHARGE_LIMIT_ADDRESS 0x000DU
 #define FRONIUS_DATAMANAGER_CHARGE_LIMIT_RAW_MIN (-32767)

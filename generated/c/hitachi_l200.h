@@ -508,8 +508,8 @@ static inline int32_t hitachi_l200_digital_inputs_decode(uint16_t raw) { return 
 static inline int32_t hitachi_l200_digital_outputs_decode(uint16_t raw) { return raw; }
 
 /*
- * d007 scaled output frequency: raw 0..999999; r, modicon 4105, reference 404105; the manual leaves open whether a step
- * is 0.01 or 0.1 (d007_scale); not generated: the manual does not settle its scale
+ * d007 scaled output frequency: raw 0..999999; values in Hz; r, modicon 4105, reference 404105; the manual leaves open
+ * whether a step is 0.01 or 0.1 (d007_scale); not generated: the manual does not settle its scale
  */
 #define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_ADDRESS 0x1008U
 #define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_WORDS 2U
@@ -3672,9 +3672,9 @@ static inline fieldscribe_real hitachi_l200_pid_process_value_lower_limit_decode
  */
 
 /*
- * C078 response delay: raw 0..1000; none, modicon 4415, reference 404415; the manual leaves open whether a read of it
- * is answered (c071_access), whether a change works at once or after the next start (c071_effect); not generated: not
- * reachable over the bus
+ * C078 response delay: raw 0..1000; values in ms; none, modicon 4415, reference 404415; the manual leaves open whether
+ * a read of it is answered (c071_access), whether a change works at once or after the next start (c071_effect); not
+ * generated: not reachable over the bus
  */
 
 /* C081 input o calibration: 0..200 %; 0.1 % a count; rw, modicon 4417, reference 404417 */

@@ -268,7 +268,7 @@ static inline int32_t siemens_mm4_main_setpoint_source_decode(uint16_t raw) { re
 #define SIEMENS_MM4_JOG_DECELERATION_TIME_WORDS 1U
 
 /*
- * P1082 maximum frequency: any number; 0.01 Hz a count; rw; the manual leaves open which values it takes
+ * P1082 maximum frequency: any number in Hz; 0.01 Hz a count; rw; the manual leaves open which values it takes
  * (parameter_limits), which setting of P0003 it needs (access_levels)
  */
 #define SIEMENS_MM4_MAXIMUM_FREQUENCY_ADDRESS 0x043AU
@@ -385,7 +385,7 @@ FIELDSCRIBE_STATUS siemens_mm4_output_phase_sequence_encode(int32_t value, uint1
 static inline int32_t siemens_mm4_output_phase_sequence_decode(uint16_t raw) { return raw; }
 
 /*
- * P2000 reference frequency: any number; 0.01 Hz a count; rw; the manual leaves open which values it takes
+ * P2000 reference frequency: any number in Hz; 0.01 Hz a count; rw; the manual leaves open which values it takes
  * (parameter_limits), which setting of P0003 it needs (access_levels)
  */
 #define SIEMENS_MM4_REFERENCE_FREQUENCY_ADDRESS 0x07D0U

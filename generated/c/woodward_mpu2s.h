@@ -462,8 +462,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
 #endif
 
 /*
- * generator reactive power: raw -32768..32767; r, mux 8, word 1, nr 25; the manual leaves open which exponent it has
- * (telegram_reactive_power_exponent); not generated: the manual does not settle its scale
+ * generator reactive power: raw -32768..32767; values in var; r, mux 8, word 1, nr 25; the manual leaves open which
+ * exponent it has (telegram_reactive_power_exponent); not generated: the manual does not settle its scale
  */
 #define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_ADDRESS 0x0018U
 #define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
@@ -1588,8 +1588,8 @@ static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_delay_d
 #endif
 
 /*
- * frequency controller ramp: raw 102..5120; rw; the manual leaves open whether 1 Hz/s is raw 102.4 or 1024
- * (frequency_ramp_factor); not generated: the manual does not settle its scale
+ * frequency controller ramp: raw 102..5120; values in Hz/s; rw; the manual leaves open whether 1 Hz/s is raw 102.4 or
+ * 1024 (frequency_ramp_factor); not generated: the manual does not settle its scale
  */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAMP_ADDRESS 0x0044U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAMP_WORDS 1U

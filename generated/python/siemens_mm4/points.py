@@ -270,8 +270,8 @@ class Points(PointTable):
         conditions=("stopped",),
         keeps="choice",
     )
-    """Maximum frequency: any number. To write it takes: stopped. `keep=True` keeps
-    it and wears the EEPROM.
+    """Maximum frequency: any number in Hz. To write it takes: stopped. `keep=True`
+    keeps it and wears the EEPROM.
 
     The manual leaves open which values it takes (parameter_limits), which setting
     of P0003 it needs (access_levels).
@@ -322,7 +322,8 @@ class Points(PointTable):
         unit="Hz",
         keeps="choice",
     )
-    """Reference frequency: any number. `keep=True` keeps it and wears the EEPROM.
+    """Reference frequency: any number in Hz. `keep=True` keeps it and wears the
+    EEPROM.
 
     The manual leaves open which values it takes (parameter_limits), which setting
     of P0003 it needs (access_levels).

@@ -287,8 +287,8 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
         return ""
     if point.info.floating or point.allowed.units:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
-        text = " or ".join(ends)
-        return (with_unit(text, point) if unit else text) if ends else "any number"
+        text = " or ".join(ends) or f"any number{' in' * bool(unit and point.unit.symbol)}"
+        return with_unit(text, point) if unit else text
     rule = None if point.form in ("text", "digits") else fixed_rule(point)
     return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol if unit else "")
 

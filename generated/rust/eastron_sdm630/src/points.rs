@@ -11,7 +11,7 @@ use crate::enums;
 point! {
     /// Phase 1 voltage.
     ///
-    /// At input 0000h (0), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 0000h (0), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1Voltage of crate::EastronSdm630: u32 = "phase_1_voltage";
     at Input 0x0000;
     addresses [0x0000, 0x0001];
@@ -25,7 +25,7 @@ point! {
 point! {
     /// Phase 2 voltage.
     ///
-    /// At input 0002h (2), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0002h (2), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2Voltage of crate::EastronSdm630: u32 = "phase_2_voltage";
     at Input 0x0002;
     addresses [0x0002, 0x0003];
@@ -39,7 +39,7 @@ point! {
 point! {
     /// Phase 3 voltage.
     ///
-    /// At input 0004h (4), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0004h (4), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3Voltage of crate::EastronSdm630: u32 = "phase_3_voltage";
     at Input 0x0004;
     addresses [0x0004, 0x0005];
@@ -67,7 +67,7 @@ point! {
 point! {
     /// Phase 2 current.
     ///
-    /// At input 0008h (8), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0008h (8), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase2Current of crate::EastronSdm630: u32 = "phase_2_current";
     at Input 0x0008;
     addresses [0x0008, 0x0009];
@@ -81,7 +81,7 @@ point! {
 point! {
     /// Phase 3 current.
     ///
-    /// At input 000Ah (10), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 000Ah (10), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase3Current of crate::EastronSdm630: u32 = "phase_3_current";
     at Input 0x000A;
     addresses [0x000A, 0x000B];
@@ -95,7 +95,7 @@ point! {
 point! {
     /// Phase 1 active power.
     ///
-    /// At input 000Ch (12), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 000Ch (12), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1ActivePower of crate::EastronSdm630: u32 = "phase_1_active_power";
     at Input 0x000C;
     addresses [0x000C, 0x000D];
@@ -109,7 +109,7 @@ point! {
 point! {
     /// Phase 2 active power.
     ///
-    /// At input 000Eh (14), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 000Eh (14), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2ActivePower of crate::EastronSdm630: u32 = "phase_2_active_power";
     at Input 0x000E;
     addresses [0x000E, 0x000F];
@@ -123,7 +123,7 @@ point! {
 point! {
     /// Phase 3 active power.
     ///
-    /// At input 0010h (16), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0010h (16), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3ActivePower of crate::EastronSdm630: u32 = "phase_3_active_power";
     at Input 0x0010;
     addresses [0x0010, 0x0011];
@@ -137,7 +137,7 @@ point! {
 point! {
     /// Phase 1 apparent power.
     ///
-    /// At input 0012h (18), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 0012h (18), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1ApparentPower of crate::EastronSdm630: u32 = "phase_1_apparent_power";
     at Input 0x0012;
     addresses [0x0012, 0x0013];
@@ -151,7 +151,7 @@ point! {
 point! {
     /// Phase 2 apparent power.
     ///
-    /// At input 0014h (20), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0014h (20), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2ApparentPower of crate::EastronSdm630: u32 = "phase_2_apparent_power";
     at Input 0x0014;
     addresses [0x0014, 0x0015];
@@ -165,7 +165,7 @@ point! {
 point! {
     /// Phase 3 apparent power.
     ///
-    /// At input 0016h (22), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0016h (22), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3ApparentPower of crate::EastronSdm630: u32 = "phase_3_apparent_power";
     at Input 0x0016;
     addresses [0x0016, 0x0017];
@@ -179,7 +179,7 @@ point! {
 point! {
     /// Phase 1 reactive power.
     ///
-    /// At input 0018h (24), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 0018h (24), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1ReactivePower of crate::EastronSdm630: u32 = "phase_1_reactive_power";
     at Input 0x0018;
     addresses [0x0018, 0x0019];
@@ -193,7 +193,7 @@ point! {
 point! {
     /// Phase 2 reactive power.
     ///
-    /// At input 001Ah (26), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 001Ah (26), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2ReactivePower of crate::EastronSdm630: u32 = "phase_2_reactive_power";
     at Input 0x001A;
     addresses [0x001A, 0x001B];
@@ -207,7 +207,7 @@ point! {
 point! {
     /// Phase 3 reactive power.
     ///
-    /// At input 001Ch (28), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 001Ch (28), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3ReactivePower of crate::EastronSdm630: u32 = "phase_3_reactive_power";
     at Input 0x001C;
     addresses [0x001C, 0x001D];
@@ -221,7 +221,7 @@ point! {
 point! {
     /// Phase 1 power factor.
     ///
-    /// At input 001Eh (30), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 001Eh (30), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1PowerFactor of crate::EastronSdm630: u32 = "phase_1_power_factor";
     at Input 0x001E;
     addresses [0x001E, 0x001F];
@@ -234,7 +234,7 @@ point! {
 point! {
     /// Phase 2 power factor.
     ///
-    /// At input 0020h (32), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0020h (32), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2PowerFactor of crate::EastronSdm630: u32 = "phase_2_power_factor";
     at Input 0x0020;
     addresses [0x0020, 0x0021];
@@ -247,7 +247,7 @@ point! {
 point! {
     /// Phase 3 power factor.
     ///
-    /// At input 0022h (34), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0022h (34), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3PowerFactor of crate::EastronSdm630: u32 = "phase_3_power_factor";
     at Input 0x0022;
     addresses [0x0022, 0x0023];
@@ -260,7 +260,7 @@ point! {
 point! {
     /// Phase 1 phase angle.
     ///
-    /// At input 0024h (36), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 0024h (36), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1PhaseAngle of crate::EastronSdm630: u32 = "phase_1_phase_angle";
     at Input 0x0024;
     addresses [0x0024, 0x0025];
@@ -274,7 +274,7 @@ point! {
 point! {
     /// Phase 2 phase angle.
     ///
-    /// At input 0026h (38), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0026h (38), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2PhaseAngle of crate::EastronSdm630: u32 = "phase_2_phase_angle";
     at Input 0x0026;
     addresses [0x0026, 0x0027];
@@ -288,7 +288,7 @@ point! {
 point! {
     /// Phase 3 phase angle.
     ///
-    /// At input 0028h (40), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0028h (40), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3PhaseAngle of crate::EastronSdm630: u32 = "phase_3_phase_angle";
     at Input 0x0028;
     addresses [0x0028, 0x0029];
@@ -302,7 +302,7 @@ point! {
 point! {
     /// Average voltage.
     ///
-    /// At input 002Ah (42), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 002Ah (42), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     ///
     /// The manual leaves open `whether it is 0 in 1p2w` (`average_voltage_in_1p2w`).
     AverageVoltage of crate::EastronSdm630: u32 = "average_voltage";
@@ -569,7 +569,7 @@ point! {
 point! {
     /// Neutral current demand.
     ///
-    /// At input 0068h (104), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 0068h (104), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     NeutralCurrentDemand of crate::EastronSdm630: u32 = "neutral_current_demand";
     at Input 0x0068;
     addresses [0x0068, 0x0069];
@@ -583,7 +583,7 @@ point! {
 point! {
     /// Maximum neutral current demand.
     ///
-    /// At input 006Ah (106), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 006Ah (106), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     MaximumNeutralCurrentDemand of crate::EastronSdm630: u32 = "maximum_neutral_current_demand";
     at Input 0x006A;
     addresses [0x006A, 0x006B];
@@ -597,7 +597,7 @@ point! {
 point! {
     /// Line 1 to 2 voltage.
     ///
-    /// At input 00C8h (200), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00C8h (200), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line1To2Voltage of crate::EastronSdm630: u32 = "line_1_to_2_voltage";
     at Input 0x00C8;
     addresses [0x00C8, 0x00C9];
@@ -611,7 +611,7 @@ point! {
 point! {
     /// Line 2 to 3 voltage.
     ///
-    /// At input 00CAh (202), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00CAh (202), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line2To3Voltage of crate::EastronSdm630: u32 = "line_2_to_3_voltage";
     at Input 0x00CA;
     addresses [0x00CA, 0x00CB];
@@ -625,7 +625,7 @@ point! {
 point! {
     /// Line 3 to 1 voltage.
     ///
-    /// At input 00CCh (204), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00CCh (204), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line3To1Voltage of crate::EastronSdm630: u32 = "line_3_to_1_voltage";
     at Input 0x00CC;
     addresses [0x00CC, 0x00CD];
@@ -639,7 +639,7 @@ point! {
 point! {
     /// Average line to line voltage.
     ///
-    /// At input 00CEh (206), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00CEh (206), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     AverageLineToLineVoltage of crate::EastronSdm630: u32 = "average_line_to_line_voltage";
     at Input 0x00CE;
     addresses [0x00CE, 0x00CF];
@@ -653,7 +653,7 @@ point! {
 point! {
     /// Neutral current.
     ///
-    /// At input 00E0h (224), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 00E0h (224), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     NeutralCurrent of crate::EastronSdm630: u32 = "neutral_current";
     at Input 0x00E0;
     addresses [0x00E0, 0x00E1];
@@ -667,7 +667,7 @@ point! {
 point! {
     /// Phase 1 voltage thd.
     ///
-    /// At input 00EAh (234), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 00EAh (234), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     Phase1VoltageThd of crate::EastronSdm630: u32 = "phase_1_voltage_thd";
     at Input 0x00EA;
     addresses [0x00EA, 0x00EB];
@@ -681,7 +681,7 @@ point! {
 point! {
     /// Phase 2 voltage thd.
     ///
-    /// At input 00ECh (236), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 00ECh (236), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase2VoltageThd of crate::EastronSdm630: u32 = "phase_2_voltage_thd";
     at Input 0x00EC;
     addresses [0x00EC, 0x00ED];
@@ -695,7 +695,7 @@ point! {
 point! {
     /// Phase 3 voltage thd.
     ///
-    /// At input 00EEh (238), `f32`, read only, only when `system_type.raw == 1077936128`.
+    /// At input 00EEh (238), `f32`, read only, exists only when `system_type == three_phase_four_wire`.
     Phase3VoltageThd of crate::EastronSdm630: u32 = "phase_3_voltage_thd";
     at Input 0x00EE;
     addresses [0x00EE, 0x00EF];
@@ -723,7 +723,7 @@ point! {
 point! {
     /// Phase 2 current thd.
     ///
-    /// At input 00F2h (242), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00F2h (242), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase2CurrentThd of crate::EastronSdm630: u32 = "phase_2_current_thd";
     at Input 0x00F2;
     addresses [0x00F2, 0x00F3];
@@ -737,7 +737,7 @@ point! {
 point! {
     /// Phase 3 current thd.
     ///
-    /// At input 00F4h (244), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 00F4h (244), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase3CurrentThd of crate::EastronSdm630: u32 = "phase_3_current_thd";
     at Input 0x00F4;
     addresses [0x00F4, 0x00F5];
@@ -751,7 +751,7 @@ point! {
 point! {
     /// Average voltage thd.
     ///
-    /// At input 00F8h (248), `f32`, read only, only when `system_type.raw != 1073741824`.
+    /// At input 00F8h (248), `f32`, read only, exists only when `system_type != three_phase_three_wire`.
     ///
     /// The manual leaves open `whether it is 0 in 1p2w` (`average_voltage_in_1p2w`).
     AverageVoltageThd of crate::EastronSdm630: u32 = "average_voltage_thd";
@@ -795,7 +795,7 @@ point! {
 point! {
     /// Phase 2 current demand.
     ///
-    /// At input 0104h (260), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0104h (260), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase2CurrentDemand of crate::EastronSdm630: u32 = "phase_2_current_demand";
     at Input 0x0104;
     addresses [0x0104, 0x0105];
@@ -809,7 +809,7 @@ point! {
 point! {
     /// Phase 3 current demand.
     ///
-    /// At input 0106h (262), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0106h (262), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Phase3CurrentDemand of crate::EastronSdm630: u32 = "phase_3_current_demand";
     at Input 0x0106;
     addresses [0x0106, 0x0107];
@@ -837,7 +837,7 @@ point! {
 point! {
     /// Maximum phase 2 current demand.
     ///
-    /// At input 010Ah (266), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 010Ah (266), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     MaximumPhase2CurrentDemand of crate::EastronSdm630: u32 = "maximum_phase_2_current_demand";
     at Input 0x010A;
     addresses [0x010A, 0x010B];
@@ -851,7 +851,7 @@ point! {
 point! {
     /// Maximum phase 3 current demand.
     ///
-    /// At input 010Ch (268), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 010Ch (268), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     MaximumPhase3CurrentDemand of crate::EastronSdm630: u32 = "maximum_phase_3_current_demand";
     at Input 0x010C;
     addresses [0x010C, 0x010D];
@@ -865,7 +865,7 @@ point! {
 point! {
     /// Line 1 to 2 voltage thd.
     ///
-    /// At input 014Eh (334), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 014Eh (334), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line1To2VoltageThd of crate::EastronSdm630: u32 = "line_1_to_2_voltage_thd";
     at Input 0x014E;
     addresses [0x014E, 0x014F];
@@ -879,7 +879,7 @@ point! {
 point! {
     /// Line 2 to 3 voltage thd.
     ///
-    /// At input 0150h (336), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0150h (336), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line2To3VoltageThd of crate::EastronSdm630: u32 = "line_2_to_3_voltage_thd";
     at Input 0x0150;
     addresses [0x0150, 0x0151];
@@ -893,7 +893,7 @@ point! {
 point! {
     /// Line 3 to 1 voltage thd.
     ///
-    /// At input 0152h (338), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0152h (338), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     Line3To1VoltageThd of crate::EastronSdm630: u32 = "line_3_to_1_voltage_thd";
     at Input 0x0152;
     addresses [0x0152, 0x0153];
@@ -907,7 +907,7 @@ point! {
 point! {
     /// Average line to line voltage thd.
     ///
-    /// At input 0154h (340), `f32`, read only, only when `system_type.raw != 1065353216`.
+    /// At input 0154h (340), `f32`, read only, exists only when `system_type != single_phase_two_wire`.
     AverageLineToLineVoltageThd of crate::EastronSdm630: u32 = "average_line_to_line_voltage_thd";
     at Input 0x0154;
     addresses [0x0154, 0x0155];

@@ -76,14 +76,15 @@ def range_words(point: Point) -> str:
 
 
 def _steps(point: Point) -> Iterator[str]:
-    """Yield the unit of one count, and the steps of the device where they are coarser."""
-    if point.form not in ("scaled", "float"):
-        return
-    count, step = wording.count_text(point), wording.resolution_text(point)
+    """Yield the unit of one count, and the steps of the device where they are coarser; at least the unit of values."""
+    has_steps = point.form in ("scaled", "float")
+    count, step = (wording.count_text(point), wording.resolution_text(point)) if has_steps else ("", "")
     if step and step != count:
         yield f"in steps of {step}"
     if count:
         yield f"{count} a count"
+    if point.unit.symbol and not (step or count or wording.range_text(point)):
+        yield f"values in {point.unit.symbol}"
 
 
 def defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:

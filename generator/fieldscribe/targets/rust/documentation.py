@@ -6,7 +6,7 @@ So a corrected title changes neither code nor digest.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from fieldscribe import wording
 from fieldscribe.lowered import Lowered
@@ -28,7 +28,7 @@ class PointDoc:
 
     def __init__(self, point: Point, lowered: Lowered) -> None:
         self._before, self._behind = _around_address(point)
-        self._type, self._facts = f"`{point.shape.wire_type}`", tuple(_facts(point))
+        self._type, self._facts = f"`{point.shape.wire_type}`", tuple(_facts(point, lowered.points))
         self._size = _size(point)
         self._tail = "".join(f"    ///\n{_comment(paragraph)}" for paragraph in _paragraphs(point, lowered))
 
@@ -120,7 +120,7 @@ def _size(point: Point) -> str:
     return ""
 
 
-def _facts(point: Point) -> Iterator[str]:
+def _facts(point: Point, points: Mapping[str, Point]) -> Iterator[str]:
     yield from _resolution(point)
     if point.display is not None:
         yield wording.display_text(point)
@@ -130,7 +130,7 @@ def _facts(point: Point) -> Iterator[str]:
     if point.variant:
         yield f"for {rust_code(str(point.variant))}"
     if point.when:
-        yield f"only when {rust_code(wording.condition_text(point.when))}"
+        yield f"exists only when {rust_code(wording.condition_text(point.when, points))}"
 
 
 def _resolution(point: Point) -> Iterator[str]:
