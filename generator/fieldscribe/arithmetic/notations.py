@@ -7,6 +7,8 @@ from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from ipaddress import AddressValueError, IPv4Address, IPv6Address
 
+from fieldscribe.arithmetic.exact import half_away
+
 _SEPARATORS = re.compile(r"[:\s-]")
 _MICRO = 1_000_000
 _ADDRESSES: dict[str, type[IPv4Address | IPv6Address]] = {"ipv4": IPv4Address, "ipv6": IPv6Address}
@@ -45,7 +47,7 @@ def bytes_of(notation: str, text: str, count: int) -> bytes | None:
 def date_of(epoch: str, seconds: Fraction) -> str:
     """Return the time so many seconds after a date: `2026-11-29T12:00:00Z`; empty if it is later than 9999-12-31."""
     try:
-        time = _start(epoch) + timedelta(microseconds=int(seconds * _MICRO))
+        time = _start(epoch) + timedelta(microseconds=half_away(seconds * _MICRO))
     except OverflowError:
         return ""
     return time.replace(tzinfo=None).isoformat() + "Z"

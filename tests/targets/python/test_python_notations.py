@@ -95,6 +95,32 @@ def test_times(runtime: Any, epoch: str, text: str, seconds: Fraction) -> None:
     assert (raw, form.decode(raw, {})) == (seconds * 1000, time)
 
 
+@pytest.mark.parametrize(
+    ("microseconds", "raw"),
+    [(499_999, 0), (500_000, 1), (1_500_000, 2), (2_500_000, 3), (2_500_001, 3), (-500_000, -1), (-2_500_000, -3)],
+)
+def test_a_half_second_rounds_away_from_the_date(runtime: Any, microseconds: int, raw: int) -> None:
+    time = datetime(2000, 1, 1, tzinfo=UTC) + timedelta(microseconds=microseconds)
+    assert runtime.Time(runtime.Integer(runtime.S32), "2000-01-01").converted(time, {}) == raw
+
+
+@pytest.mark.parametrize(("raw", "microseconds"), [(1, 7813), (2, 15625), (5, 39063), (-1, -7813)])
+def test_half_a_microsecond_rounds_away_from_the_date(runtime: Any, raw: int, microseconds: int) -> None:
+    """A count of 1/128 s."""
+    form = runtime.Time(runtime.Scaled(runtime.S32, runtime.Rule(num=128), decimals=None), "2000-01-01")
+    time = datetime(2000, 1, 1, tzinfo=UTC) + timedelta(microseconds=microseconds)
+    assert form.decode(raw, {}) == time
+    assert notations.date_of("2000-01-01", Fraction(raw, 128)) == time.replace(tzinfo=None).isoformat() + "Z"
+
+
+def test_no_number_is_no_time(runtime: Any) -> None:
+    form = runtime.Time(runtime.Floating(runtime.F32), "1970-01-01")
+    with pytest.raises(runtime.MalformedError, match="is a time that Python does not have"):
+        form.decode(0x7F800000, {})
+    with pytest.raises(runtime.MalformedError, match="is a time that Python does not have"):
+        form.decode(0x7FC00000, {})
+
+
 def test_times_that_python_has_not(runtime: Any) -> None:
     form = runtime.Time(runtime.Integer(runtime.U64), "1970-01-01")
     assert notations.date_of("1970-01-01", Fraction(1 << 63)) == ""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from .arguments import shown
 from .errors import MalformedError, WrongTypeError
 from .forms import Integer
+from .rules import round_ratio
 from .texts import Text
 from .wrappers import Around
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 _SEPARATORS = re.compile(r"[:\s-]")
 _NUMBERS = re.compile(r"[0-9]{1,3}(\.[0-9]{1,3})*", re.ASCII)
 _NIBBLE = 16
+_MICRO = 1_000_000
 
 
 class Bytes(Text):
@@ -95,28 +97,30 @@ class Time(Around["datetime", "datetime | float"]):
 
         self.epoch = datetime.datetime.fromisoformat(epoch).replace(tzinfo=datetime.UTC)
         self._datetime = datetime.datetime
-        self._second = datetime.timedelta(seconds=1)
+        self._micro = datetime.timedelta(microseconds=1)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
         """Return the slow way."""
         return slow
 
     def decode(self, raw: int, raws: Raws) -> datetime:
-        """Return the time; raises MalformedError for one that is later than the year 9999."""
+        """Return the time to the nearest microsecond; raises MalformedError for one that Python does not have."""
+        seconds: float = self.form.decode(raw, raws)
         try:
-            seconds: float = self.form.decode(raw, raws)
-            return self.epoch + seconds * self._second
-        except OverflowError:
+            num, den = seconds.as_integer_ratio()
+            return self.epoch + round_ratio(num * _MICRO, den) * self._micro
+        except (OverflowError, ValueError):
             raise MalformedError(f"raw {raw} is a time that Python does not have") from None
 
     def converted(self, value: datetime | float, raws: Raws) -> int | None:
-        """Return the raw number of a time, to the nearest second if the point counts these."""
+        """Return the raw number of a time: to the nearest second, halves away from the date, if it counts these."""
         if not isinstance(value, self._datetime):
             return self.form.converted(value, raws)
         if value.tzinfo is None:
             raise WrongTypeError(f"takes a time with a zone, as in datetime.now(timezone.utc), not {shown(value)}")
-        seconds = (value - self.epoch) / self._second
-        return self.form.converted(round(seconds) if isinstance(self.form, Integer) else seconds, raws)
+        count = (value - self.epoch) // self._micro
+        seconds = round_ratio(count, _MICRO) if isinstance(self.form, Integer) else count / _MICRO
+        return self.form.converted(seconds, raws)
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
         """Return the time: `2026-11-29T12:00:00+00:00`; seconds where Python has no such time, or with `display`."""
