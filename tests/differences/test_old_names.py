@@ -53,7 +53,7 @@ mode: Mode = MadeUp.mode.decode(1)
 assert mode is Mode.RUN, mode
 """
 RUST = """\
-#![allow(deprecated)]
+#![allow(deprecated, reason = "old names are what is tested")]
 use made_up::{enums, flags, points, with};
 
 #[test]

@@ -34,7 +34,7 @@ def raws_of(message: Message, data: bytes) -> dict[str, float]:
 @pytest.mark.parametrize("message", CARRIERS, ids=lambda message: message.name)
 def test_cantools_reads_the_same_raw_numbers(message: Message) -> None:
     database = cantools.database.load_string(export(DEVICE).decode("latin-1"), "dbc", strict=False)
-    theirs = next(one for one in database.messages if one.name == message.name)  # type: ignore[union-attr]
+    theirs = next(one for one in database.messages if one.name == message.name)  # type: ignore[union-attr]  # a DBC
     chance = random.Random(message.name)
     compared = 0
     for _ in range(FRAMES):

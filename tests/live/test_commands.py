@@ -14,6 +14,7 @@ from fieldscribe.cli import live_options, monitor
 from fieldscribe.live.devices import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
+from fieldscribe_runtime import AnyDevice
 from fieldscribe_runtime.modbus.planner import plan
 from support.described import DEVICES, group, head, together, write
 from support.small_drive import Output
@@ -59,7 +60,7 @@ def on_line(drive: Simulated, run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
 def answers(*texts: str) -> io.StringIO:
     """A terminal on which somebody types these lines."""
     terminal = io.StringIO("".join(f"{text}\n" for text in texts))
-    terminal.isatty = lambda: True  # type: ignore[method-assign]
+    terminal.isatty = lambda: True  # type: ignore[method-assign]  # nobody types in a test
     return terminal
 
 
@@ -214,13 +215,13 @@ def test_a_write_that_ends_early_says_what_was_written(
 ) -> None:
     carry_out = Write.carry_out
 
-    def failing(write: Write, device: object) -> None:
+    def failing(write: Write, device: AnyDevice) -> None:
         if write.item != "motor_rated_frequency":
-            return carry_out(write, device)  # type: ignore[arg-type]
+            return carry_out(write, device)
         if fault is KeyboardInterrupt:
             raise KeyboardInterrupt
         drive.fault("silent x1")
-        return carry_out(write, device)  # type: ignore[arg-type]
+        return carry_out(write, device)
 
     monkeypatch.setattr(Write, "carry_out", failing)
     done = on_line("write", "hitachi_l200", "A020=50", "A003=50", "A061=50", "--yes")
@@ -301,7 +302,7 @@ def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:
     assert len(readable) > 90
     kind = device_class(meter.device.device)
     places = [kind.POINTS[point.item].facts.at for point in readable]
-    assert meter.requests == 5 * len(plan(places, kind.PROFILE))  # type: ignore[attr-defined]
+    assert meter.requests == 5 * len(plan(places, kind.PROFILE))  # type: ignore[attr-defined]  # as each of Modbus has
 
 
 def test_a_terminal_shows_a_table_in_its_place(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:

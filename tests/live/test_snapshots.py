@@ -14,6 +14,7 @@ from fieldscribe.live.restoring import ordered
 from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
+from fieldscribe_runtime import AnyDevice
 from support.described import DEVICES, described, loaded_in, shipped
 from support.small_drive import Output
 
@@ -112,10 +113,10 @@ def test_the_journal_of_a_killed_restore_is_right(
 def _die_at(number: int, monkeypatch: pytest.MonkeyPatch, *, after: bool) -> None:
     left, carry_out = iter(range(9)), Write.carry_out
 
-    def dying(write: Write, device: object) -> None:
+    def dying(write: Write, device: AnyDevice) -> None:
         dies = next(left) == number
         if not dies or after:
-            carry_out(write, device)  # type: ignore[arg-type]
+            carry_out(write, device)
         if dies:
             os._exit(9)
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import subprocess
 import sys
+import tokenize
 from pathlib import Path
 
 import pytest
@@ -73,6 +75,51 @@ def test_no_machine_paths_and_no_registry_hosts(pattern: str) -> None:
                     if re.search(pattern, line)
                 ]
     assert found == []
+
+
+_SUPPRESSIONS = {
+    ".py": r"(?:noqa|type: ignore)\b(?!(?:: [A-Z0-9, ]+|\[[a-z, -]+\])? +(?:#|-) ?\w).*",
+    ".rs": r"#!?\[(?:allow|expect)\((?![^)]*\breason = ).*",
+    ".c": r"NOLINT(?!\w*\([^)]*\):? \w).*",
+}
+"""By suffix, what is a suppression without a reason behind it."""
+
+
+def _bare_suppressions(path: Path) -> list[str]:
+    pattern = _SUPPRESSIONS[{".h": ".c"}.get(path.suffix, path.suffix)]
+    text = path.read_text("utf-8")
+    if path.suffix == ".py" and re.search(pattern, text):
+        tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+        text = "\n".join(token.string for token in tokens if token.type == tokenize.COMMENT)
+    return re.findall(pattern, text)
+
+
+def test_every_suppression_has_its_reason() -> None:
+    places = [path for folder in ("generator", "templates", "tests") for path in (ROOT / folder).rglob("*")]
+    sources = [path for path in places if path.suffix in {".py", ".rs", ".c", ".h"}]
+    assert len(sources) > 500
+    assert {path: found for path in sources if (found := _bare_suppressions(path))} == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "bare"),
+    [
+        ("a.py", "x = 1  # noqa", True),
+        ("a.py", "x = 1  # noqa: S603", True),
+        ("a.py", "x = 1  # noqa: S603, S311  # both are ours", False),
+        ("a.py", "x = 1  # noqa: S603 - all ours", False),
+        ("a.py", "x = 1  # type: ignore[arg-type]", True),
+        ("a.py", "x = 1  # type: ignore[arg-type, misc]  # of one type", False),
+        ("a.py", "x = '# noqa'", False),
+        ("a.rs", "#[allow(dead_code)]", True),
+        ("a.rs", '#![allow(\n    dead_code,\n    reason = "it compiles"\n)]', False),
+        ("a.h", "int x; /* NOLINT(misc-x) */", True),
+        ("a.c", "int x; /* NOLINTNEXTLINE(misc-x): it is the table */", False),
+    ],
+)
+def test_a_suppression_without_a_reason_is_found(name: str, text: str, bare: bool, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(text, "utf-8")
+    assert bool(_bare_suppressions(tmp_path / name)) is bare
 
 
 def test_runtime_sources_carry_their_licence() -> None:

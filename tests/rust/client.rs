@@ -258,7 +258,7 @@ fn clients_share_a_bus() {
 }
 
 /// Executors of several threads take the futures over any transport; this would not compile if they did not.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "it only has to compile")]
 fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
     fn send<F: Future + Send>(_: F) {}
     send(client.read::<points::BaseFrequency>());

@@ -375,7 +375,7 @@ fn a_dropped_exchange_is_a_failed_one() {
 }
 
 /// Executors of several threads take the futures over any transport; this would not compile if they did not.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "it only has to compile")]
 fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
     fn send<F: Future + Send>(_: F) {}
     send(client.read::<points::Source>());

@@ -17,7 +17,6 @@ from fieldscribe.cli import main
 from fieldscribe.simulation import Simulated
 from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.console import carry_out
-from fieldscribe.simulation.pytest_plugin import simulated_device  # noqa: F401  # the fixture
 from fieldscribe.user_errors import UnclearError
 
 L200 = "hitachi_l200"
@@ -147,7 +146,7 @@ def test_the_command_serves_until_a_signal(tmp_path: Path) -> None:
     assert [json.loads(line)["fault"] for line in trace.read_text("utf-8").splitlines()] == ["exception", None]
 
 
-def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) -> None:  # noqa: F811
+def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) -> None:
     drive, other = simulated_device(L200, values={"A020": 12.5}), simulated_device(L200, on="serial")
     assert (drive.port > 0, other.port, drive.values["A020"]) == (True, 0, 12.5)
     drive.values["output_frequency"] = 30.0
@@ -159,7 +158,7 @@ def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) ->
 
 
 def test_clients_that_do_not_wait_for_their_answers_do_no_harm(
-    simulated_device: Callable[..., Simulated],  # noqa: F811
+    simulated_device: Callable[..., Simulated],
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     drive = simulated_device(L200, behaviour=False)

@@ -109,10 +109,10 @@ def test_platformio(project: Path) -> None:
     class Environment:
         """What the script uses of SCons."""
 
-        def Execute(self, command: str) -> int:  # noqa: N802 (its name there)
+        def Execute(self, command: str) -> int:  # noqa: N802  # its name there
             return run(["sh", "-c", command], cwd=project).returncode
 
-        def Exit(self, code: int) -> None:  # noqa: N802 (its name there)
+        def Exit(self, code: int) -> None:  # noqa: N802  # its name there
             raise SystemExit(code)
 
     script = compile((project / "vendor.py").read_text("utf-8"), "vendor.py", "exec")

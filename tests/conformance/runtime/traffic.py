@@ -113,7 +113,7 @@ def check_log(package: Package) -> None:
     """Frames stand in the log with the points that they are about, if the log takes debug messages."""
     messages: list[str] = []
     handler = logging.Handler()
-    handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]
+    handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]  # all it does
     logger = logging.getLogger("fieldscribe")
     level = logger.level
     logger.addHandler(handler)

@@ -144,7 +144,7 @@ def check_echoes(package: Package) -> None:
         assert str(error) == "4 was written to 5, and the device answered 6"
         error = refusal(device.bits.write, 4)
         assert str(error) == "bits: 4 was written to 11, and the device answered 6"
-        line._answer = lambda part: (0x2000 | part[0] & 0xFFF, 0, 0x8000, 0)  # type: ignore[method-assign]
+        line._answer = lambda part: (0x2000 | part[0] & 0xFFF, 0, 0x8000, 0)  # type: ignore[method-assign]  # minus 0
         now(device.number.write(0.0))
         assert str(refusal(device.number.write, 1.0)) == "number: 1 was written, and the device answered -0"
 

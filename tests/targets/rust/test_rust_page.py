@@ -49,7 +49,7 @@ EACH_FAMILY = [
 """The crates that differ by their features and manifests; test_rust.py looks at all devices without features."""
 
 AROUND = """\
-#![allow(unused)]
+#![allow(unused, reason = "a block of a page shows what there is")]
 use hitachi_l200::{points as p, Client, Framing};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let line = hitachi_l200::runtime::transports::tcp::TcpLine::new("192.168.0.20:4001");
