@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 
 class FieldscribeError(Exception):
@@ -11,13 +11,15 @@ class FieldscribeError(Exception):
 
     `point` says which point was asked for, with its code (`device.point(error.point)` is that point); of several that
     one request reads, which they are; else the command or the place. `group` is the group that was read, where it was
-    one, and `needs` another point that had to be read first. `received` is what came in place of a frame.
+    one, and `needs` another point that had to be read first. `undecided` is the variant or number that this depends on,
+    and that was not passed when the device was made. `received` is what came in place of a frame.
     """
 
     status: str = "error"
     group: str | None = None
     point: str | None = None
     needs: str | None = None
+    undecided: str | None = None
     received: bytes = b""
 
     @property
@@ -25,13 +27,28 @@ class FieldscribeError(Exception):
         """Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake."""
         return False
 
+    @property
+    def reason(self) -> str:
+        """What is wrong, without what was asked for and what to do about it."""
+        return ": ".join([*([f"needs {self.needs}"] if self.needs else []), super().__str__()])
+
     def __str__(self) -> str:
-        about = [self.group and f"group {self.group}", self.point, self.needs and f"needs {self.needs}"]
-        return ": ".join([*filter(None, about), super().__str__()])
+        asked = [self.group and f"group {self.group}", self.point]
+        advice = self.undecided and "pass it when the device is made"
+        return ": ".join(filter(None, [*asked, self.reason, advice]))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copies, also those between processes, have the message and all that is told beside it."""
         return _restored, (type(self), self.args, self.__dict__)
+
+
+E = TypeVar("E", bound=FieldscribeError)
+
+
+def undecided(error: E, what: str | None) -> E:
+    """Return an error with the variant or number that it depends on, if there is one."""
+    error.undecided = what
+    return error
 
 
 def _restored(kind: type[FieldscribeError], args: tuple[Any, ...], told: dict[str, Any]) -> FieldscribeError:

@@ -16,6 +16,7 @@ from .errors import (
     FieldscribeError,
     NotANumberError,
     RequestError,
+    undecided,
 )
 from .lookup import find, is_code, nearest
 from .points import Decoding, Point
@@ -157,7 +158,8 @@ class NamedPoints(PointTable):
             raise AccessError(f"{what} means several points: {', '.join(point.facts.item for point in points)}")
         if len(points) != 1:
             name = points[0].facts.name if points else name
-            raise AbsentError(f"{name} {self._absence(name)}")
+            why, axis = self._absence(name)
+            raise undecided(AbsentError(f"{name} {why}"), axis)
         return points[0]
 
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
@@ -173,14 +175,14 @@ class NamedPoints(PointTable):
     def _found(self, name: str) -> PointAttribute[Any, Any] | None:
         return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
 
-    def _absence(self, name: str) -> str:
-        """Return why there is no such point, or not yet."""
+    def _absence(self, name: str) -> tuple[str, str | None]:
+        """Return why there is no such point, or not yet: then with the variant that nobody said."""
         axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
         if not axes:
-            return self._other_meaning(name)
+            return self._other_meaning(name), None
         if self.variants.get(axes[0]) is None:
-            return f"depends on {axes[0]}: pass it when the device is made"
-        return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
+            return f"depends on {axes[0]}", axes[0]
+        return f"does not exist for {axes[0]} {self.variants[axes[0]]}", None
 
     def _other_meaning(self, name: str) -> str:
         """Return the meaning of a name of no point: a documented point, a command, a group, or similar names."""
@@ -208,7 +210,8 @@ class NamedPoints(PointTable):
         """Return the point that another one needs; raises AccessError that says so."""
         found = self._found(name)
         if found is None:
-            raise AccessError(f"{point.label} needs {name}, which {self._absence(name)}")
+            why, axis = self._absence(name)
+            raise undecided(AccessError(f"{point.label} needs {name}, which {why}"), axis)
         return found
 
     def _require(self, point: Point) -> None:

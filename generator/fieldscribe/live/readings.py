@@ -13,7 +13,7 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
+    from fieldscribe_runtime import AnyDevice, FieldscribeError
 
 GOOD = ("ok", "special")
 """The states of points that hold something; all others are errors."""
@@ -92,10 +92,15 @@ def _point(model: Device, name: str, groups: set[str]) -> str:
     return point.item
 
 
-def in_words(error: object) -> str:
-    """Return an error of the runtime as the command line says it: variants are an option there."""
-    text = str(error).replace("pass it when the device is made", "give --variant")
-    return text.replace("open the device with ", "give --with ")
+def in_words(error: FieldscribeError, *, alone: bool = False) -> str:
+    """Return an error of the runtime as the command line says it; `alone` leaves out what was asked for.
+
+    What a program passes when the device is made is an option here.
+    """
+    asked = [] if alone else [error.group and f"group {error.group}", error.point]
+    option = "with" if error.status == "bad_base" else "variant"
+    advice = error.undecided and f"give --{option} {error.undecided}=VALUE"
+    return ": ".join(filter(None, [*asked, error.reason, advice]))
 
 
 class Reader:
@@ -122,8 +127,7 @@ class Reader:
             point = self._points.get(row["name"])
             if point is not None and not point.generated:
                 return f"documented only: {point.reason or 'the manual leaves it open'}"
-            label = f"{row['code']} {row['name']}" if row["code"] else row["name"]
-            return in_words(row["detail"]).removeprefix(f"{label}: ")
+            return row["detail"] if isinstance(value, float) else in_words(value, alone=True)
         facts = self._device.point(row["name"]).facts
         if row["raw"] is None and not isinstance(value, (int, float)):
             return str(row["value"])

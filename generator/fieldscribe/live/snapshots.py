@@ -100,7 +100,7 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
         values = device.read_many(group, errors="return")
         for row, value in zip(device.rows(values), values.values(), strict=True):
             if isinstance(value, FieldscribeError) and not isinstance(value, CodecError):
-                missing[row["name"]] = in_words(row["detail"])
+                missing[row["name"]] = in_words(value)
                 continue
             handle: Any = device.point(row["name"])
             raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]

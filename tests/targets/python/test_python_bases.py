@@ -84,8 +84,8 @@ def test_steps(package: Any) -> None:
         ({"slot": 0, "half": 0}, "slot is 1 to 15, not 0"),
         ({"slot": 16, "half": 0}, "slot is 1 to 15, not 16"),
         ({"slot": "3", "half": 0}, "slot is an integer"),
-        ({"slot": 3}, "open the device with half="),
-        ({}, "open the device with slot="),
+        ({"slot": 3}, "depends on half: pass it when the device is made"),
+        ({}, "depends on slot: pass it when the device is made"),
     ],
 )
 def test_given_wrongly(package: Any, given: dict[str, Any], needle: str) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, overload
 
-from .errors import AbsentError
+from .errors import AbsentError, undecided
 from .facts import Facts
 from .guided import Guided
 from .handles import (
@@ -130,7 +130,7 @@ class ByVariant(_Attribute, Guided, Generic[P_co]):
             return self
         chosen = device.variants.get(self.axis)
         if chosen is None:
-            raise AbsentError(f"{self.name} depends on {self.axis}: pass it when the device is made")
+            raise undecided(AbsentError(f"{self.name} depends on {self.axis}"), self.axis)
         if chosen not in self.points:
             raise AbsentError(f"{self.name} does not exist for {self.axis} {chosen}")
         return device._bound(self.points[chosen])

@@ -23,6 +23,7 @@ from .errors import (
     FieldscribeError,
     OtherDeviceError,
     RequestError,
+    undecided,
 )
 from .points import Decoding, Encoding, Point
 from .receiving import Broadcast, Pause
@@ -193,7 +194,7 @@ class Session(NamedPoints, ABC):
         """Return the value of an axis that the device was made with; raises AccessError where nobody said it."""
         value = self.variants.get(axis)
         if value is None:
-            raise AccessError(f"depends on {axis}: pass it when the device is made")
+            raise undecided(AccessError(f"depends on {axis}"), axis)
         return value
 
     def _raw_of_steps(self, name: str) -> Steps[int]:

@@ -7,7 +7,13 @@ from copy import copy
 from typing import TYPE_CHECKING
 
 from ..arguments import check_integer, shown
-from ..errors import BlockError, ExceptionReplyError, FieldscribeError, RequestError
+from ..errors import (
+    BlockError,
+    ExceptionReplyError,
+    FieldscribeError,
+    RequestError,
+    undecided,
+)
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -156,6 +162,6 @@ class Bases:
             return self._behind[name]
         missing = [each for each in base.factors if each not in self._numbers]
         if missing:
-            raise RequestError("bad_base", f"where this is depends on {missing[0]}: open the device with {missing[0]}=")
+            raise undecided(RequestError("bad_base", f"where this is depends on {missing[0]}"), missing[0])
         address = base.offset + sum(self._numbers[each] * factor for each, factor in base.factors.items())
         return Start(address, _LAST - address)
