@@ -149,8 +149,9 @@ class _SpanItems:
                 given = step.arguments_in(self._words, command.arguments) if is_here else None
                 if given is not None:
                     numbers = "".join(f"; {name} = {value}" for name, value in given.items())
-                    text = line(f"command {command.name}, step {number}: {title_text(command.title)}{numbers}")
-                    return Item(self._space, self._start, len(self._words), text)
+                    subject = f"command {command.name}, step {number}"
+                    text = line(f"{subject}: {title_text(command.title)}{numbers}")
+                    return Item(self._space, self._start, len(self._words), text, subject=subject)
         return None
 
     def unknown_items(self, addresses: Sequence[int]) -> list[Item]:
@@ -163,12 +164,14 @@ class _SpanItems:
         unplaced = advice(self._device.bases)
         hint = f"; other points count from a base: {unplaced}" if unplaced else ""
         closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
-        text = f"{span_text(low, high)}: no point is described here{hint}" + (f"; {closed}" if closed else "")
+        subject = span_text(low, high)
+        text = f"{subject}: no point is described here{hint}" + (f"; {closed}" if closed else "")
         if words := self._words[low - self._start : high + 1 - self._start]:
             form = "{:04X}h" if family(self._device.family).spaces[self._space] == "word" else "{}"
             more = " ..." if len(words) > _MOST_WORDS else ""
             text += f" (carries {' '.join(map(form.format, words[:_MOST_WORDS]))}{more})"
-        return [Item(self._space, low, len(addresses), text, findings=(closed,) if closed else ())]
+        findings = (closed,) if closed else ()
+        return [Item(self._space, low, len(addresses), text, findings=findings, subject=subject)]
 
     def inside(self, place: Place) -> list[int]:
         """Return the addresses of a place in the span, in their order on the wire."""
@@ -206,9 +209,10 @@ class _SpanItems:
         wrong = command.value is not None and raw is not None and raw != command.value
         finding = f"it takes {command.value}, here is {raw}" if wrong else ""
         worn = f"the memory stands {command.wears} writes" if command.wears else ""
-        parts = [f"command {command.name}: {title_text(command.title)}", finding, worn]
+        subject, findings = f"command {command.name}", (finding,) if finding else ()
+        parts = [f"{subject}: {title_text(command.title)}", finding, worn]
         text = line("; ".join(part for part in parts if part))
-        return Item(self._space, command.address, 1, text, raw=raw, findings=(finding,) if finding else ())
+        return Item(self._space, command.address, 1, text, raw=raw, findings=findings, subject=subject)
 
 
 def element_items(state: DecodeState, element: Element) -> Iterator[Item]:
@@ -221,7 +225,7 @@ def element_items(state: DecodeState, element: Element) -> Iterator[Item]:
     elif not points:
         text = element_text(element.parameter, element.index, alone=True)
         remark = f" ({carried})" if element.width or not element.in_request else ""
-        yield Item(*base, f"{text}: no point is described here{remark}")
+        yield Item(*base, f"{text}: no point is described here{remark}", subject=text)
     elif not element.in_request and (element.width == 0 or element.counts):
         text = f"{element.value} elements" if element.counts else carried
         yield from (named_item(point, base, text) for point in points)
@@ -263,7 +267,8 @@ def word_items(state: DecodeState, word: Word) -> Iterator[Item]:
         yield _word_item(state, word, point)
     if not points:
         carried = "" if word.raw is None else f" ({hex_words((word.raw,))})"
-        yield Item(PARAMETER, word.address, 1, f"{address_text(word.address)}: no point is described here{carried}")
+        subject = address_text(word.address)
+        yield Item(PARAMETER, word.address, 1, f"{subject}: no point is described here{carried}", subject=subject)
 
 
 def _raw(point: Point, words: dict[int, int]) -> int | None:

@@ -219,7 +219,8 @@ def english_title(point: Point) -> str:
 def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -> Item:
     """Return a point that a frame names without a number; `text` replaces its title."""
     full = f"{label(point)}: {text or english_title(point)}" + (f"; {finding}" if finding else "")
-    return Item(*base, line(full), point.item, point.code, findings=(finding,) if finding else ())
+    findings = (finding,) if finding else ()
+    return Item(*base, line(full), point.item, point.code, findings=findings, carries=line(text))
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:

@@ -162,11 +162,7 @@ class FlagTexts:
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
-        true: list[str] = []
-        false: list[str] = []
-        for flag in self._flags:
-            number = raw >> flag.low & mask_of(flag.width)
-            (true if flag.width > 1 or number == flag.active else false).append(_flag_text(flag, number))
+        true, false = self._apart(raw)
         parts = [", ".join(true) or "none set"]
         if false:
             parts.append(f"not set: {', '.join(false)}")
@@ -174,6 +170,19 @@ class FlagTexts:
             named = ", ".join(map(str, bits))
             parts.append(f"also bit{'s' if len(bits) > 1 else ''} {named}, which the manual does not name")
         return line("; ".join(parts))
+
+    def true(self, raw: int) -> str:
+        """Return those flags alone that apply."""
+        return line(", ".join(self._apart(raw)[0]) or "none set")
+
+    def _apart(self, raw: int) -> tuple[list[str], list[str]]:
+        """Return the flags that apply to a number, with those of several bits, and the flags that do not."""
+        true: list[str] = []
+        false: list[str] = []
+        for flag in self._flags:
+            number = raw >> flag.low & mask_of(flag.width)
+            (true if flag.width > 1 or number == flag.active else false).append(_flag_text(flag, number))
+        return true, false
 
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import number_of, pattern_of, reader_of, words_of
 from fieldscribe.conversation.meanings import Meanings
-from fieldscribe.conversation.refusals import in_range, range_fault
+from fieldscribe.conversation.refusals import in_range, range_fault, range_of
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label
@@ -25,6 +25,7 @@ class Doubts:
     def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
         self._device, self._point, self._fits = device, point, _range_test(point)
         self._meanings, self._range = Meanings(device, point), ""
+        self._is_plain = point.form in ("scaled", "integer") and not (point.limit_arguments or point.fixed)
         self._read, self._swaps = reader_of(point), point.words > 1
         self._is_limited, self._is_signed = _is_limited(point), not point.info.floating
         first = point.addresses[0] if point.addresses else 0
@@ -43,12 +44,11 @@ class Doubts:
         """
         if self._fits(raw, settings):
             return ()
-        if self._range and meaning:
-            fault = f"{meaning} is outside {self._range}"
+        if self._is_plain and meaning:
+            self._range = self._range or range_of(self._device, self._point, settings)
+            fault = line(f"{meaning} is outside {self._range}")
         else:
             fault = range_fault(self._device, self._point, raw, settings)
-            is_fixed = not self._point.limit_arguments and self._point.form in ("scaled", "integer")
-            self._range = fault.partition(" is outside ")[2] if is_fixed else ""
         return (fault, *self._near_misses(raw, settings)) if fault else ()
 
     def _near_misses(self, raw: int, settings: Settings) -> Iterator[str]:

@@ -61,6 +61,17 @@ def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> s
     return ""
 
 
+def range_of(device: Device, point: Point, settings: Settings, *, raw_alone: bool = False) -> str:
+    """Return what a point takes: in its unit, or as raw numbers, with the limits of other points filled in."""
+    if point.limit_arguments and (now := _range_now(point, settings)):
+        return now
+    raws = wording.raw_range_text(point)
+    span = wording.range_text(point, points_by_name(device)) or raws
+    if point.form in ("enum", "flags", "bit") or (raw_alone and raws) or not span:
+        return f"raw {raws or f'{point.least}..{point.greatest}'}"
+    return span
+
+
 def in_range(point: Point, raw: int, settings: Settings) -> bool:
     """Return False if a raw number lies outside the range of its point; True also where limits are not known."""
     try:
@@ -156,11 +167,7 @@ def _out_of_range(
         always = wording.fixed_text(point)
         return _refused(point, "out_of_range", f"raw {raw} breaks what is always written: {always}")
     given = amount_with_unit(point, value) if value is not None else f"raw {raw}"
-    span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
-    raw_alone = value is None and wording.raw_range_text(point)
-    if point.form in ("enum", "flags", "bit") or raw_alone or not span:
-        span = f"raw {wording.raw_range_text(point) or f'{point.least}..{point.greatest}'}"
-    span = (_range_now(point, settings) if point.limit_arguments else "") or span
+    span = range_of(device, point, settings, raw_alone=value is None)
     nearest = _nearest(point, value, raw, settings) if hinted else ""
     return _refused(point, "out_of_range", f"{given} is outside {span}", nearest)
 

@@ -21,7 +21,8 @@ def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
         base = (names[0] if names else "telegram", at, 1)
         points = [point for name in names for point in state.directory.at(name, at)]
         if not points:
-            yield Item(*base, f"word {at + 1} of process data = {word:04X}h: no point is described here")
+            subject = f"word {at + 1} of process data"
+            yield Item(*base, f"{subject} = {word:04X}h: no point is described here", subject=subject)
         for point in points:
             words = data.words[at : at + point.words]
             if point.addresses[0] != at or len(words) < point.words:
@@ -44,7 +45,7 @@ def mask_items(state: DecodeState, masks: Masks) -> Iterator[Item]:
     valid = [str(place) for place in range(1, 16) if masks.words[0] >> place & 1]
     which = " and ".join([", ".join(valid[:-1]), valid[-1]] if valid[1:] else valid)
     text = f"words {which} of process data count" if valid else "no word of process data counts"
-    yield Item("mask", 0, 1, f"mask {masks.words[0]:04X}h: {text}")
+    yield Item("mask", 0, 1, f"mask {masks.words[0]:04X}h: {text}", subject="mask")
     yield _mask_item(state, 0, 1, masks.words[1:2])
     yield _mask_item(state, 3, 2, masks.words[2:4])
 
@@ -62,7 +63,7 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
         flags = point.flags if point is not None and len(words) == 1 else ()
         named = [flag.name for flag in flags if words[0] >> flag.low & 1]
         text = f"only these bits of {about} count" + (f" ({', '.join(named)})" if named else "")
-    return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}")
+    return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}", subject=f"mask of {about}")
 
 
 class _Part(NamedTuple):
@@ -93,7 +94,9 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
         formatter = part.formatter
         if formatter is None:
             word = hex_words((piece.words[part.place - piece.positions.start],))
-            items.append(Item(telegram, part.place, 1, f"word {part.place}: no point is described here ({word})"))
+            subject = f"word {part.place}"
+            text = f"{subject}: no point is described here ({word})"
+            items.append(Item(telegram, part.place, 1, text, subject=subject))
             continue
         raw = _raw(part, piece)
         if raw is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Protocol
 
@@ -60,6 +60,9 @@ class BitTexts(Protocol):
     def sentence(self, raw: int) -> str:
         """Return the same in one sentence."""
 
+    def true(self, raw: int) -> str:
+        """Return those flags alone that apply."""
+
 
 @dataclass(frozen=True, slots=True)
 class Item:
@@ -69,7 +72,8 @@ class Item:
     at them). `missing` names the points whose raw numbers are needed to compute the value. `findings` say what the
     device refuses, or that the manual closes the address; `summary` repeats them. `meaning` is the value with its
     unit, or a name. `doubts`, where they are asked for, say that the number lies outside its range, and which other
-    readings are within.
+    readings are within. `carries` is what the frame says of a point without bringing its whole number. `subject` is
+    what the item is about if that is no point.
     """
 
     space: str
@@ -85,6 +89,13 @@ class Item:
     bit_texts: BitTexts | None = None
     meaning: str = ""
     doubts: tuple[str, ...] = ()
+    carries: str = ""
+    subject: str = ""
+
+    @property
+    def about(self) -> str:
+        """The point, or what it is about instead."""
+        return self.point or self.subject
 
     @property
     def text(self) -> str:
@@ -130,7 +141,7 @@ class FrameResult:
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
     `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
     are other remarks. `details` are further facts of the family for JSON. `captured` is the frame in the notation of
-    its users, where that is not plain bytes.
+    its users, where that is not plain bytes. `refusal` says how the device refuses a request, in one line.
     """
 
     data: bytes
@@ -147,6 +158,7 @@ class FrameResult:
     exception: int | None = None
     details: Mapping[str, object] = field(default_factory=dict)
     captured: Captured | None = None
+    refusal: str = ""
 
     def as_data(self) -> dict[str, object]:
         """Return the same for JSON."""
@@ -169,18 +181,11 @@ class FrameResult:
 
     def captured_as(self, data: bytes, captured: Captured) -> FrameResult:
         """Return the same for these bytes, as they were captured."""
-        return FrameResult(
-            data, self.framing, self.kind, self.unit, self.function, self.summary, self.items, self.checks,
-            self.faults, self.findings, self.notes, self.exception, self.details, captured,
-        )  # fmt: skip
+        return replace(self, data=data, captured=captured)
 
     def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
         """Return the same with items, and further notes."""
-        return FrameResult(
-            self.data, self.framing, self.kind, self.unit, self.function, self.summary, items, self.checks,
-            self.faults, self.findings, self.notes + notes if notes else self.notes, self.exception, self.details,
-            self.captured,
-        )  # fmt: skip
+        return replace(self, items=items, notes=self.notes + notes)
 
     @property
     def wrong(self) -> bool:

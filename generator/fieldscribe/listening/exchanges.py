@@ -57,9 +57,9 @@ class Exchange:
                 found.update(dict.fromkeys(result.findings, ""))
                 for item in result.items:
                     if item.findings or item.doubts:
-                        found[item.point or item.summary.partition(":")[0]] = ", ".join((*item.findings, *item.doubts))
-        if self.reply is not None and self.reply.exception is not None:
-            found[self.reply.summary.partition(": ")[2].partition("; refused was")[0]] = ""
+                        found[item.about] = ", ".join((*item.findings, *item.doubts))
+        if self.reply is not None and self.reply.refusal:
+            found[self.reply.refusal] = ""
         return found
 
     @property
@@ -92,10 +92,12 @@ class Exchange:
 def item_text(item: Item) -> str:
     """Return a point with its value, short: `output_frequency = 5 Hz`."""
     if item.bit_texts is not None and item.raw is not None:
-        return f"{item.point} = {item.bit_texts.sentence(item.raw).partition('; not set')[0]}"
-    if item.point is None or (item.raw is None and not item.meaning):
-        return item.point if item.point is not None and " = " not in item.summary else item.summary
-    return f"{item.point} = {item.meaning}"
+        return f"{item.point} = {item.bit_texts.true(item.raw)}"
+    if item.point is None:
+        return item.summary
+    if item.carries:
+        return f"{item.point}: {item.carries}"
+    return f"{item.point} = {item.meaning}" if item.meaning or item.raw is not None else item.point
 
 
 def finding_text(key: str, text: str) -> str:

@@ -130,7 +130,7 @@ class Statistics:
 
 def _what(exchange: Exchange) -> str:
     """Return the names of what is asked for; addresses where there is no name."""
-    named = [*dict.fromkeys(item.point or item.summary.partition(":")[0] for item in exchange.items)]
+    named = [*dict.fromkeys(item.about for item in exchange.items)]
     more = len(named) - _MOST_NAMES
     return ", ".join(named[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "") or exchange.remark
 

@@ -98,7 +98,7 @@ class ModbusFrameDecoder:
             return _unreadable(unwrapped, Flaw("long_exception", len(unwrapped.pdu), 2))
         code = unwrapped.pdu[1]
         text = f"exception {remarks.exception_text(self._device, code)}"
-        result = replace(_result(unwrapped, "exception", text), exception=code)
+        result = replace(_result(unwrapped, "exception", text), exception=code, refusal=text)
         if request is None:
             return DecodedFrame(replace(result, notes=(remarks.UNKNOWN_REQUEST,)))
         if status != "exception":
@@ -207,7 +207,7 @@ def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bo
 def _contents(request: Request, span: Span) -> tuple[Span | Item, ...]:
     if request.function == 0x08:
         text = f"test data {hex_words(span.words or ())}; the device sends it back unchanged"
-        return (Item("", request.address, 1, text),)
+        return (Item("", request.address, 1, text, subject="test data"),)
     return (span,)
 
 

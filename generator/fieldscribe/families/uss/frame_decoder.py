@@ -120,7 +120,7 @@ class UssFrameDecoder:
         text, details = self._element_and_details(part, "response")
         result = replace(base, kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
         if part.code in (parts.REFUSED, parts.NO_RIGHTS):
-            result = self._refusal(result, part, None if open_request is None else open_request.task)
+            result = self._refusal(replace(result, refusal=f"{response}{text}"), part, open_request)
         width = parts.RESPONSE_WIDTHS.get(part.code, 0)
         element = Element(
             part.parameter,
@@ -141,16 +141,18 @@ class UssFrameDecoder:
         details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
         return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
-    def _refusal(self, base: FrameResult, part: parts.Part, task: int | None) -> FrameResult:
-        """Return the result of a response that refuses the request."""
+    def _refusal(self, base: FrameResult, part: parts.Part, open_request: Request | None) -> FrameResult:
+        """Return the result of a response that refuses the request, and says how."""
         if part.code == parts.NO_RIGHTS or not part.values:
             return replace(base, kind="exception")
-        error = part.values[0]
+        error, task = part.values[0], None if open_request is None else open_request.task
+        why = remarks.titled_code(self._device.bus.exceptions, error, "error")
         return replace(
             base,
             kind="exception",
             exception=error,
-            summary=f"{base.summary}: {remarks.titled_code(self._device.bus.exceptions, error, 'error')}",
+            summary=f"{base.summary}: {why}",
+            refusal=f"{base.refusal}: {why}",
             findings=tuple(remarks.error_findings(self._device, error, task)),
             notes=tuple(remarks.error_notes(part, self._link)),
         )

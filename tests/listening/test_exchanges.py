@@ -1,0 +1,81 @@
+"""What exchanges say follows from the facts of their frames, whatever words a description uses."""
+
+from __future__ import annotations
+
+import pytest
+from fieldscribe.conversation.decoder import decode
+from fieldscribe.families.frame_results import FrameResult, Options
+from fieldscribe.families.modbus.frames import crc16
+from fieldscribe.families.uss.telegrams import telegram
+from fieldscribe.listening.exchanges import Exchange, item_text
+from fieldscribe.model import Device
+from support.described import described, loaded_in, shipped
+
+POINTS = """\
+- {name: wide, at: 1, type: u32, access: r, title: {en: "Wide = two; not set"}, unit: V}
+- {name: word, at: 3, access: r, flags: {0: {name: ready, one: {en: "Now; not set before"}}, 1: late}}
+- {name: plain, at: 4, access: r, title: {en: "Plain = simple"}}
+"""
+
+
+@pytest.fixture(scope="module")
+def device(tmp_path_factory: pytest.TempPathFactory) -> Device:
+    return loaded_in(tmp_path_factory.mktemp("words"), described(POINTS))
+
+
+def rtu(text: str) -> str:
+    """Return a frame with its checksum."""
+    data = bytes.fromhex(text)
+    return (data + crc16(data).to_bytes(2, "little")).hex()
+
+
+def results(device: Device, *frames: str) -> list[FrameResult]:
+    return decode(device, {}, frames, Options())
+
+
+@pytest.mark.parametrize(
+    ("frames", "expected"),
+    [
+        (("01 03 0001 0002",), "wide"),
+        (("01 03 0001 0002", "01 03 04 0001 0000"), "wide = 65536 V"),
+        (("01 03 0002 0001", "01 03 02 1234"), "wide: only the low word (2 of 2, the high part first) = 1234h"),
+        (("01 03 0003 0001", "01 03 02 0001"), "word = ready (Now; not set before)"),
+        (("01 03 0003 0001", "01 03 02 0000"), "word = none set"),
+        (("01 03 0004 0001",), "plain"),
+        (("01 03 0004 0001", "01 03 02 0007"), "plain = 7"),
+        (("01 03 0009 0001", "01 03 02 0007"), "0009h (9): no point is described here (carries 0007h)"),
+    ],
+)
+def test_an_item_in_short(frames: tuple[str, ...], expected: str, device: Device) -> None:
+    assert [item_text(item) for item in results(device, *map(rtu, frames))[-1].items] == [expected]
+
+
+@pytest.mark.parametrize("words", [(1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 4, 5, 6, 8)])
+def test_what_is_no_point_is_named_without_its_number(words: tuple[int, ...]) -> None:
+    (result,) = results(shipped("siemens_mm4"), telegram(1, (0, 0, 0, *words)).hex())
+    assert result.items[-1].about == "word 6 of process data"
+
+
+@pytest.mark.parametrize(
+    ("name", "frames", "refusal"),
+    [
+        ("hitachi_l200", (rtu("01 03 1001 0002"), rtu("01 83 02")), "exception 02h address_not_found: "),
+        (
+            "siemens_mm4",
+            (telegram(1, (0x143A, 0, 0, 0, 0, 0)).hex(), telegram(1, (0x743A, 0, 0, 0, 0, 0)).hex()),
+            "response 7 not_executable, parameter 1082: error 0 parameter_number_not_allowed: ",
+        ),
+        (
+            "siemens_mm4",
+            (telegram(1, (0x143A, 0, 0, 0, 0, 0)).hex(), telegram(1, (0x843A, 0, 0, 0, 0, 0)).hex()),
+            "response 8 no_control, parameter 1082",
+        ),
+    ],
+)
+def test_what_was_refused_is_a_finding(name: str, frames: tuple[str, str], refusal: str) -> None:
+    device = shipped(name)
+    request, reply = results(device, *frames)
+    assert reply.refusal.startswith(refusal)
+    exchange = Exchange(None, "", 1, device, "read", request, reply, ())
+    assert reply.refusal in exchange.findings
+    assert request.refusal == ""
