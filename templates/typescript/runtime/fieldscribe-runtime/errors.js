@@ -41,6 +41,26 @@ export class FieldscribeError extends Error {
     this.needs = this.needs ?? about.needs;
     this.value = this.value ?? about.value;
     this.limits = this.limits ?? about.limits;
+    return this.reworded();
+  }
+
+  /**
+   * Say that the error came while another point was read which that one needs. Returns the error.
+   * @param {string} point
+   */
+  needing(point) {
+    if (this.point !== point) this.needs = this.needs ?? this.point;
+    this.point = point;
+    return this.reworded();
+  }
+
+  /** The same error, to be raised once more. @returns {FieldscribeError} */
+  copied() {
+    return Object.create(Object.getPrototypeOf(this), Object.getOwnPropertyDescriptors(this));
+  }
+
+  /** @private */
+  reworded() {
     const parts = [this.group && `group ${this.group}`, this.point, this.needs && `needs ${this.needs}`, this.text];
     this.message = parts.filter((part) => part !== undefined && part !== "").join(": ");
     return this;
