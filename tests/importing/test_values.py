@@ -17,7 +17,11 @@ SUNSPEC = ("model_160.json", "model_63001.json")
 
 @pytest.mark.full(seconds=60)
 def test_samples_have_the_values_of_their_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for path in (*(SAMPLES / "sunspec" / name for name in SUNSPEC), *SAMPLES.glob("wb/*_*.jinja"), SAMPLES / "engine.dbc"):
+    for path in (
+        *(SAMPLES / "sunspec" / name for name in SUNSPEC),
+        *SAMPLES.glob("wb/*_*.jinja"),
+        SAMPLES / "engine.dbc",
+    ):
         shutil.copy(path, tmp_path)
     for path in (*SAMPLES.glob("wb/heater.json"), *SAMPLES.glob("wb/relays.json.jinja")):
         shutil.copy(path, tmp_path / f"config-{path.name}")

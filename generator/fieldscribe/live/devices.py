@@ -10,11 +10,11 @@ from fieldscribe.live.evaluation import evaluated
 from fieldscribe.live.numbers import classes_of
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import use_python_runtime
-from fieldscribe.targets.python.class_facts import class_facts, commands_of, members, readable_groups
 from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.expressions import Call
-from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, attribute, parameter
-from fieldscribe.targets.python.point_call import (
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of
+from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
+from fieldscribe.targets.runtime_calls.expressions import Call
+from fieldscribe.targets.runtime_calls.point_call import (
     attribute_of,
     call_of,
     fields_of,
@@ -22,6 +22,7 @@ from fieldscribe.targets.python.point_call import (
     old_names_of,
     variants_call,
 )
+from fieldscribe.targets.runtime_calls.scope import Scope
 
 use_python_runtime()
 
@@ -58,7 +59,7 @@ def device_class(
 def points_class(device: Device) -> type[runtime.PointTable]:
     """Return the class of a device's points, without a line: pure codecs."""
     use_python_runtime()
-    bus, scope = in_python(device), PackageScope.of(device, Identifiers(device))
+    bus, scope = in_python(device), scope_of(device, Identifiers(device))
     module: Any = import_module(bus.module)
     names = {**vars(runtime), **{name: getattr(module, name) for name in bus.exports}}
     return type("Points", (runtime.PointTable,), _members(scope, names))
@@ -80,7 +81,7 @@ def _constructor(device: Device, base: Any) -> Any:
     return construct
 
 
-def _members(scope: PackageScope, names: dict[str, Any]) -> dict[str, Any]:
+def _members(scope: Scope, names: dict[str, Any]) -> dict[str, Any]:
     """Return the members of the class; `names` are those of the runtime."""
     names.update({f"enums.{name}": made for name, made in classes_of(scope, names).items()})
     found: dict[str, Any] = {name: evaluated(node, names) for name, node in class_facts(scope).items()}
@@ -92,12 +93,16 @@ def _members(scope: PackageScope, names: dict[str, Any]) -> dict[str, Any]:
     return found | {scope.commands[command.name]: evaluated(call, names) for command, call in commands_of(scope)}
 
 
-def _points(scope: PackageScope) -> Iterator[tuple[str, Call, tuple[str, ...]]]:
+def _points(scope: Scope) -> Iterator[tuple[str, Call, tuple[str, ...]]]:
     """Yield the attributes of points: the name, the call that makes it, and its old names."""
     for group in members(scope.device).values():
         for member in group:
             if isinstance(member, Point):
-                yield attribute_of(member), call_of(member, fields_of(member, scope), scope), old_attributes(member)
+                yield (
+                    attribute_of(member, scope),
+                    call_of(member, fields_of(member, scope), scope),
+                    old_attributes(member, scope),
+                )
             else:
                 name = attribute(next(iter(member.values())).name)
                 yield name, variants_call(member, scope), old_names_of(member)

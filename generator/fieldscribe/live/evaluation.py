@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from fieldscribe.targets.python.expressions import Call, Hex, Name, Node
+from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName
 
 
 def evaluated(node: Node, names: Mapping[str, Any]) -> Any:
@@ -19,4 +19,6 @@ def evaluated(node: Node, names: Mapping[str, Any]) -> Any:
         return tuple([evaluated(item, names) for item in node])
     if isinstance(node, Mapping):
         return {evaluated(key, names): evaluated(item, names) for key, item in node.items()}
+    if isinstance(node, PointName):
+        return str(node)
     return int(node) if isinstance(node, Hex) else node

@@ -11,11 +11,12 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.live.evaluation import evaluated
 from fieldscribe.model import Entry, Point
 from fieldscribe.targets.python.enums import reader
-from fieldscribe.targets.python.identifiers import PackageScope, word_attribute
+from fieldscribe.targets.python.identifiers import word_attribute
+from fieldscribe.targets.runtime_calls.scope import Scope
 from fieldscribe.text import upper
 
 
-def classes_of(scope: PackageScope, runtime: Mapping[str, Any]) -> dict[str, Any]:
+def classes_of(scope: Scope, runtime: Mapping[str, Any]) -> dict[str, Any]:
     """Return the classes of a device by name, made of names of the runtime."""
     classes: dict[str, Any] = {}
     for named in scope.device.enums:
@@ -31,9 +32,7 @@ def _numbers(name: str, entries: Iterable[Entry], runtime: Mapping[str, Any]) ->
     return runtime["NamedNumber"](name, {upper(entry.name): entry.raw for entry in entries})
 
 
-def _readers(
-    point: Point, scope: PackageScope, classes: dict[str, Any], runtime: Mapping[str, Any]
-) -> Mapping[str, Any]:
+def _readers(point: Point, scope: Scope, classes: dict[str, Any], runtime: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return what reads each flag of a word by its attribute; classes of its numbers are added to the others."""
     readers = {}
     for flag in point.flags:

@@ -8,10 +8,10 @@ from typing import NamedTuple
 from fieldscribe.model import Point, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.targets.python.expressions import Call, Name
-from fieldscribe.targets.python.identifiers import PackageScope, attribute
+from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.python.layout import arguments, docstring, leaf, wrapped
-from fieldscribe.targets.python.point_call import (
+from fieldscribe.targets.runtime_calls.expressions import Call, Name
+from fieldscribe.targets.runtime_calls.point_call import (
     PointFields,
     attribute_of,
     call_of,
@@ -21,7 +21,8 @@ from fieldscribe.targets.python.point_call import (
     old_names_of,
     variants_call,
 )
-from fieldscribe.targets.python.point_expressions import addresses_of, is_limited, number
+from fieldscribe.targets.runtime_calls.point_expressions import addresses_of, is_limited, number
+from fieldscribe.targets.runtime_calls.scope import Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, open_text, overflow_texts, range_text, write_texts
 
@@ -66,7 +67,7 @@ class AttributeView(NamedTuple):
 class Attributes:
     """Makes the texts of a device's attributes."""
 
-    def __init__(self, scope: PackageScope, render: Render) -> None:
+    def __init__(self, scope: Scope, render: Render) -> None:
         self._scope = scope
         self._render = render
         self._keys = scope.lowered.template_keys
@@ -109,7 +110,7 @@ class Attributes:
         """Return the texts that only this point has: attribute, docstring, then those of `PointFields`."""
         code = point.code
         return (
-            attribute_of(point),
+            attribute_of(point, self._scope),
             _docstring(point.title["en"], limits[0], *remarks),
             python_string(point.terms.group),
             python_string(code) if code else "",
@@ -122,7 +123,7 @@ class Attributes:
 
     def _view(self, point: Point, texts: tuple[str, ...]) -> AttributeView:
         made = call_of(point, _named(texts, point), self._scope)
-        return attribute_view(texts[0], made, texts[1], old_attributes(point))
+        return attribute_view(texts[0], made, texts[1], old_attributes(point, self._scope))
 
 
 def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> AttributeView:
@@ -140,7 +141,7 @@ def _named(texts: tuple[str, ...], point: Point) -> PointFields:
     return PointFields(group, code or None, default or None, numbers, *several)
 
 
-def _limits_of(point: Point, scope: PackageScope) -> LimitTexts:
+def _limits_of(point: Point, scope: Scope) -> LimitTexts:
     limits = point.allowed
     text = range_text(point, scope.lowered.points) if point.writable and point.form in _WITH_RANGE else ""
     if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
@@ -155,7 +156,7 @@ def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
     return docstring(lines + errata)
 
 
-def _remarks(point: Point, scope: PackageScope) -> str:
+def _remarks(point: Point, scope: Scope) -> str:
     remarks = ""
     if point.when is not None:
         remarks += f" Exists only when {condition_text(point.when, scope.lowered.points)}."
@@ -170,7 +171,7 @@ def _remarks(point: Point, scope: PackageScope) -> str:
     return remarks
 
 
-def _errata(point: Point, scope: PackageScope) -> list[str]:
+def _errata(point: Point, scope: Scope) -> list[str]:
     changing, doubts = scope.lowered.errata_of(point)
     lines = ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
     return [*lines, "", *wrapped(python_doc(f"The {open_text(doubts)}."))] if doubts else lines

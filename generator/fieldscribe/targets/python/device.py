@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from operator import attrgetter
 from typing import NamedTuple
 
 from fieldscribe.families import family
-from fieldscribe.model import Device, Point, Telegram
-from fieldscribe.targets.python.expressions import Node, call
-from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, attribute, parameter, sorted_imports
+from fieldscribe.model import Device, Point
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import pascal, python_doc, python_string
 
 RUNTIME = "fieldscribe_runtime"
 """The package that all generated devices share."""
-
-_MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
-
-
-def usual_maker(point: Point) -> str:
-    """Return the function for the attribute of a point; only its access decides."""
-    return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
 class Line(NamedTuple):
@@ -44,36 +36,25 @@ class Line(NamedTuple):
 
 
 class PythonFamily(NamedTuple):
-    """What generated modules import for a family, and the facts about the bus of a device.
+    """What generated modules import for a family.
 
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
-    before their names. `line` gives the transport that most people have, `maker` the function that makes a point's
-    attribute. `settings` are further parameters of a device's constructor (name, class). `facts` are class variables,
-    such as planned reads, or what addresses count from.
+    before their names. `line` gives the transport that most people have. `settings` are further parameters of a
+    device's constructor (name, class).
     """
 
     module: str
     exports: frozenset[str]
     device: str
     transport: str
-    profile: Callable[[Device, PackageScope], Node]
     line: Callable[[Device], Line]
-    maker: Callable[[Point], str] = usual_maker
     settings: tuple[tuple[str, str], ...] = ()
-    facts: Callable[[Device, PackageScope], Mapping[str, Node]] = lambda _device, _scope: {}
 
 
 def in_python(device: Device) -> PythonFamily:
     """Return the part `targets.python` of the device's family."""
     part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
     return part
-
-
-def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
-    """Return the telegrams of a device."""
-    made = scope.runtime("Telegram")
-    facts = ((each, () if each.message is None else (each.message,)) for each in named_telegrams)
-    return tuple(call(made, each.name, each.direction, each.words, *message) for each, message in facts)
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:

@@ -9,9 +9,9 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point, Titles
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.targets.python.expressions import Hex, Name, Node, call
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import docstring, laid_out
+from fieldscribe.targets.runtime_calls.expressions import Hex, Name, Node, call
 from fieldscribe.text import python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")

@@ -9,7 +9,8 @@ from keyword import iskeyword
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.python.device import imports_of, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, word_attribute
+from fieldscribe.targets.runtime_calls.scope import command_attributes
 from fieldscribe.text import pascal, upper
 
 LIBRARIES = frozenset({"can", "pymodbus", "serial"})
@@ -43,7 +44,7 @@ def identifiers(device: Device) -> Iterator[Names]:
     for point in device.points:
         if point.generated:
             yield from _of_point(point)
-    for command, name in command_attributes(device).items():
+    for command, name in command_attributes(device, attribute).items():
         yield Names(_POINTS, Owner("command", command), (name,))
 
 

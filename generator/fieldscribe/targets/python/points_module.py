@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from fieldscribe.model import Command, Device, SteppedCommand
 from fieldscribe.resources import Render
 from fieldscribe.targets.python.attributes import Attributes, AttributeView, attribute_view
-from fieldscribe.targets.python.class_facts import class_facts, commands_of, members, readable_groups
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.expressions import Call
-from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, sorted_imports
+from fieldscribe.targets.python.identifiers import Identifiers, scope_of, sorted_imports
 from fieldscribe.targets.python.layout import DOC, WIDTH, comment, docstring, laid_out, leaf
-from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of
+from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
+from fieldscribe.targets.runtime_calls.expressions import Call
+from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
+from fieldscribe.targets.runtime_calls.scope import Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import label
 
@@ -25,7 +26,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     type or scale the manual does not settle, `codes` the special codes that several points share. A group is its title
     and the text of its attributes.
     """
-    family, scope = in_python(device), PackageScope.of(device, names)
+    family, scope = in_python(device), scope_of(device, names)
     scope.runtime("PointTable")
     attributes = Attributes(scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
@@ -74,7 +75,7 @@ def _open_points(device: Device) -> Iterable[str]:
         )
 
 
-def _command(command: Command | SteppedCommand, made: Call, scope: PackageScope) -> AttributeView:
+def _command(command: Command | SteppedCommand, made: Call, scope: Scope) -> AttributeView:
     return attribute_view(scope.commands[command.name], made, docstring((_command_doc(command),)))
 
 

@@ -7,10 +7,9 @@ from typing import NamedTuple
 
 from fieldscribe.conditions import absent
 from fieldscribe.model import Point, Variant
-from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.expressions import Call, Hex, Name, Node, call
-from fieldscribe.targets.python.identifiers import PackageScope, attribute
-from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
+from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName, call
+from fieldscribe.targets.runtime_calls.point_expressions import addresses_of, allowed, form, is_limited, number, place
+from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
 
 _Facts = Iterator[tuple[str, Node]]
 
@@ -30,7 +29,7 @@ class PointFields(NamedTuple):
     ends: tuple[Node, ...]
 
 
-def fields_of(point: Point, scope: PackageScope) -> PointFields:
+def fields_of(point: Point, scope: Scope) -> PointFields:
     """Return the fields of a point as values."""
     default = None if point.default is None else number(point.default)
     references = tuple(point.place.references.values())
@@ -39,20 +38,20 @@ def fields_of(point: Point, scope: PackageScope) -> PointFields:
     )
 
 
-def attribute_of(point: Point) -> str:
+def attribute_of(point: Point, scope: Scope) -> str:
     """Return the attribute of a point; one that only a variant has is called after its item."""
-    return attribute(point.name if point.variant is None else point.item)
+    return scope.attribute(point.name if point.variant is None else point.item)
 
 
-def old_attributes(point: Point) -> tuple[str, ...]:
+def old_attributes(point: Point, scope: Scope) -> tuple[str, ...]:
     """Return the old attributes of a point; those of one that only a variant has belong to all of its name."""
-    return () if point.variant is not None else tuple(map(attribute, point.was))
+    return () if point.variant is not None else tuple(map(scope.attribute, point.was))
 
 
-def variants_call(points: Mapping[Variant, Point], scope: PackageScope) -> Call:
+def variants_call(points: Mapping[Variant, Point], scope: Scope) -> Call:
     """Return the call that makes the attribute of points that have one name in different variants."""
     axis = next(iter(points)).axis
-    chosen = {variant.value: Name(attribute_of(point)) for variant, point in points.items()}
+    chosen = {variant.value: Name(attribute_of(point, scope)) for variant, point in points.items()}
     return call(scope.runtime("ByVariant"), axis, chosen)
 
 
@@ -61,30 +60,30 @@ def old_names_of(points: Mapping[Variant, Point]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for point in points.values() for name in point.was))
 
 
-def call_of(point: Point, fields: PointFields, scope: PackageScope) -> Call:
+def call_of(point: Point, fields: PointFields, scope: Scope) -> Call:
     """Return the call that makes a point."""
-    maker = scope.runtime(in_python(scope.device).maker(point))
+    maker = scope.runtime(family_calls(scope.device).maker(point))
     return call(maker, form(point, fields.numbers, scope), **dict(_facts(point, fields, scope)))
 
 
-def numbers_of(point: Point, scope: PackageScope) -> str:
+def numbers_of(point: Point, scope: Scope) -> str:
     """Return the class of a point's numbers or flags; empty if there is none."""
     return scope.names.word_class(point) if point.form == "flags" else scope.names.numbers_class(point.shape)
 
 
-def keeps(point: Point, scope: PackageScope) -> str:
+def keeps(point: Point, scope: Scope) -> str:
     """Return what keeps a written value, a command by its attribute."""
     return scope.commands.get(point.keeps or "", point.keeps or "")
 
 
-def places(point: Point, addresses: Iterable[Node], scope: PackageScope) -> _Facts:
+def places(point: Point, addresses: Iterable[Node], scope: Scope) -> _Facts:
     """Yield where the point is read, and where else it is written."""
     yield "at", place(point, addresses, scope)
     if point.write_place is not None:
         yield "write_at", place(point, addresses_of(point.write_place.addresses, point.space), scope)
 
 
-def _facts(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
+def _facts(point: Point, fields: PointFields, scope: Scope) -> _Facts:
     yield from _identity(point, fields, scope)
     if point.unit.symbol and not point.epoch:
         yield "unit", point.unit.symbol
@@ -99,25 +98,25 @@ def _facts(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
     if point.changes in ("never", "rarely"):
         yield "changes", point.changes
     if point.changes_with:
-        yield "changes_with", point.changes_with
+        yield "changes_with", tuple(map(PointName, point.changes_with))
     if point.writable:
         yield from _writing(point, scope)
     yield from _existence(point, scope)
 
 
-def _writing(point: Point, scope: PackageScope) -> _Facts:
+def _writing(point: Point, scope: Scope) -> _Facts:
     """Yield what a writer has to know."""
     if point.conditions:
         yield "conditions", point.conditions
     if point.takes_effect:
         yield "takes_effect", point.takes_effect
     if point.write_with:
-        yield "write_with", point.write_with
+        yield "write_with", tuple(map(PointName, point.write_with))
     if point.keeps:
         yield "keeps", keeps(point, scope)
 
 
-def _identity(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
+def _identity(point: Point, fields: PointFields, scope: Scope) -> _Facts:
     """Yield the places of the point on the wire, and how the manual calls it."""
     yield from places(point, fields.addresses, scope)
     if point.bits is not None:
@@ -129,7 +128,7 @@ def _identity(point: Point, fields: PointFields, scope: PackageScope) -> _Facts:
         yield "references", dict(zip(point.references, fields.references, strict=True))
 
 
-def _existence(point: Point, scope: PackageScope) -> _Facts:
+def _existence(point: Point, scope: Scope) -> _Facts:
     """Yield what says in which devices the point exists."""
     if point.variant is not None:
         yield "variant", (point.variant.axis, point.variant.value)

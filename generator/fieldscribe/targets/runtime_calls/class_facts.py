@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
-from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.expressions import Call, Node, call
-from fieldscribe.targets.python.identifiers import PackageScope, attribute
-from fieldscribe.targets.python.point_call import places
-from fieldscribe.targets.python.point_expressions import addresses_of, number, place_of_command, step_of
+from fieldscribe.targets.runtime_calls.expressions import Call, Node, PointName, call
+from fieldscribe.targets.runtime_calls.point_call import places
+from fieldscribe.targets.runtime_calls.point_expressions import addresses_of, number, place_of_command, step_of
+from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
 
 
 def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:
@@ -29,9 +28,9 @@ def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:
     return groups
 
 
-def class_facts(scope: PackageScope) -> Mapping[str, Node]:
+def class_facts(scope: Scope) -> Mapping[str, Node]:
     """Return the class variables by name, in order."""
-    device, family = scope.device, in_python(scope.device)
+    device, family = scope.device, family_calls(scope.device)
     facts: dict[str, Node] = {"PROFILE": family.profile(device, scope), **family.facts(device, scope)}
     if device.variants:
         facts["VARIANTS"] = device.variants
@@ -39,7 +38,7 @@ def class_facts(scope: PackageScope) -> Mapping[str, Node]:
         facts["IDENTIFICATIONS"] = _identifications(scope)
     documented = [point for point in device.points if not point.terms.generated]
     if documented:
-        facts["DOCUMENTED"] = {attribute(point.item): _documented(point, scope) for point in documented}
+        facts["DOCUMENTED"] = {scope.attribute(point.item): _documented(point, scope) for point in documented}
     return facts
 
 
@@ -48,7 +47,7 @@ def readable_groups(device: Device) -> tuple[str, ...]:
     return tuple(dict.fromkeys([point.group for point in device.points if point.generated and point.readable]))
 
 
-def commands_of(scope: PackageScope) -> Iterator[tuple[Command | SteppedCommand, Call]]:
+def commands_of(scope: Scope) -> Iterator[tuple[Command | SteppedCommand, Call]]:
     """Yield the commands, each with the call that makes it."""
     for command in scope.device.commands:
         facts: dict[str, Node] = {"at": place_of_command(command, scope)}
@@ -59,7 +58,7 @@ def commands_of(scope: PackageScope) -> Iterator[tuple[Command | SteppedCommand,
         yield stepped, _stepped(stepped, scope)
 
 
-def _stepped(command: SteppedCommand, scope: PackageScope) -> Call:
+def _stepped(command: SteppedCommand, scope: Scope) -> Call:
     facts: dict[str, Node] = {}
     if command.arguments:
         facts["arguments"] = command.arguments
@@ -70,7 +69,7 @@ def _stepped(command: SteppedCommand, scope: PackageScope) -> Call:
     return call(scope.runtime("SteppedCommand"), *(step_of(step, scope) for step in command.steps), **facts)
 
 
-def _documented(point: Point, scope: PackageScope) -> Call:
+def _documented(point: Point, scope: Scope) -> Call:
     """Return why the point has no attribute, and the addresses of its words, if they can be reached."""
     facts: dict[str, Node] = {}
     if point.raw_only:
@@ -80,13 +79,13 @@ def _documented(point: Point, scope: PackageScope) -> Call:
     return call(scope.runtime("Documented"), point.reason or "no reason given", **facts)
 
 
-def _identifications(scope: PackageScope) -> Node:
+def _identifications(scope: Scope) -> Node:
     """Return what identifies the device and its variants."""
     made = scope.runtime("Identification")
     return tuple(
         call(
             made,
-            each.point,
+            PointName(each.point),
             (*each.raws, *each.texts),
             *(() if each.variant is None else ((each.variant.axis, each.variant.value),)),
         )

@@ -1,7 +1,4 @@
-"""Python expressions as structure: calls of names of the runtime with plain values, tuples and dicts.
-
-The target writes them as text, `live` makes the objects of them.
-"""
+"""Expressions as structure: calls of names of the runtime with plain values, tuples and dicts."""
 
 from __future__ import annotations
 
@@ -12,6 +9,12 @@ from typing import Any, Self
 
 class Name(str):
     """A name, such as `U16` or `enums.Direction`; or what stands for an expression in a template of text."""
+
+    __slots__ = ()
+
+
+class PointName(str):
+    """A text that names a point, of this device: what it is called there is for the language to say."""
 
     __slots__ = ()
 

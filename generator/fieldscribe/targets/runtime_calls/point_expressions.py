@@ -1,4 +1,4 @@
-"""The Python expressions for the facts of points: forms, rules, limits and places."""
+"""The expressions for the facts of points: forms, rules, limits and places."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from fieldscribe.conditions import Comparison
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
 from fieldscribe.model.steps import WHOLE_WORD
-from fieldscribe.targets.python.expressions import Hex, Name, Node, call
-from fieldscribe.targets.python.identifiers import PackageScope
+from fieldscribe.targets.runtime_calls.expressions import Hex, Name, Node, PointName, call
+from fieldscribe.targets.runtime_calls.scope import Scope
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 _FORMS = {"enum": "Named", "float": "Floating"}
@@ -20,7 +20,7 @@ NUMBERED = frozenset({"parameter", "telegram", "signal"})
 """Spaces whose addresses are written in decimal."""
 
 
-def form(point: Point, named: str, scope: PackageScope) -> Node:
+def form(point: Point, named: str, scope: Scope) -> Node:
     """Return the form of a point: `Scaled(U16, Rule(num=10), decimals=1)`; `named` is its class of numbers or flags."""
     inner = _plain_form(point, named, scope)
     inner = call(scope.runtime("Time"), inner, point.epoch) if point.epoch else inner
@@ -31,7 +31,7 @@ def form(point: Point, named: str, scope: PackageScope) -> Node:
     return call(around, inner, _codes(point, scope))
 
 
-def _codes(point: Point, scope: PackageScope) -> Node:
+def _codes(point: Point, scope: Scope) -> Node:
     """Return the special codes of a point; shared ones by the name of their constant."""
     raws: dict[str, Node] = {}
     for special in point.specials:
@@ -53,7 +53,7 @@ def _code_number(raw: int, special: Special) -> int:
     return Hex(raw) if special.hexadecimal and raw >= 0 else raw
 
 
-def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
+def _plain_form(point: Point, named: str, scope: Scope) -> Node:
     """Return the form of values that are no special codes."""
     name = "bytes" if point.text is not None and point.text.is_bytes else point.form
     kind = scope.runtime(_FORMS.get(name, name.capitalize()))
@@ -63,8 +63,9 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
         return _text(point.text, kind)
     positional, keywords = [_wire(point, scope)], dict[str, Node]()
     if named:
-        scope.runtime("enums")
-        positional.append(Name(f"enums.{named}"))
+        if scope.enums:
+            scope.runtime("enums")
+        positional.append(Name(f"{scope.enums}{named}"))
     if point.digits is not None:
         keywords["count"] = point.digits.count
     elif point.enum is not None and point.enum.closed:
@@ -91,7 +92,7 @@ def _text(layout: Text, kind: str) -> Node:
     return call(kind, *positional, **keywords)
 
 
-def _wire(point: Point, scope: PackageScope) -> Node:
+def _wire(point: Point, scope: Scope) -> Node:
     """Return the type on the wire: `U16`; one that has no constant as `Type(24)`."""
     shape = point.shape
     if not shape.narrow and not shape.swapped and not shape.coding:
@@ -118,14 +119,18 @@ def _only_named(point: Point) -> bool:
     return as_many and all(named.issuperset(range(low, high + 1)) for low, high in ranges)
 
 
-def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
+def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
     made = scope.runtime("Case")
-    return tuple(call(made, case.point, case.raw, rule(case.rule, scope, of_scale=True)) for case in cases)
+    return tuple(call(made, _name(case.point), case.raw, rule(case.rule, scope, of_scale=True)) for case in cases)
 
 
-def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
+def _name(point: str | None) -> Node:
+    return None if point is None else PointName(point)
+
+
+def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
     """Return a linear rule as integers; factors of a scale have their special codes with them."""
     ratio, offset = linear.ratio, linear.offset
     facts: dict[str, Node] = {}
@@ -141,7 +146,7 @@ def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node
     return call(scope.runtime("Rule"), **facts)
 
 
-def _factor(operand: Operand, scope: PackageScope, *, of_scale: bool) -> Node:
+def _factor(operand: Operand, scope: Scope, *, of_scale: bool) -> Node:
     factor = operand.factor
     facts: dict[str, Node] = {}
     if factor.slope != 1:
@@ -156,7 +161,7 @@ def _factor(operand: Operand, scope: PackageScope, *, of_scale: bool) -> Node:
         facts["ten_to" if factor.ten_to else "within"] = operand.within
     if of_scale and operand.codes:
         facts["codes"] = operand.codes
-    return call(scope.runtime("Factor"), factor.point, **facts)
+    return call(scope.runtime("Factor"), PointName(factor.point), **facts)
 
 
 def is_limited(point: Point) -> bool:
@@ -166,7 +171,7 @@ def is_limited(point: Point) -> bool:
     return point.allowed.fixed != ((point.least, point.greatest),)
 
 
-def allowed(point: Point, ends: tuple[Node, ...], scope: PackageScope) -> Node:
+def allowed(point: Point, ends: tuple[Node, ...], scope: Scope) -> Node:
     """Return the raw numbers that may be written; `ends`, if any, are the bounds of its intervals."""
     bounds = ends or [
         _bound(end, scope) for interval in point.allowed.intervals for end in (interval.low, interval.high)
@@ -174,10 +179,10 @@ def allowed(point: Point, ends: tuple[Node, ...], scope: PackageScope) -> Node:
     return tuple(zip(bounds[::2], bounds[1::2], strict=True))
 
 
-def _bound(bound: Bound, scope: PackageScope) -> Node:
+def _bound(bound: Bound, scope: Scope) -> Node:
     if isinstance(bound, int):
         return bound
-    unless = {name: codes for name, codes in bound.unless if codes}
+    unless: dict[Node, Node] = {PointName(name): codes for name, codes in bound.unless if codes}
     return call(
         scope.runtime("Limit"), rule(bound.rule, scope), least=bound.least, greatest=bound.greatest, unless=unless
     )
@@ -188,7 +193,7 @@ def addresses_of(addresses: tuple[int, ...], space: str) -> tuple[int, ...]:
     return addresses if space in NUMBERED else tuple(map(Hex, addresses))
 
 
-def place(point: Point, addresses: Iterable[Node], scope: PackageScope) -> Node:
+def place(point: Point, addresses: Iterable[Node], scope: Scope) -> Node:
     """Return a place of a point, such as `holding(0x1028)`, with its index in an array."""
     facts: dict[str, Node] = {}
     if point.index is not None:
@@ -203,13 +208,13 @@ def place(point: Point, addresses: Iterable[Node], scope: PackageScope) -> Node:
     return call(scope.runtime(point.space), *telegram, *addresses, **facts)
 
 
-def place_of_command(command: Command, scope: PackageScope) -> Node:
+def place_of_command(command: Command, scope: Scope) -> Node:
     """Return the place that a command writes to, with the function that it takes."""
     address = addresses_of((command.address,), command.space)
     return _place(command.space, address, {"function": Hex(command.function, 2)}, scope)
 
 
-def step_of(step: Step, scope: PackageScope) -> Node:
+def step_of(step: Step, scope: Scope) -> Node:
     """Return a step of a command."""
     addresses = addresses_of(tuple(range(step.address, step.address + len(step.words))), step.space)
     place: dict[str, Node] = {} if step.write is None else {"function": Hex(step.write, 2)}
@@ -225,7 +230,7 @@ def step_of(step: Step, scope: PackageScope) -> Node:
     return call(scope.runtime("Step"), step.says, where, words, **facts)
 
 
-def _word(word: Word, scope: PackageScope) -> Node:
+def _word(word: Word, scope: Scope) -> Node:
     if word.argument is None and word.mask == WHOLE_WORD:
         return word.constant & WHOLE_WORD
     argument = (word.factor, word.argument) if word.argument else ()
@@ -234,10 +239,10 @@ def _word(word: Word, scope: PackageScope) -> Node:
 
 
 def _test(comparison: Comparison) -> Node:
-    return comparison.of, comparison.test, comparison.than
+    return PointName(comparison.of), comparison.test, comparison.than
 
 
-def _place(space: str, addresses: Iterable[Node], facts: Mapping[str, Node], scope: PackageScope) -> Node:
+def _place(space: str, addresses: Iterable[Node], facts: Mapping[str, Node], scope: Scope) -> Node:
     maker = scope.runtime(_PLACES.get(space, "Place"))
     where = (space, tuple(addresses)) if maker == "Place" else addresses
     return call(maker, *where, **facts)

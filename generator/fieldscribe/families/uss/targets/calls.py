@@ -1,0 +1,40 @@
+"""USS in calls of the runtime: the profile with its tasks and telegrams, and parameters that may be kept in EEPROM."""
+
+from __future__ import annotations
+
+from fieldscribe.families.uss import of_bus
+from fieldscribe.model import Device, Point
+from fieldscribe.targets.runtime_calls.expressions import Node, call
+from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Scope, telegrams, usual_maker
+
+_STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
+
+
+def _profile(device: Device, scope: Scope) -> Node:
+    """Return the profile: the tasks and telegrams that the device accepts."""
+    bus, own = device.bus, of_bus(device.bus)
+    low, high = own.pzd
+    facts: dict[str, Node] = {"units": bus.units, "pkw": own.pkw, "pzd": own.pzd}
+    facts["tasks"] = {code.number: code.answers for code in bus.functions}
+    if bus.broadcast is not None:
+        facts["broadcast"] = bus.broadcast
+    if bus.exceptions:
+        facts["errors"] = {code.number: code.name for code in bus.exceptions}
+    if device.telegrams:
+        facts["telegrams"] = telegrams(device.telegrams, scope)
+    fewer = {
+        (variant.axis, variant.value): (low, most) for variant, most in dict(own.variant_pzd).items() if most < high
+    }
+    if fewer:
+        facts["variant_pzd"] = fewer
+    return call(scope.runtime("Profile"), **facts)
+
+
+def _maker(point: Point) -> str:
+    """Return the maker of an attribute; the caller chooses RAM or EEPROM where the description does not."""
+    usual = usual_maker(point)
+    stored = point.telegram is None and point.keeps in (None, "choice")
+    return _STORED.get(usual, usual) if stored else usual
+
+
+IN_CALLS = FamilyCalls(profile=_profile, maker=_maker)

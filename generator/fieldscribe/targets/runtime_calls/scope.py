@@ -1,0 +1,147 @@
+"""What the calls ask of a language: its names; and of a family: what it says of a device in calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple, Self
+
+from fieldscribe.families import family
+from fieldscribe.lowered import Lowered, lower, named_numbers
+from fieldscribe.model import Device, Point, Shape, Telegram
+from fieldscribe.targets.runtime_calls.expressions import Node, call
+from fieldscribe.text import pascal
+
+_MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
+
+
+def usual_maker(point: Point) -> str:
+    """Return the function for the attribute of a point; only its access decides."""
+    return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
+
+
+class ClassNames:
+    """The final names of what names numbers: a class for each enum and each word of flags; `taken` are of others."""
+
+    def __init__(self, device: Device, taken: Iterable[str]) -> None:
+        self._taken = set(taken)
+        self._enums = {enum.name: self._class(pascal(enum.name), "Enum") for enum in device.enums}
+        self._shared = dict(self._enums)
+        self._words: dict[str, str] = {}
+        self._fields: dict[tuple[str, str], str] = {}
+        for point in device.points:
+            if point.shape.flags and point.form == "flags" and point.generated:
+                self._name_flags(point)
+        self.old_classes = {
+            self._class(old, kind): new for new, kind, old_names in self._renamed(device) for old in old_names
+        }
+        """The classes by their old names."""
+
+    def enum_class(self, enum: str) -> str:
+        """Return the class of an enum."""
+        return self._enums[enum]
+
+    def numbers_class(self, shape: Shape) -> str:
+        """Return the class that names the numbers of a shape, or each of its digits; empty if nothing does."""
+        enum = named_numbers(shape)
+        return "" if enum is None else self._enums[enum.name]
+
+    def word_class(self, point: Point) -> str:
+        """Return the class of a point's flags; empty if it has none."""
+        return self._words.get(point.item, "")
+
+    def field_class(self, point: Point, flag: str) -> str | None:
+        """Return the class of the named numbers of a flag of several bits; None if they have no names."""
+        return self._fields.get((point.item, flag))
+
+    @property
+    def classes(self) -> set[str]:
+        """All classes that name numbers."""
+        return {*self._enums.values(), *self._words.values(), *self._fields.values()}
+
+    def _name_flags(self, point: Point) -> None:
+        name = self._class(pascal(point.item), "Flags")
+        self._words[point.item] = name
+        for flag in point.flags:
+            if flag.width > 1 and flag.enum:
+                shared = self._shared.get(flag.enum) or self._class(pascal(flag.enum), "Field")
+                self._fields[point.item, flag.name] = self._shared[flag.enum] = shared
+            elif flag.width > 1 and flag.values:
+                self._fields[point.item, flag.name] = self._class(f"{name}{pascal(flag.name)}", "Field")
+
+    def _renamed(self, device: Device) -> Iterator[tuple[str, str, Iterable[str]]]:
+        """Yield the classes that are named after a point with old names: each with its kind and its old names."""
+        for enum in device.enums:
+            yield self._enums[enum.name], "Enum", map(pascal, enum.was)
+        for point in device.points:
+            for flag, name in ((flag, self.field_class(point, flag.name)) for flag in point.flags if point.was):
+                if name is not None and not flag.enum:
+                    yield name, "Field", [f"{pascal(item)}{pascal(flag.name)}" for item in point.old_items]
+            if point.was and self.word_class(point):
+                yield self.word_class(point), "Flags", map(pascal, point.old_items)
+
+    def _class(self, wanted: str, kind: str) -> str:
+        while wanted in self._taken:
+            wanted += kind
+        self._taken.add(wanted)
+        return wanted
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """A device with the names of a language and the lowered model; it collects what its calls name.
+
+    `attribute` gives the name of a point, `enums` stands before a class that names numbers, `used` are names of the
+    runtime, and `codes` the special codes that points share.
+    """
+
+    device: Device
+    names: ClassNames
+    lowered: Lowered
+    attribute: Callable[[str], str]
+    enums: str
+    used: set[str] = field(default_factory=set)
+    codes: dict[str, Node] = field(default_factory=dict)
+    commands: dict[str, str] = field(default_factory=dict)
+    """The attributes of the commands by name, which differ from those of the points."""
+
+    @classmethod
+    def of(cls, device: Device, names: ClassNames, attribute: Callable[[str], str], enums: str = "") -> Self:
+        """Return the scope of a device in which nothing is used yet."""
+        return cls(device, names, lower(device), attribute, enums, commands=command_attributes(device, attribute))
+
+    def runtime(self, name: str) -> str:
+        """Return a name of the runtime, which the module then imports."""
+        self.used.add(name)
+        return name
+
+
+def command_attributes(device: Device, attribute: Callable[[str], str]) -> dict[str, str]:
+    """Return the attributes of the commands of a device by name, which differ from those of the points."""
+    points = {name for point in device.points for name in (point.item, point.name)}
+    names = [command.name for command in device.all_commands]
+    return {name: attribute(f"{name}_command" if name in points else name) for name in names}
+
+
+class FamilyCalls(NamedTuple):
+    """What a family says of a device in calls: its profile, the function that makes a point, and class variables.
+
+    `facts` are class variables such as planned reads, or what addresses count from.
+    """
+
+    profile: Callable[[Device, Scope], Node]
+    maker: Callable[[Point], str] = usual_maker
+    facts: Callable[[Device, Scope], Mapping[str, Node]] = lambda _device, _scope: {}
+
+
+def family_calls(device: Device) -> FamilyCalls:
+    """Return the part `targets.calls` of the device's family."""
+    part: FamilyCalls = family(device.family).part("targets.calls").IN_CALLS
+    return part
+
+
+def telegrams(named_telegrams: Iterable[Telegram], scope: Scope) -> tuple[Node, ...]:
+    """Return the telegrams of a device."""
+    made = scope.runtime("Telegram")
+    facts = ((each, () if each.message is None else (each.message,)) for each in named_telegrams)
+    return tuple(call(made, each.name, each.direction, each.words, *message) for each, message in facts)
