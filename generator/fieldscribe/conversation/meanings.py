@@ -159,6 +159,8 @@ class FlagTexts:
         self._lowest = point.bits[1] if point.bits else 0
         self._named = sum(mask_of(flag.width) << flag.low for flag in point.flags)
         self._bits = [lru_cache(_MOST_NUMBERS)(partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
+        self._texts = [lru_cache(_MOST_NUMBERS)(partial(_flag_text, flag)) for flag in point.flags]
+        self._apart = lru_cache(_MOST_NUMBERS)(self._apart_of)
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
@@ -175,13 +177,13 @@ class FlagTexts:
         """Return those flags alone that apply."""
         return line(", ".join(self._apart(raw)[0]) or "none set")
 
-    def _apart(self, raw: int) -> tuple[list[str], list[str]]:
+    def _apart_of(self, raw: int) -> tuple[list[str], list[str]]:
         """Return the flags that apply to a number, with those of several bits, and the flags that do not."""
         true: list[str] = []
         false: list[str] = []
-        for flag in self._flags:
+        for flag, text in zip(self._flags, self._texts, strict=True):
             number = raw >> flag.low & mask_of(flag.width)
-            (true if flag.width > 1 or number == flag.active else false).append(_flag_text(flag, number))
+            (true if flag.width > 1 or number == flag.active else false).append(text(number))
         return true, false
 
     def bits(self, raw: int) -> list[Bits]:
