@@ -232,6 +232,37 @@ def test_a_write_that_ends_early_says_what_was_written(
     )
 
 
+@pytest.mark.parametrize(
+    ("fault", "words", "answer"),
+    [
+        ("silent x1", "A020", (0, "A020 base_frequency  50 Hz\n")),
+        ("damaged 7 x1", "A020", (0, "A020 base_frequency  50 Hz\n")),
+        ("silent x1", "A020 --retries 0", (2, "")),
+        ("silent x2", "A020 --retries 2", (0, "A020 base_frequency  50 Hz\n")),
+        (
+            "silent x2",
+            "A020 A004 A061 --retries 0",
+            (1, r"A020 base_frequency +unit 1 did not reply.*\nA004 .* 60 Hz\nA061 .*\n"),
+        ),
+        ("silent x3", "A020 A004 A061 --retries 0", (2, "")),
+    ],
+)
+def test_a_read_is_tried_again_and_a_lost_point_loses_no_other(
+    fault: str, words: str, answer: tuple[int, str], drive: Simulated, on_line: Run
+) -> None:
+    drive.fault(fault)
+    done = on_line("read", "hitachi_l200", *words.split())
+    assert done.code == answer[0], done
+    assert re.fullmatch(answer[1], done.out), done.out
+
+
+def test_a_write_is_sent_once(drive: Simulated, on_line: Run) -> None:
+    before = drive.requests
+    drive.fault("silent x1")
+    assert on_line("write", "hitachi_l200", "A020=50", "--yes", "--retries", "5").code == 2
+    assert drive.requests == before + 1
+
+
 def test_monitor_goes_on_after_a_lost_answer(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     rounds = iter(range(9))
 
@@ -242,7 +273,7 @@ def test_monitor_goes_on_after_a_lost_answer(drive: Simulated, on_line: Run, mon
             drive.values["base_frequency"] = 41
 
     monkeypatch.setattr("time.sleep", between)
-    done = on_line("monitor", "hitachi_l200", "A020", "--count", "3", "--every", "0")
+    done = on_line("monitor", "hitachi_l200", "A020", "--count", "3", "--every", "0", "--retries", "0")
     drive.values["base_frequency"] = 50
     assert done.code == 0
     assert re.fullmatch(r"\S+  A020 base_frequency  50 Hz\n\S+  A020 base_frequency  41 Hz\n", done.out)

@@ -65,6 +65,14 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     assert drive.values["base_frequency"] == 50
 
 
+def test_a_snapshot_has_all_but_the_point_without_an_answer(drive: Simulated, on_line: Run) -> None:
+    """The first request, the point alone; then all answers come."""
+    drive.fault("silent x2")
+    done = on_line("snapshot", "hitachi_l200", "--out", "b.json", "--retries", "0")
+    assert (done.code, done.out) == (1, "233 points in b.json, 1 without a number\n")
+    assert "did not reply" in done.err
+
+
 @pytest.mark.parametrize("device", ["hitachi_l200", "eastron_sdm630"])
 def test_another_device_gets_all_settings(device: str, run: Run, tmp_path: Path) -> None:
     """One whose numbers differ: two simulated devices of different seeds."""

@@ -52,7 +52,7 @@ def run(arguments: Namespace) -> int:
                 silent.append(model.id)
                 continue
             unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
-            device = connection.device(model, unit)
+            device = connection.device(model, unit, arguments.retries)
             try:
                 fits[model.id] = device.identify()
             except FieldscribeError as error:

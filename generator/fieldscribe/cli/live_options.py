@@ -42,8 +42,10 @@ def add_live(parser: ArgumentParser, *, optional: bool = False) -> None:
 
 
 def add_unit(parser: ArgumentParser) -> None:
-    """Add `--unit`."""
+    """Add `--unit`, and how often a read of that unit is tried again."""
     parser.add_argument("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
+    tries = "so often a read without a good answer is asked again (default: 1); writes never are"
+    parser.add_argument("--retries", type=int, default=1, metavar="N", help=tries)
 
 
 def line_of(arguments: Namespace) -> LineAddress:
@@ -123,7 +125,7 @@ def opened(arguments: Namespace) -> Iterator[Live]:
     model = placed(open_device(arguments), arguments)
     unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
     with connected(arguments, line) as (connection, work):
-        device = connection.device(model, unit)
+        device = connection.device(model, unit, arguments.retries)
         try:
             yield Live(model, device, line, work)
         finally:

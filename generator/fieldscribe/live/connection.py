@@ -53,7 +53,7 @@ class Connection:
         text: str = self._part.probe(device)
         return text
 
-    def device(self, model: Device, unit: int) -> AnyDevice:
+    def device(self, model: Device, unit: int, retries: int = 0) -> AnyDevice:
         """Return a device of the runtime on this line. Raises UnclearError for what the line or the device cannot."""
         from fieldscribe_runtime import FieldscribeError
 
@@ -63,6 +63,7 @@ class Connection:
         chosen = {parameter(axis): values[0] for axis, values in model.variants.items() if len(values) == 1}
         try:
             made: AnyDevice = self._part.device_on(self._open, self._classes[model.id], model, unit, chosen)
+            made.retries = retries
         except FieldscribeError as error:
             raise UnclearError(f"{model.id}: {error}", _SETTINGS.get(error.status, "")) from error
         return made

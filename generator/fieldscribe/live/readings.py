@@ -8,6 +8,7 @@ from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
+from fieldscribe.live.partial_reads import PartialReads
 from fieldscribe.model import Device, Point
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
@@ -19,7 +20,7 @@ GOOD = ("ok", "special")
 """The states of points that hold something; all others are errors."""
 
 
-_NOT_THERE = ("no_access", "bad_link", "behind_end")
+NOT_THERE = ("no_access", "bad_link", "behind_end")
 """The states of points that a device lacks, or its link does not carry."""
 
 
@@ -61,7 +62,7 @@ def chosen(model: Device, names: list[str]) -> Choice:
     items: dict[str, None] = {}
     by_group: set[str] = set()
     for name in names:
-        inside = [point for point in model.points if point.group == name and _may_be_read(model, point)]
+        inside = [point for point in model.points if point.group == name and may_be_read(model, point)]
         if name not in groups:
             items[_point(model, name, groups)] = None
         elif not inside:
@@ -72,7 +73,7 @@ def chosen(model: Device, names: list[str]) -> Choice:
     return Choice(list(items), frozenset(by_group))
 
 
-def _may_be_read(model: Device, point: Point) -> bool:
+def may_be_read(model: Device, point: Point) -> bool:
     """Return True if a point is read with its group: one that only a variant has needs that to be chosen."""
     variant = point.variant
     is_there = variant is None or model.variants[variant.axis] == (variant.value,)
@@ -114,12 +115,12 @@ class Reader:
     def read(self, choice: Choice) -> list[Reading]:
         """Read points with as few requests as the device allows; what a group has and this device not is left out.
 
-        Raises FieldscribeError for a line that loses all.
+        A point without a good answer has the error. Raises FieldscribeError for a line that loses all.
         """
-        values = self._device.read_many(choice.items, errors="return")
+        values = PartialReads(self._device).read(choice.items, choice.items)
         rows = zip(self._device.rows(values), values.values(), strict=True)
         readings = [Reading(**row, text=self._text(row, value)) for row, value in rows]
-        return [one for one in readings if one.name not in choice.by_group or one.status not in _NOT_THERE]
+        return [one for one in readings if one.name not in choice.by_group or one.status not in NOT_THERE]
 
     def _text(self, row: dict[str, Any], value: Any) -> str:
         """Return a value with its unit; of one whose scale other points decide, as many digits as its number has."""

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.arithmetic import codec
-from fieldscribe.live.readings import in_words
+from fieldscribe.live.partial_reads import PartialReads
+from fieldscribe.live.readings import NOT_THERE, in_words, may_be_read
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import use_python_runtime
@@ -92,15 +93,19 @@ class Snapshot:
 
 
 def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
-    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that loses all."""
+    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that is lost."""
     raws: dict[str, int] = {}
     missing: dict[str, str] = {}
+    reads = PartialReads(device)
     for number, group in enumerate(device.GROUPS, 1):
         progress(f"reading group {number} of {len(device.GROUPS)}: {group}")
-        values = device.read_many(group, errors="return")
+        inside = [point.item for point in model.points if point.group == group and may_be_read(model, point)]
+        values = reads.read(group, inside)
+        if reads.gone is not None:
+            raise reads.gone
         for row, value in zip(device.rows(values), values.values(), strict=True):
             if isinstance(value, FieldscribeError) and not isinstance(value, CodecError):
-                missing[row["name"]] = in_words(value)
+                missing.update({} if row["status"] in NOT_THERE else {row["name"]: in_words(value)})
                 continue
             handle: Any = device.point(row["name"])
             raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]

@@ -16,9 +16,14 @@ from fieldscribe.families import family
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.live.readings import Reading
 from fieldscribe.model import Device, Point
+from fieldscribe.resources import use_python_runtime
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label, title_text
+
+use_python_runtime()
+
+from fieldscribe_runtime.commands import carried_out_once  # noqa: E402 - it is found from here on
 
 if TYPE_CHECKING:
     from fieldscribe_runtime import AnyDevice
@@ -41,12 +46,13 @@ class Write:
     arguments: Mapping[str, int] = field(default_factory=dict)
 
     def carry_out(self, device: AnyDevice) -> None:
-        """Write it. Raises FieldscribeError."""
-        if self.raw is None:
-            getattr(device, self.item).send(**self.arguments)
-            return
-        handle: Any = device.point(self.item)
-        handle.write_raw(self.raw, **({"keep": True} if self.keep else {}))
+        """Write it, once: without an answer nobody knows whether it arrived. Raises FieldscribeError."""
+        with carried_out_once(device):
+            if self.raw is None:
+                getattr(device, self.item).send(**self.arguments)
+                return
+            handle: Any = device.point(self.item)
+            handle.write_raw(self.raw, **({"keep": True} if self.keep else {}))
 
 
 class Planner:
