@@ -207,7 +207,7 @@ def fuzz_descriptions(count: int, seed: int, keep: Path) -> Result:
     started = time.perf_counter()
     step = max(1, min(250, count // 2))
     jobs = [(seed, first, min(first + step, count)) for first in range(0, count, step)]
-    with get_context("fork").Pool(2) as pool:
+    with get_context("spawn").Pool(2) as pool:
         wrong = [one for part in pool.imap_unordered(_part, jobs) for one in part]
     findings = []
     for index, failed in sorted(wrong):

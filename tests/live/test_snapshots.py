@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -12,9 +13,7 @@ import pytest
 from fieldscribe.live.journal import Journal, interrupted
 from fieldscribe.live.restoring import ordered
 from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
-from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
-from fieldscribe_runtime import AnyDevice
 from support.described import DEVICES, described, loaded_in, shipped
 from support.small_drive import Output
 
@@ -25,6 +24,26 @@ Values = dict[str, str | int | float]
 BEFORE: Values = {"maximum_frequency": 60, "base_frequency": 50, "acceleration_time": 7.5, "run_command": "stop"}
 AFTER: Values = {"maximum_frequency": 400, "base_frequency": 390, "acceleration_time": 20, "run_command": "run"}
 FIRST = ["F002 acceleration_time", "A004 maximum_frequency", "A020 base_frequency"]
+
+DYING = """\
+import os, sys
+from fieldscribe.cli import main
+from fieldscribe.live.writing import Write
+
+number, after, *line = sys.argv[1:]
+left, carry_out = iter(range(9)), Write.carry_out
+
+def dying(write, device):
+    dies = next(left) == int(number)
+    if not dies or int(after):
+        carry_out(write, device)
+    if dies:
+        os._exit(9)
+
+Write.carry_out = dying
+main(["restore", "a.json", "--yes", *line])
+"""
+"""A restore that ends at once, before or after it writes a setting."""
 
 
 @pytest.fixture
@@ -91,17 +110,12 @@ def test_another_device_gets_all_settings(device: str, run: Run, tmp_path: Path)
 
 @pytest.mark.parametrize("after", [False, True])
 @pytest.mark.parametrize("number", [0, 1, 2])
-def test_the_journal_of_a_killed_restore_is_right(
-    number: int, *, after: bool, drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_journal_of_a_killed_restore_is_right(number: int, *, after: bool, drive: Simulated, on_line: Run) -> None:
     """The process ends at once, before or after the device has the number; then the restore starts again."""
     assert FIRST[number]  # three settings differ
-    pid = os.fork()
-    if pid == 0:
-        _die_at(number, monkeypatch, after=after)
-        on_line("restore", "a.json", "--yes")
-        os._exit(1)
-    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 9
+    line = ("--line", f"tcp://127.0.0.1:{drive.port}", "--timeout", "0.5")
+    ended = subprocess.run([sys.executable, "-c", DYING, str(number), str(int(after)), *line], check=False)
+    assert ended.returncode == 9
     assert interrupted(Path("a.json.journal")) == (
         json.loads(Path("a.json.journal").read_text("utf-8").splitlines()[0])["started"],
         f"hitachi_l200, unit 1, tcp://127.0.0.1:{drive.port}",
@@ -116,19 +130,6 @@ def test_the_journal_of_a_killed_restore_is_right(
     assert f"perhaps written: {FIRST[number]}\n" in again.err
     assert (again.code, interrupted(Path("a.json.journal"))) == (0, None)
     assert all(drive.values[name] == BEFORE[name] for name in names)
-
-
-def _die_at(number: int, monkeypatch: pytest.MonkeyPatch, *, after: bool) -> None:
-    left, carry_out = iter(range(9)), Write.carry_out
-
-    def dying(write: Write, device: AnyDevice) -> None:
-        dies = next(left) == number
-        if not dies or after:
-            carry_out(write, device)
-        if dies:
-            os._exit(9)
-
-    monkeypatch.setattr(Write, "carry_out", dying)
 
 
 def test_a_journal_that_ends_anywhere_tells_of_what_is_whole(tmp_path: Path) -> None:
