@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
-from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.conditions import absent
@@ -88,14 +87,15 @@ def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearErr
 
 def points_by_name(device: Device) -> Mapping[str, Point]:
     """Return the points by the names that rules and limits use; those of the last device are kept."""
-    if _named[0] is not device.points:
-        _named[:] = device.points, {point.name: point for point in device.points}
-    points: Mapping[str, Point] = _named[1]
-    return points
+    points, by_name = _named[0]
+    if points is not device.points:
+        by_name = {point.name: point for point in device.points}
+        _named[0] = device.points, by_name  # both at once, for other threads
+    return by_name
 
 
-_named: list[Any] = [None, {}]
-"""The points of a device, and the same by name."""
+_named: list[tuple[Sequence[Point], Mapping[str, Point]]] = [((), {})]
+"""The points of the last device, and the same by name."""
 
 
 def same_meaning(first: Point, second: Point) -> bool:

@@ -103,11 +103,12 @@ _kept: list[Lowered] = []
 
 def lower(device: Device) -> Lowered:
     """Return the lowered model of a device, made once for all that ask for the same points and errata."""
-    for lowered in _kept:
+    for lowered in tuple(_kept):
         if lowered.device.points is device.points and lowered.device.errata is device.errata:
             return lowered
-    _kept[:] = [Lowered(device), *_kept[:1]]
-    return _kept[0]
+    made = Lowered(device)
+    _kept[:] = [made, *_kept[:1]]
+    return made
 
 
 def named_numbers(shape: Shape) -> Enum | None:

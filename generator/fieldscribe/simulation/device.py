@@ -12,8 +12,8 @@ from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.words import raw_of, split, with_fixed
 from fieldscribe.model import Command, Point, Source
 from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.layout import Area, Cells, Layout
-from fieldscribe.simulation.memory import Memory, joined_cells
+from fieldscribe.simulation.layout import Area, Cells, Layout, joined_cells
+from fieldscribe.simulation.memory import Memory
 from fieldscribe.simulation.values import Plant, Values
 from fieldscribe.wording import label
 
@@ -120,17 +120,13 @@ class SimulatedDevice:
     def read(self, area: Area, addresses: Sequence[int]) -> list[int]:
         """Return the cells at these addresses. Raises Refusal: something must be there that can be read."""
         self.advance()
-        held = self.memory.areas.get(area, {})
-        readers, fixed = self.layout.readers.get(area, {}), self.layout.fixed.get(area, {})
-        steps = self.layout.steps.get(area, ())
+        readable = self.layout.readable.get(area, frozenset())
         for address in addresses:
-            points = readers.get(address, ())
-            if not points and address not in fixed and address not in steps:
-                raise Refusal("address", f"nothing is at {area[0]} {address}")
-            if points and not any(point.access != "w" for point in points):
-                raise Refusal("write_only", f"{label(points[0])} can only be written", points[0])
+            if address not in readable:
+                raise self._unreadable(area, address)
         if self.strict:
             self._look_at_parts(area, addresses)
+        held = self.memory.areas.get(area, {})
         return [held[address] for address in addresses]
 
     def write(self, area: Area, cells: Mapping[int, int], *, keep: bool | None = None) -> list[Point]:
@@ -200,6 +196,12 @@ class SimulatedDevice:
         """Take down what a client did that was refused."""
         source = None if refusal.point is None else refusal.point.source
         self.complain(rule or refusal.kind.replace("_", " "), refusal.why, source)
+
+    def _unreadable(self, area: Area, address: int) -> Refusal:
+        points = self.layout.readers.get(area, {}).get(address, ())
+        if points:
+            return Refusal("write_only", f"{label(points[0])} can only be written", points[0])
+        return Refusal("address", f"nothing is at {area[0]} {address}")
 
     def _command(self, area: Area, cells: Mapping[int, int]) -> Command | None:
         if len(cells) != 1:

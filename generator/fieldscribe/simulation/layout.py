@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
+from fieldscribe.arithmetic.words import mask_of, reader_of, split
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.bases import at_bases
 from fieldscribe.conversation.selection import choose_variants
@@ -26,6 +27,28 @@ class Cells(NamedTuple):
     area: Area
     addresses: tuple[int, ...]
     size: int
+
+
+RawReader = Callable[[Mapping[Area, Mapping[int, int]]], int]
+"""Takes the raw number of a point out of words by area and address."""
+
+
+def joined_cells(numbers: list[int], size: int) -> int:
+    """Return the numbers of cells that hold `size` words each as one number, the high one first."""
+    pattern = 0
+    for number in numbers:
+        pattern = pattern << 16 * size | number & mask_of(16 * size)
+    return pattern
+
+
+def _raw_reader(point: Point, cells: Cells) -> RawReader:
+    area, addresses, size = cells
+    read, first = reader_of(point), addresses[0]
+    if size > 1:
+        return lambda areas: read(split(joined_cells([areas[area][at] for at in addresses], size), point.words))
+    if len(addresses) > 1:
+        return lambda areas: read([areas[area][at] for at in addresses])
+    return lambda areas: read((areas[area][first],))
 
 
 class Layout:
@@ -83,6 +106,21 @@ class Layout:
         self.least.update(point.name for point in self.points.values() if {point.name, point.code} & times)
         self.order = tuple(_in_order(self.points))
         """The points, each behind those that its scale, its limits and its condition need."""
+        self.readable = {area: self._readable(area) for area in (*self.readers, *self.fixed, *self.steps)}
+        """The cells that can be read."""
+        self._raws: dict[str, RawReader] = {}
+
+    def raw_reader(self, name: str) -> RawReader:
+        """Return the function that takes the raw number of a point out of words; it is made once."""
+        if name not in self._raws:
+            self._raws[name] = _raw_reader(self.points[name], self.cells[name])
+        return self._raws[name]
+
+    def _readable(self, area: Area) -> frozenset[int]:
+        readers = self.readers.get(area, {})
+        readable = (at for at, points in readers.items() if any(point.access != "w" for point in points))
+        words = self.fixed.get(area, {}).keys() | self.steps.get(area, set())
+        return frozenset(readable) | (words - readers.keys())
 
     def _place(self, point: Point) -> None:
         name = point.name

@@ -9,7 +9,7 @@ from threading import RLock
 from typing import Any
 
 from fieldscribe.arithmetic.codec import setting_of
-from fieldscribe.arithmetic.words import insert, joined, mask_of, raw_of, split, words_of
+from fieldscribe.arithmetic.words import insert, joined, words_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
 from fieldscribe.simulation.starting import corrected_raw, starting_raw
@@ -38,8 +38,7 @@ class Memory:
 
     def raw(self, name: str) -> int:
         """Return the raw number of a point."""
-        point = self.layout.points[name]
-        return raw_of(point, self.words(point, self.layout.cells[name]))
+        return self.layout.raw_reader(name)(self.areas)
 
     def put(self, name: str, raw: int) -> None:
         """Let a point hold a raw number, whatever the rules say."""
@@ -55,13 +54,6 @@ class Memory:
         """Return True if the condition of the point holds now."""
         return point.when is None or point.when.holds(self.facts)
 
-    def words(self, point: Point, cells: Cells) -> tuple[int, ...]:
-        """Return the words of a point, high part first, as they lie in these cells."""
-        held = self.areas[cells.area]
-        if cells.size == 1:
-            return tuple([held[address] for address in cells.addresses])
-        return split(joined_cells([held[address] for address in cells.addresses], cells.size), point.words)
-
     def _put(self, point: Point, cells: Cells, raw: int) -> None:
         held = self.areas[cells.area]
         if point.bits is not None:
@@ -70,14 +62,6 @@ class Memory:
             held.update(zip(cells.addresses, words_of(point, raw), strict=True))
         else:
             held[cells.addresses[0]] = joined(words_of(point, raw))
-
-
-def joined_cells(numbers: list[int], size: int) -> int:
-    """Return the numbers of cells that hold `size` words each as one number, the high one first."""
-    pattern = 0
-    for number in numbers:
-        pattern = pattern << 16 * size | number & mask_of(16 * size)
-    return pattern
 
 
 class Lookup(Mapping[str, Any]):
@@ -106,11 +90,12 @@ _MOST_STARTS = 64
 
 def _start(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
     key = id(layout), seed
-    if key not in _starts:
-        while len(_starts) >= _MOST_STARTS:
-            del _starts[next(iter(_starts))]
-        _starts[key] = layout, _first_words(layout, seed)
-    return _starts[key][1]
+    with LOCK:
+        if key not in _starts:
+            while len(_starts) >= _MOST_STARTS:
+                del _starts[next(iter(_starts))]
+            _starts[key] = layout, _first_words(layout, seed)
+        return _starts[key][1]
 
 
 def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
