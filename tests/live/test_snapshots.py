@@ -75,7 +75,7 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     restored = on_line("restore", "a.json", "--yes", "--keep")
     assert restored.code == 0
     assert "written: enter" in restored.out
-    assert "left out, and different: run_command; --only NAME restores" in restored.err
+    assert "does not say that they are settings: run_command; --only NAME" in restored.err
     assert on_line("restore", "a.json", "--yes", "--only", "run_command").code == 0
     assert {name: drive.values[name] for name in BEFORE} == BEFORE
     on_line("snapshot", "hitachi_l200", "--out", "b.json")
@@ -90,6 +90,20 @@ def test_a_snapshot_has_all_but_the_point_without_an_answer(drive: Simulated, on
     done = on_line("snapshot", "hitachi_l200", "--out", "b.json", "--retries", "0")
     assert (done.code, done.out) == (1, "233 points in b.json, 1 without a number\n")
     assert "did not reply" in done.err
+
+
+def test_what_no_description_calls_a_setting_is_restored_by_all(run: Run, tmp_path: Path) -> None:
+    """No parameter of the MPU2-S has a word on how it is kept."""
+    file, line = str(tmp_path / "a.json"), ("--line", "can://virtual/woodward_mpu2s", "--timeout", "0.2")
+    with simulated("woodward_mpu2s", on="can") as genset:
+        assert run("snapshot", "woodward_mpu2s", "--out", file, *line).code in (0, 1)
+        held = genset.values["generator_rated_frequency"]
+        genset.values["generator_rated_frequency"] = 60
+        left = run("restore", file, *line, "--yes")
+        assert "settings: generator_rated_frequency; --only NAME or GROUP restores some, --all" in left.err, left
+        assert genset.values["generator_rated_frequency"] == 60
+        assert "written: " in run("restore", file, *line, "--yes", "--all").out
+        assert genset.values["generator_rated_frequency"] == held
 
 
 @pytest.mark.parametrize("device", ["hitachi_l200", "eastron_sdm630"])

@@ -33,13 +33,17 @@ EXAMPLE = f"""examples:
   fieldscribe restore before.json pump --only A020 --only standard_a --yes   (a station of fieldscribe.toml)
 
 first reads the device, and writes only what differs: settings, by what the description says of how they are kept, that
-they never change by themselves, or their defaults. --only names others. Limits, conditions and scales order the writes.
+they never change by themselves, or their defaults. --only names others, --all takes all that can be written, commands
+and setpoints too. Limits, conditions and scales order the writes.
 FILE.journal notes each write before and after it; after an early end the next start says what was written
 
 {LINES}
 
 ends with 1 when something cannot be written or was not, or the answer is no; with 2 when the line or the device does
 not answer, and where nobody can be asked"""
+
+_MOST_NAMES = 8
+"""How many points that are left out are named."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -49,6 +53,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_live(parser, optional=True)
     add_unit(parser)
     add_repeated(parser, "--only", "POINT|GROUP", "restore only this, whatever it is")
+    add("--all", action="store_true", help="also restore what the description calls no setting, as commands, setpoints")
     add_repeated(parser, "--without", "POINT|GROUP", "do not restore this, as a baud rate or an address")
     add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("--dry-run", action="store_true", help="only show what would be written")
@@ -67,7 +72,7 @@ def run(arguments: Namespace) -> int:
         now = _taken(live)
         order = ordered(live.model, now, wanted, _chooser(live, arguments))
         writes = _planned(live, now, order, keep=arguments.keep)
-        _print_rest(live, order, by_name=bool(arguments.only))
+        _print_rest(live, order, by_name=bool(arguments.only or arguments.all))
         done = Done(writes, order.refused, order.same)
         if not arguments.dry_run:
             if writes and not arguments.yes:
@@ -117,7 +122,8 @@ def _taken(live: Live) -> Snapshot:
 
 def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
     """Return what chooses points: settings, or those of `--only`, but for those of `--without`. Raises UnclearError."""
-    only = _named(live, arguments.only) if arguments.only else is_setting
+    usual: Callable[[Point], bool] = (lambda _point: True) if arguments.all else is_setting
+    only = _named(live, arguments.only) if arguments.only else usual
     without = _named(live, arguments.without)
     return lambda point: only(point) and not without(point)
 
@@ -144,8 +150,13 @@ def _print_rest(live: Live, order: Order, *, by_name: bool) -> None:
     if order.unknown:
         lines.append([("warning", visible(f"not in the description: {', '.join(order.unknown)}"))])
     if order.others and not by_name:
-        text = f"left out, and different: {', '.join(order.others)}; --only NAME restores what is no setting"
-        lines.append([("hint", visible(text))])
+        names = ", ".join(order.others[:_MOST_NAMES])
+        more = f" and {len(order.others) - _MOST_NAMES} more" if order.others[_MOST_NAMES:] else ""
+        why = f"the description of {live.model.id} does not say that they are settings"
+        text = (
+            f"left out, and different, for {why}: {names}{more}; --only NAME or GROUP restores some, --all all of them"
+        )
+        lines.append([("warning", visible(text))])
     print_lines(lines, sys.stderr)
 
 
