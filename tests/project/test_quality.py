@@ -122,6 +122,14 @@ def test_a_suppression_without_a_reason_is_found(name: str, text: str, bare: boo
     assert bool(_bare_suppressions(tmp_path / name)) is bare
 
 
+@pytest.mark.parametrize("target", ["c", "rust"])
+def test_no_generated_line_is_wide(target: str) -> None:
+    sources = [path for path in (ROOT / "generated" / target).rglob("*") if path.suffix in {".h", ".c", ".rs"}]
+    assert len(sources) > 20
+    lines = [(path, line) for path in sources for line in path.read_text("utf-8").splitlines()]
+    assert [(path, line) for path, line in lines if len(line) > 120] == []
+
+
 def test_runtime_sources_carry_their_licence() -> None:
     sources = [p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"}]
     assert len(sources) > 100

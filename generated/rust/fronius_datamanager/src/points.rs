@@ -118,7 +118,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::AcCurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent", with.ac_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent",
+                with.ac_current_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::AcCurrent; }
 }
@@ -138,7 +139,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseACurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent", with.ac_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent",
+                with.ac_current_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseACurrent; }
 }
@@ -158,7 +160,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseBCurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent", with.ac_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent",
+                with.ac_current_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseBCurrent; }
 }
@@ -178,7 +181,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseCCurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent", with.ac_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_current_exponent",
+                with.ac_current_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseCCurrent; }
 }
@@ -214,7 +218,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseAToBVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseAToBVoltage; }
 }
@@ -234,7 +239,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseBToCVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseBToCVoltage; }
 }
@@ -254,7 +260,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseCToAVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseCToAVoltage; }
 }
@@ -274,7 +281,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseAVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseAVoltage; }
 }
@@ -294,7 +302,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseBVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseBVoltage; }
 }
@@ -314,7 +323,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PhaseCVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.ac_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent", with.ac_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("ac_voltage_exponent",
+                with.ac_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::PhaseCVoltage; }
 }
@@ -386,7 +396,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::Frequency|
         runtime::Rule::new(1, 1).unless(matches!(with.frequency_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("frequency_exponent", with.frequency_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("frequency_exponent",
+                with.frequency_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::Frequency; }
 }
@@ -422,7 +433,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ApparentPower|
         runtime::Rule::new(1, 1).unless(matches!(with.apparent_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("apparent_power_exponent", with.apparent_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("apparent_power_exponent",
+                with.apparent_power_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::ApparentPower; }
 }
@@ -458,7 +470,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ReactivePower|
         runtime::Rule::new(1, 1).unless(matches!(with.reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_exponent", with.reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_exponent",
+                with.reactive_power_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::ReactivePower; }
 }
@@ -494,7 +507,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::PowerFactor|
         runtime::Rule::new(1, 1).unless(matches!(with.power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("power_factor_exponent", with.power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("power_factor_exponent",
+                with.power_factor_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::PowerFactor; }
 }
@@ -533,7 +547,8 @@ point! {
     raw 0..=4_294_967_294;
     => reading_or_error f64 as ruled(|with: with::LifetimeEnergy|
         runtime::Rule::new(1, 1).unless(matches!(with.lifetime_energy_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("lifetime_energy_exponent", with.lifetime_energy_exponent, -10, 10)?); wide true);
+            ?.over_ten_to(runtime::arithmetic::exponent("lifetime_energy_exponent",
+                with.lifetime_energy_exponent, -10, 10)?); wide true);
     codes (special::InverterU32::CODES);
     read { with with::LifetimeEnergy; }
 }
@@ -569,7 +584,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::DcCurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.dc_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("dc_current_exponent", with.dc_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("dc_current_exponent",
+                with.dc_current_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::DcCurrent; }
 }
@@ -605,7 +621,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::DcVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.dc_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("dc_voltage_exponent", with.dc_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("dc_voltage_exponent",
+                with.dc_voltage_exponent, -10, 10)?));
     codes (special::InverterU16::CODES);
     read { with with::DcVoltage; }
 }
@@ -677,7 +694,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::CabinetTemperature|
         runtime::Rule::new(1, 1).unless(matches!(with.temperature_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent", with.temperature_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent",
+                with.temperature_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::CabinetTemperature; }
 }
@@ -697,7 +715,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::HeatSinkTemperature|
         runtime::Rule::new(1, 1).unless(matches!(with.temperature_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent", with.temperature_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent",
+                with.temperature_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::HeatSinkTemperature; }
 }
@@ -717,7 +736,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::TransformerTemperature|
         runtime::Rule::new(1, 1).unless(matches!(with.temperature_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent", with.temperature_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent",
+                with.temperature_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::TransformerTemperature; }
 }
@@ -737,7 +757,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::OtherTemperature|
         runtime::Rule::new(1, 1).unless(matches!(with.temperature_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent", with.temperature_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("temperature_exponent",
+                with.temperature_exponent, -10, 10)?));
     codes (special::InverterS16::CODES);
     read { with with::OtherTemperature; }
 }
@@ -929,7 +950,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::RatedPower|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_exponent", with.rated_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_exponent",
+                with.rated_power_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::RatedPower; }
 }
@@ -965,7 +987,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::RatedApparentPower|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_apparent_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_apparent_power_exponent", with.rated_apparent_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_apparent_power_exponent",
+                with.rated_apparent_power_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::RatedApparentPower; }
 }
@@ -1002,7 +1025,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedReactivePowerQ1|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent", with.rated_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent",
+                with.rated_reactive_power_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedReactivePowerQ1; }
 }
@@ -1023,7 +1047,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedReactivePowerQ2|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent", with.rated_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent",
+                with.rated_reactive_power_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedReactivePowerQ2; }
 }
@@ -1044,7 +1069,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedReactivePowerQ3|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent", with.rated_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent",
+                with.rated_reactive_power_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedReactivePowerQ3; }
 }
@@ -1065,7 +1091,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedReactivePowerQ4|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent", with.rated_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_reactive_power_exponent",
+                with.rated_reactive_power_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedReactivePowerQ4; }
 }
@@ -1101,7 +1128,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::RatedCurrent|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_current_exponent", with.rated_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_current_exponent",
+                with.rated_current_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::RatedCurrent; }
 }
@@ -1136,7 +1164,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedPowerFactorQ1|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent", with.rated_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent",
+                with.rated_power_factor_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedPowerFactorQ1; }
 }
@@ -1155,7 +1184,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedPowerFactorQ2|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent", with.rated_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent",
+                with.rated_power_factor_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedPowerFactorQ2; }
 }
@@ -1174,7 +1204,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedPowerFactorQ3|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent", with.rated_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent",
+                with.rated_power_factor_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedPowerFactorQ3; }
 }
@@ -1193,7 +1224,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::RatedPowerFactorQ4|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent", with.rated_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_power_factor_exponent",
+                with.rated_power_factor_exponent, -10, 10)?));
     codes (special::NameplateS16::CODES);
     read { with with::RatedPowerFactorQ4; }
 }
@@ -1229,7 +1261,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::RatedEnergy|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_energy_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_energy_exponent", with.rated_energy_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_energy_exponent",
+                with.rated_energy_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::RatedEnergy; }
 }
@@ -1265,7 +1298,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::RatedCharge|
         runtime::Rule::new(1, 1).unless(matches!(with.rated_charge_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("rated_charge_exponent", with.rated_charge_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("rated_charge_exponent",
+                with.rated_charge_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::RatedCharge; }
 }
@@ -1301,7 +1335,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumChargeRate|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_charge_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_rate_exponent", with.maximum_charge_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_rate_exponent",
+                with.maximum_charge_rate_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::MaximumChargeRate; }
 }
@@ -1338,7 +1373,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumDischargeRate|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_discharge_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_discharge_rate_exponent", with.maximum_discharge_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_discharge_rate_exponent",
+                with.maximum_discharge_rate_exponent, -10, 10)?));
     codes (special::NameplateU16::CODES);
     read { with with::MaximumDischargeRate; }
 }
@@ -1350,7 +1386,8 @@ point! {
     ///
     /// Special code: `8000h` `not_implemented`.
     #[doc(alias = "MaxDisChaRte_SF")]
-    MaximumDischargeRateExponent of crate::FroniusDatamanager: i16 = "maximum_discharge_rate_exponent", "MaxDisChaRte_SF";
+    MaximumDischargeRateExponent of crate::FroniusDatamanager: i16
+        = "maximum_discharge_rate_exponent", "MaxDisChaRte_SF";
     at Holding 0x001A from "models_120";
     const REGISTER: u32 = 40_148;
     raw -10..=10;
@@ -1374,7 +1411,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumPower|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_power_exponent", with.maximum_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_power_exponent",
+                with.maximum_power_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::MaximumPower; }
     write { with with::MaximumPower; }
@@ -1395,7 +1433,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ReferenceVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.reference_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reference_voltage_exponent", with.reference_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reference_voltage_exponent",
+                with.reference_voltage_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::ReferenceVoltage; }
     write { with with::ReferenceVoltage; }
@@ -1417,7 +1456,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ReferenceVoltageOffset|
         runtime::Rule::new(1, 1).unless(matches!(with.reference_voltage_offset_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reference_voltage_offset_exponent", with.reference_voltage_offset_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reference_voltage_offset_exponent",
+                with.reference_voltage_offset_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::ReferenceVoltageOffset; }
     write { with with::ReferenceVoltageOffset; }
@@ -1440,7 +1480,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.voltage_limits_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("voltage_limits_exponent", with.voltage_limits_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("voltage_limits_exponent",
+                with.voltage_limits_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::MaximumVoltage; }
     write { with with::MaximumVoltage; }
@@ -1463,7 +1504,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MinimumVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.voltage_limits_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("voltage_limits_exponent", with.voltage_limits_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("voltage_limits_exponent",
+                with.voltage_limits_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::MinimumVoltage; }
     write { with with::MinimumVoltage; }
@@ -1486,7 +1528,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumApparentPower|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_apparent_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_apparent_power_exponent", with.maximum_apparent_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_apparent_power_exponent",
+                with.maximum_apparent_power_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::MaximumApparentPower; }
     write { with with::MaximumApparentPower; }
@@ -1508,7 +1551,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MaximumReactivePowerQ1|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent", with.maximum_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent",
+                with.maximum_reactive_power_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MaximumReactivePowerQ1; }
 }
@@ -1529,7 +1573,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MaximumReactivePowerQ2|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent", with.maximum_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent",
+                with.maximum_reactive_power_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MaximumReactivePowerQ2; }
 }
@@ -1550,7 +1595,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MaximumReactivePowerQ3|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent", with.maximum_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent",
+                with.maximum_reactive_power_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MaximumReactivePowerQ3; }
 }
@@ -1571,7 +1617,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MaximumReactivePowerQ4|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent", with.maximum_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_reactive_power_exponent",
+                with.maximum_reactive_power_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MaximumReactivePowerQ4; }
 }
@@ -1593,7 +1640,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PowerRampRate|
         runtime::Rule::new(1, 1).unless(matches!(with.power_ramp_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("power_ramp_rate_exponent", with.power_ramp_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("power_ramp_rate_exponent",
+                with.power_ramp_rate_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::PowerRampRate; }
 }
@@ -1612,7 +1660,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MinimumPowerFactorQ1|
         runtime::Rule::new(1, 1).unless(matches!(with.minimum_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent", with.minimum_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent",
+                with.minimum_power_factor_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MinimumPowerFactorQ1; }
 }
@@ -1631,7 +1680,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MinimumPowerFactorQ2|
         runtime::Rule::new(1, 1).unless(matches!(with.minimum_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent", with.minimum_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent",
+                with.minimum_power_factor_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MinimumPowerFactorQ2; }
 }
@@ -1650,7 +1700,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MinimumPowerFactorQ3|
         runtime::Rule::new(1, 1).unless(matches!(with.minimum_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent", with.minimum_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent",
+                with.minimum_power_factor_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MinimumPowerFactorQ3; }
 }
@@ -1669,7 +1720,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::MinimumPowerFactorQ4|
         runtime::Rule::new(1, 1).unless(matches!(with.minimum_power_factor_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent", with.minimum_power_factor_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("minimum_power_factor_exponent",
+                with.minimum_power_factor_exponent, -10, 10)?));
     codes (special::SettingsS16::CODES);
     read { with with::MinimumPowerFactorQ4; }
 }
@@ -1721,7 +1773,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumRampRate|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_ramp_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_ramp_rate_exponent", with.maximum_ramp_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_ramp_rate_exponent",
+                with.maximum_ramp_rate_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::MaximumRampRate; }
 }
@@ -1741,7 +1794,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::NominalFrequency|
         runtime::Rule::new(1, 1).unless(matches!(with.nominal_frequency_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("nominal_frequency_exponent", with.nominal_frequency_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("nominal_frequency_exponent",
+                with.nominal_frequency_exponent, -10, 10)?));
     codes (special::SettingsU16::CODES);
     read { with with::NominalFrequency; }
 }
@@ -1801,7 +1855,8 @@ point! {
     ///
     /// Special code: `8000h` `not_implemented`.
     #[doc(alias = "VRefOfs_SF")]
-    ReferenceVoltageOffsetExponent of crate::FroniusDatamanager: i16 = "reference_voltage_offset_exponent", "VRefOfs_SF";
+    ReferenceVoltageOffsetExponent of crate::FroniusDatamanager: i16
+        = "reference_voltage_offset_exponent", "VRefOfs_SF";
     at Holding 0x0018 from "models_121";
     const REGISTER: u32 = 40_174;
     raw -10..=10;
@@ -2076,7 +2131,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::AvailableReactivePower|
         runtime::Rule::new(1, 1).unless(matches!(with.available_reactive_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("available_reactive_power_exponent", with.available_reactive_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("available_reactive_power_exponent",
+                with.available_reactive_power_exponent, -10, 10)?));
     codes (special::StatusS16::CODES);
     read { with with::AvailableReactivePower; }
 }
@@ -2088,7 +2144,8 @@ point! {
     ///
     /// Special code: `8000h` `not_implemented`.
     #[doc(alias = "VArAval_SF")]
-    AvailableReactivePowerExponent of crate::FroniusDatamanager: i16 = "available_reactive_power_exponent", "VArAval_SF";
+    AvailableReactivePowerExponent of crate::FroniusDatamanager: i16
+        = "available_reactive_power_exponent", "VArAval_SF";
     at Holding 0x001E from "models_122";
     const REGISTER: u32 = 40_212;
     raw -10..=10;
@@ -2112,7 +2169,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::AvailablePower|
         runtime::Rule::new(1, 1).unless(matches!(with.available_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("available_power_exponent", with.available_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("available_power_exponent",
+                with.available_power_exponent, -10, 10)?));
     codes (special::StatusU16::CODES);
     read { with with::AvailablePower; }
 }
@@ -2236,7 +2294,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::IsolationResistance|
         runtime::Rule::new(1, 1).unless(matches!(with.isolation_resistance_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("isolation_resistance_exponent", with.isolation_resistance_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("isolation_resistance_exponent",
+                with.isolation_resistance_exponent, -10, 10)?));
     codes (special::StatusU16::CODES);
     read { with with::IsolationResistance; }
 }
@@ -2325,7 +2384,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::PowerLimit|
         runtime::Rule::new(1, 1).unless(matches!(with.power_limit_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("power_limit_exponent", with.power_limit_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("power_limit_exponent",
+                with.power_limit_exponent, -10, 10)?));
     codes (special::ControlsU16::CODES);
     read { with with::PowerLimit; }
     write { with with::PowerLimit; }
@@ -2419,7 +2479,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::PowerFactorSetpoint|
         runtime::Rule::new(1, 1).unless(matches!(with.power_factor_setpoint_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("power_factor_setpoint_exponent", with.power_factor_setpoint_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("power_factor_setpoint_exponent",
+                with.power_factor_setpoint_exponent, -10, 10)?));
     codes (special::ControlsS16::CODES);
     read { with with::PowerFactorSetpoint; }
     write { with with::PowerFactorSetpoint; }
@@ -2514,7 +2575,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ReactivePowerOfMaximumPower|
         runtime::Rule::new(1, 1).unless(matches!(with.reactive_power_percent_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent", with.reactive_power_percent_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent",
+                with.reactive_power_percent_exponent, -10, 10)?));
     codes (special::ControlsS16::CODES);
     read { with with::ReactivePowerOfMaximumPower; }
 }
@@ -2535,7 +2597,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ReactivePowerOfMaximum|
         runtime::Rule::new(1, 1).unless(matches!(with.reactive_power_percent_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent", with.reactive_power_percent_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent",
+                with.reactive_power_percent_exponent, -10, 10)?));
     codes (special::ControlsS16::CODES);
     read { with with::ReactivePowerOfMaximum; }
     write { with with::ReactivePowerOfMaximum; }
@@ -2557,7 +2620,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ReactivePowerOfAvailable|
         runtime::Rule::new(1, 1).unless(matches!(with.reactive_power_percent_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent", with.reactive_power_percent_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("reactive_power_percent_exponent",
+                with.reactive_power_percent_exponent, -10, 10)?));
     codes (special::ControlsS16::CODES);
     read { with with::ReactivePowerOfAvailable; }
 }
@@ -2890,7 +2954,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModuleCurrentIndex1|
         runtime::Rule::new(1, 1).unless(matches!(with.module_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_current_exponent", with.module_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_current_exponent",
+                with.module_current_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModuleCurrentIndex1; }
 }
@@ -2910,7 +2975,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModuleCurrentIndex2|
         runtime::Rule::new(1, 1).unless(matches!(with.module_current_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_current_exponent", with.module_current_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_current_exponent",
+                with.module_current_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModuleCurrentIndex2; }
 }
@@ -2930,7 +2996,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModuleVoltageIndex1|
         runtime::Rule::new(1, 1).unless(matches!(with.module_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_voltage_exponent", with.module_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_voltage_exponent",
+                with.module_voltage_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModuleVoltageIndex1; }
 }
@@ -2950,7 +3017,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModuleVoltageIndex2|
         runtime::Rule::new(1, 1).unless(matches!(with.module_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_voltage_exponent", with.module_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_voltage_exponent",
+                with.module_voltage_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModuleVoltageIndex2; }
 }
@@ -2970,7 +3038,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModulePowerIndex1|
         runtime::Rule::new(1, 1).unless(matches!(with.module_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_power_exponent", with.module_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_power_exponent",
+                with.module_power_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModulePowerIndex1; }
 }
@@ -2990,7 +3059,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ModulePowerIndex2|
         runtime::Rule::new(1, 1).unless(matches!(with.module_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_power_exponent", with.module_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("module_power_exponent",
+                with.module_power_exponent, -10, 10)?));
     codes (special::MpptU16::CODES);
     read { with with::ModulePowerIndex2; }
 }
@@ -3010,7 +3080,8 @@ point! {
     unit "Wh";
     => value_or_error f64 as ruled(|with: with::ModuleEnergyIndex1|
         runtime::Rule::new(1, 1).unless(matches!(with.module_energy_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_energy_exponent", with.module_energy_exponent, -10, 10)?); wide true);
+            ?.over_ten_to(runtime::arithmetic::exponent("module_energy_exponent",
+                with.module_energy_exponent, -10, 10)?); wide true);
     read { with with::ModuleEnergyIndex1; }
 }
 
@@ -3029,7 +3100,8 @@ point! {
     unit "Wh";
     => value_or_error f64 as ruled(|with: with::ModuleEnergyIndex2|
         runtime::Rule::new(1, 1).unless(matches!(with.module_energy_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("module_energy_exponent", with.module_energy_exponent, -10, 10)?); wide true);
+            ?.over_ten_to(runtime::arithmetic::exponent("module_energy_exponent",
+                with.module_energy_exponent, -10, 10)?); wide true);
     read { with with::ModuleEnergyIndex2; }
 }
 
@@ -3192,7 +3264,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumChargePower|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_charge_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_power_exponent", with.maximum_charge_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_power_exponent",
+                with.maximum_charge_power_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::MaximumChargePower; }
 }
@@ -3212,7 +3285,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::ChargeRampRate|
         runtime::Rule::new(1, 1).unless(matches!(with.charge_ramp_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("charge_ramp_rate_exponent", with.charge_ramp_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("charge_ramp_rate_exponent",
+                with.charge_ramp_rate_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::ChargeRampRate; }
 }
@@ -3232,7 +3306,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::DischargeRampRate|
         runtime::Rule::new(1, 1).unless(matches!(with.charge_ramp_rate_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("charge_ramp_rate_exponent", with.charge_ramp_rate_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("charge_ramp_rate_exponent",
+                with.charge_ramp_rate_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::DischargeRampRate; }
 }
@@ -3270,7 +3345,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MaximumChargeApparentPower|
         runtime::Rule::new(1, 1).unless(matches!(with.maximum_charge_apparent_power_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_apparent_power_exponent", with.maximum_charge_apparent_power_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("maximum_charge_apparent_power_exponent",
+                with.maximum_charge_apparent_power_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::MaximumChargeApparentPower; }
 }
@@ -3290,7 +3366,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::MinimumReserve|
         runtime::Rule::new(1, 1).unless(matches!(with.minimum_reserve_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("minimum_reserve_exponent", with.minimum_reserve_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("minimum_reserve_exponent",
+                with.minimum_reserve_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::MinimumReserve; }
     write { with with::MinimumReserve; }
@@ -3311,7 +3388,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::StateOfCharge|
         runtime::Rule::new(1, 1).unless(matches!(with.state_of_charge_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("state_of_charge_exponent", with.state_of_charge_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("state_of_charge_exponent",
+                with.state_of_charge_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::StateOfCharge; }
 }
@@ -3331,7 +3409,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::AvailableCharge|
         runtime::Rule::new(1, 1).unless(matches!(with.available_charge_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("available_charge_exponent", with.available_charge_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("available_charge_exponent",
+                with.available_charge_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::AvailableCharge; }
 }
@@ -3351,7 +3430,8 @@ point! {
     raw 0..=65_534;
     => reading_or_error f64 as ruled(|with: with::BatteryVoltage|
         runtime::Rule::new(1, 1).unless(matches!(with.battery_voltage_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("battery_voltage_exponent", with.battery_voltage_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("battery_voltage_exponent",
+                with.battery_voltage_exponent, -10, 10)?));
     codes (special::StorageU16::CODES);
     read { with with::BatteryVoltage; }
 }
@@ -3387,7 +3467,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::DischargeLimit|
         runtime::Rule::new(1, 1).unless(matches!(with.storage_limits_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("storage_limits_exponent", with.storage_limits_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("storage_limits_exponent",
+                with.storage_limits_exponent, -10, 10)?));
     codes (special::StorageS16::CODES);
     read { with with::DischargeLimit; }
     write { with with::DischargeLimit; }
@@ -3408,7 +3489,8 @@ point! {
     raw -32_767..=32_767;
     => reading_or_error f64 as ruled(|with: with::ChargeLimit|
         runtime::Rule::new(1, 1).unless(matches!(with.storage_limits_exponent, -32_768))
-            ?.over_ten_to(runtime::arithmetic::exponent("storage_limits_exponent", with.storage_limits_exponent, -10, 10)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("storage_limits_exponent",
+                with.storage_limits_exponent, -10, 10)?));
     codes (special::StorageS16::CODES);
     read { with with::ChargeLimit; }
     write { with with::ChargeLimit; }
@@ -3521,7 +3603,8 @@ point! {
     ///
     /// Special code: `8000h` `not_implemented`.
     #[doc(alias = "VAChaMax_SF")]
-    MaximumChargeApparentPowerExponent of crate::FroniusDatamanager: i16 = "maximum_charge_apparent_power_exponent", "VAChaMax_SF";
+    MaximumChargeApparentPowerExponent of crate::FroniusDatamanager: i16
+        = "maximum_charge_apparent_power_exponent", "VAChaMax_SF";
     at Holding 0x0014 from "models_124";
     const REGISTER: u32 = 40_324;
     raw -10..=10;
@@ -3683,7 +3766,8 @@ point! {
     ///
     /// `F_Storage_Restrictions_View_Mode` at holding 00D8h (216), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "F_Storage_Restrictions_View_Mode")]
-    StorageRestrictionsViewMode of crate::FroniusDatamanager: u16 = "storage_restrictions_view_mode", "F_Storage_Restrictions_View_Mode";
+    StorageRestrictionsViewMode of crate::FroniusDatamanager: u16
+        = "storage_restrictions_view_mode", "F_Storage_Restrictions_View_Mode";
     at Holding 0x00D8;
     const REGISTER: u32 = 217;
     raw 0..=1;

@@ -140,7 +140,8 @@ point! {
     const NR: u32 = 3;
     unit "W";
     => value_or_error f64 as ruled(|with: with::GeneratorActivePower|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_power_exponent", with.generator_power_exponent, 0, 5)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_power_exponent",
+                with.generator_power_exponent, 0, 5)?));
     read { count i64; with with::GeneratorActivePower; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -197,7 +198,8 @@ point! {
     decimals 4;
     => value_or_error f64 as ruled(|with: with::PresentActivePowerSetpoint|
         runtime::Rule::new(2800, 1).over(with.active_power_setpoint_factor)
-            ?.over_ten_to(runtime::arithmetic::exponent("generator_power_exponent", with.generator_power_exponent, 0, 5)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("generator_power_exponent",
+                with.generator_power_exponent, 0, 5)?));
     read { count i64; with with::PresentActivePowerSetpoint; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -232,7 +234,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::BusbarVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("busbar_voltage_exponent", with.busbar_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("busbar_voltage_exponent",
+                with.busbar_voltage_exponent, -4, 4)?));
     read { count i64; with with::BusbarVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -251,7 +254,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -347,7 +351,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2L3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL2L3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -366,7 +371,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3L1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL3L1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -385,7 +391,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL1N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -404,7 +411,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL2N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -423,7 +431,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL3N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -442,7 +451,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent",
+                with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -461,7 +471,8 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent",
+                with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -480,7 +491,8 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent",
+                with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -499,7 +511,8 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent",
+                with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -641,7 +654,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL2L3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL2L3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -660,7 +674,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL3L1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL3L1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -679,7 +694,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL1N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL1N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -698,7 +714,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL2N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL2N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -717,7 +734,8 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL3N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent",
+                with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL3N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 _WIDTH = 100
@@ -126,11 +126,18 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
 
 
 def chained(steps: Sequence[str]) -> Lines:
-    """Return a chain of fallible calls, on one line or with a line for each call."""
+    """Return a chain of fallible calls, on one line or with a line for each call; arguments are broken if they must."""
     line = "?".join(steps)
     if len(line) <= _FREE_WIDTH:
         return (line,)
-    return steps[0], *(f"    ?{step}" for step in steps[1:])
+    lines = [steps[0], *(f"    ?{step}" for step in steps[1:])]
+    return tuple(part for line in lines for part in _broken(line))
+
+
+def _broken(line: str) -> Iterator[str]:
+    """Yield a line of a macro, broken at the first space behind which the rest fits: no text in it has a space."""
+    place = 0 if len(line) <= _FREE_WIDTH else line.find(" ", max(8, len(line) - _FREE_WIDTH + 8))
+    yield from (line[:place], f"        {line[place + 1 :]}") if place > 0 else (line,)
 
 
 def chain(item: Item, start: str, steps: list[str]) -> Lines:

@@ -51,15 +51,16 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     if point.limit_arguments:
         yield tuple(_limits(point, scope))
     elif point.form == "float":
-        yield from ((ranges,) for ranges in _float_ranges(point))
+        if ranges := _float_ranges(point):
+            yield filled("ranges [", ", ", ranges, "];")
     elif point.text is not None and point.text.is_bytes:
         yield ("check runtime::form::packed::any::<Self>;",)
     elif point.form == "text" and point.text is not None and point.text.encoding == "ascii":
         yield (f"check runtime::form::{'text' if point.text.is_plain else 'packed'}::ascii::<Self>;",)
     elif point.form == "digits" and point.digits is not None:
         yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
-    elif point.form != "text" and len(ranges := point.allowed.fixed) > 1:
-        yield filled("in [", " | ", [interval(*limits) for limits in ranges], "];")
+    elif point.form != "text" and len(spans := point.allowed.fixed) > 1:
+        yield filled("in [", " | ", [interval(*limits) for limits in spans], "];")
 
 
 def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
@@ -82,13 +83,13 @@ def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
     return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (literals.integer(bound),)
 
 
-def _float_ranges(point: Point) -> Iterator[str]:
-    """Yield the limits as numbers of the type; empty if they are the type's own limits."""
+def _float_ranges(point: Point) -> list[str]:
+    """Return the limits as numbers of the type; empty if they are the type's own limits."""
     greatest = literals.FLOAT_GREATEST[point.width]
     ends = [[literals.nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
-    if ends and ends != [[-greatest, greatest]]:
-        pairs = ", ".join(f"({literals.float_literal(low)}, {literals.float_literal(high)})" for low, high in ends)
-        yield f"ranges [{pairs}];"
+    if ends == [[-greatest, greatest]]:
+        return []
+    return [f"({literals.float_literal(low)}, {literals.float_literal(high)})" for low, high in ends]
 
 
 def _write_place(point: Point, scope: CrateScope) -> Iterator[Lines]:

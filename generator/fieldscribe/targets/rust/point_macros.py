@@ -25,6 +25,8 @@ from fieldscribe.wording import raw_range_text
 _UNLIMITED = ("float", "text", "digits")
 """The forms of points whose limits are no raw numbers."""
 
+_WIDTH = 116
+"""Of the first line of a point, which is indented by 4."""
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
@@ -32,7 +34,7 @@ class MacroFields(NamedTuple):
     """The words that only one point has, or placeholders for them; what it lacks is empty.
 
     `doc` is the whole doc comment. `alias` is the manual's code if people may search for it. `low` and `high` bound the
-    raw numbers. `addresses` and `references` are facts of several lines. No line break depends on the width of a field.
+    raw numbers. `addresses` and `references` are facts of several lines. Only the first line breaks by their width.
     """
 
     doc: str
@@ -69,9 +71,9 @@ class _PointTemplates:
     def text(self, subject: CratePoint) -> str:
         """Return the text of a point."""
         fields, traits = self._fields(subject), tuple(self._traits(subject, self._scope))
-        whole = subject.key, traits, fields.alias == "", fields.low == ""
+        whole = subject.key, traits, fields.alias == "", fields.low == "", _is_long(subject, fields, self._scope)
         return self._templates.fill(
-            whole, fields, lambda: self._laid_out(subject, MacroFields._make(placeholders(fields)), traits)
+            whole, fields, lambda: self._laid_out(subject, MacroFields._make(placeholders(fields)), traits, whole[-1])
         )
 
     def _fields(self, subject: CratePoint) -> MacroFields:
@@ -97,18 +99,28 @@ class _PointTemplates:
             _references(point.place.references),
         )
 
-    def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...]) -> str:
+    def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...], is_long: bool) -> str:
         self.names_runtime |= bool(traits) or _names_runtime(subject)
-        facts = (*_facts(subject.renamed(fields.item, fields.name), fields, self._scope), *traits)
+        named = subject.renamed(fields.item, fields.name)
+        facts = (*_head(named, fields, self._scope, is_long), *_facts(named, fields, self._scope), *traits)
         text = self._render("rust/point.rs.j2", {"doc": fields.doc, "alias": fields.alias, "facts": facts})
         return text + old_names_text(fields.name, subject.point.old_items, self._render)
 
 
-def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
-    """Yield the facts in the order of the macro."""
-    point = subject.point
+def _head(subject: CratePoint, fields: MacroFields, scope: CrateScope, is_long: bool) -> tuple[str, ...]:
+    """Return the names and types of the point; the names in texts on a line of their own if they are long."""
     type_ = f"{fields.name} of crate::{scope.device_type}: {subject.raw}"
-    yield f'{type_} = "{fields.item}"{fields.code and ", "}{fields.code};'
+    named = f'= "{fields.item}"{fields.code and ", "}{fields.code};'
+    return (type_, f"    {named}") if is_long else (f"{type_} {named}",)
+
+
+def _is_long(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> bool:
+    return len(_head(subject, fields, scope, False)[0]) > _WIDTH
+
+
+def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
+    """Yield the further facts in the order of the macro."""
+    point = subject.point
     yield from _whereabouts(point, fields)
     if fields.references:
         yield fields.references
