@@ -117,6 +117,28 @@ def toml_string(text: str) -> str:
     return '"' + "".join([char if char.isprintable() else f"\\U{ord(char):08X}" for char in cleaned]) + '"'
 
 
+_SCRIPT = re.compile(r"<(?=[!/])|(?<=--)>")
+"""What would end or begin something if the code stood in a page: `</script`, `<!--`, `-->`."""
+
+
+def js_string(text: str) -> str:
+    """Return a JavaScript string literal with its quotes, which is safe in a page too."""
+    if _BARE.fullmatch(text):
+        return f'"{text}"'
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    if not cleaned.isprintable():
+        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
+    escaped = _SCRIPT.sub(lambda found: f"\\x{ord(found[0]):02x}", cleaned)
+    return f'"{escaped}"'
+
+
+def js_comment(text: str) -> str:
+    """Return text for a `/** */` or `//` comment: without an end of it, tags of JSDoc, or links."""
+    if _BARE.fullmatch(text):
+        return text.replace("*/", "* /")
+    return _SCRIPT.sub(" ", line(text).replace("*/", "* /").replace("@", "(at)").replace("{", "("))
+
+
 @lru_cache(maxsize=4096)
 def dbc_string(text: str) -> str:
     """Return a string of a CAN database with its quotes: Latin-1, without quotes and backslashes inside."""
@@ -160,6 +182,17 @@ def pascal(name: str) -> str:
     for part in parts[1:]:
         joined_digits = part[:1].isdigit() and result[-1:].isdigit()
         result += ("_" if joined_digits else "") + part.capitalize()
+    return result
+
+
+@lru_cache(maxsize=65536)
+def camel(name: str) -> str:
+    """Return `base_frequency` as `baseFrequency`; an underscore between digits stays, and so does one at an end."""
+    first, *parts = name.split("_")
+    result = first
+    for part in parts:
+        joined_digits = part[:1].isdigit() and result[-1:].isdigit()
+        result += ("_" if joined_digits or not part or not result else "") + (part[:1].upper() + part[1:])
     return result
 
 

@@ -17,7 +17,7 @@ SHIPPED = [shipped(path.parent.name) for path in sorted(descriptions_dir().glob(
 
 def test_targets_are_written_in_the_order_that_help_names() -> None:
     """Code first, in the order of its users, then what is made of the same facts for people and for tests."""
-    assert TARGETS == ("c", "python", "rust", "docs", "vectors")
+    assert TARGETS == ("c", "python", "rust", "typescript", "docs", "vectors")
     assert [name for name in TARGETS if target(name).SEES_TITLES] == ["docs"]
 
 

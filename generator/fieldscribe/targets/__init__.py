@@ -49,6 +49,7 @@ TARGETS = (
     "c",
     "python",
     "rust",
+    "typescript",
     "docs",
     "vectors",
 )

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: 0BSD
+/** Everything that can go wrong, as errors: one base class, and `status` names the case. */
+
+/**
+ * Base of all errors of generated devices; `status` is a stable name for programs.
+ *
+ * `point` says which point was asked for; of several that one request reads, which they are; else the command or the
+ * place. `group` is the group that was read, `needs` another point that had to be read first.
+ */
+export class FieldscribeError extends Error {
+  /** @param {string} message @param {string} [status] */
+  constructor(message, status = "error") {
+    super(message);
+    this.name = new.target.name;
+    this.text = message;
+    this.status = status;
+    /** @type {string | undefined} */
+    this.point = undefined;
+    /** @type {string | undefined} */
+    this.group = undefined;
+    /** @type {string | undefined} */
+    this.needs = undefined;
+    /** @type {unknown} */
+    this.value = undefined;
+    /** @type {readonly unknown[] | undefined} */
+    this.limits = undefined;
+  }
+
+  /** Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake. */
+  get lost() {
+    return false;
+  }
+
+  /**
+   * Say what the error is about; what is known already stays. Returns the error.
+   * @param {{ point?: string, group?: string, needs?: string, value?: unknown, limits?: readonly unknown[] }} about
+   */
+  about(about) {
+    this.point = this.point ?? about.point;
+    this.group = this.group ?? about.group;
+    this.needs = this.needs ?? about.needs;
+    this.value = this.value ?? about.value;
+    this.limits = this.limits ?? about.limits;
+    return this.reworded();
+  }
+
+  /**
+   * Say that the error came while another point was read which that one needs. Returns the error.
+   * @param {string} point
+   */
+  needing(point) {
+    if (this.point !== point) this.needs = this.needs ?? this.point;
+    this.point = point;
+    return this.reworded();
+  }
+
+  /** The same error, to be raised once more. @returns {FieldscribeError} */
+  copied() {
+    return Object.create(Object.getPrototypeOf(this), Object.getOwnPropertyDescriptors(this));
+  }
+
+  /** @private */
+  reworded() {
+    const parts = [this.group && `group ${this.group}`, this.point, this.needs && `needs ${this.needs}`, this.text];
+    this.message = parts.filter((part) => part !== undefined && part !== "").join(": ");
+    return this;
+  }
+}
+
+/** A value or raw number cannot be converted. */
+export class CodecError extends FieldscribeError {}
+
+/** The number may not be written. */
+export class OutOfRangeError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "out_of_range");
+  }
+}
+
+/** The value is NaN. */
+export class NotANumberError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "not_a_number");
+  }
+}
+
+/** The value is of a type that the point does not take. */
+export class WrongTypeError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "wrong_type");
+  }
+}
+
+/** The number is none of the named ones, and only those may be written. */
+export class UnknownValueError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "unknown_value");
+  }
+}
+
+/** Another point that the scale or a limit needs is zero. */
+export class ZeroFactorError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "zero_factor");
+  }
+}
+
+/** No scale fits the numbers of the points that choose it. */
+export class NoCaseError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "no_case");
+  }
+}
+
+/** The result is too large to be represented. */
+export class ResultOverflowError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "overflow");
+  }
+}
+
+/** A special code stands where a quantity belongs, or is to be written and only read; `special` is its name. */
+export class SpecialCodeError extends CodecError {
+  /** @param {string} special @param {string} message */
+  constructor(special, message) {
+    super(message, "special");
+    this.special = special;
+  }
+}
+
+/** The words do not hold what they should: a text that is no UTF-8 or UTF-16. */
+export class MalformedError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "malformed");
+  }
+}
+
+/** Too few or too many words for this point. */
+export class WrongLengthError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "wrong_length");
+  }
+}
+
+/** The conversion needs the raw number of another point, and `raws` does not hold it. */
+export class MissingRawError extends CodecError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "missing_raw");
+  }
+}
+
+/** The device has the point or the group, but not this: it is only written, belongs to another device, ... */
+export class AccessError extends FieldscribeError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "no_access");
+  }
+}
+
+/** The device has no such point: the name is unknown, the point is documented only, or another variant has it. */
+export class AbsentError extends AccessError {}
+
+/** What answers is another device: a point holds something else than the description says. */
+export class OtherDeviceError extends FieldscribeError {
+  /** @param {string} message */
+  constructor(message) {
+    super(message, "other_device");
+  }
+}
+
+/** The device did not come to what a step of a command waits for; `held` are the words that it had last. */
+export class WaitError extends FieldscribeError {
+  /** @param {string} message @param {readonly number[]} held */
+  constructor(message, held) {
+    super(message, "not_reached");
+    this.held = held;
+  }
+}
+
+/** A block of addresses cannot be found: `no_marker`, `bad_chain`, `no_block` or `behind_end`. */
+export class BlockError extends FieldscribeError {
+  /** @param {string} status @param {string} message */
+  constructor(status, message) {
+    super(message, status);
+  }
+}
+
+/** The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...). */
+export class RequestError extends FieldscribeError {
+  /** @param {string} status @param {string} message */
+  constructor(status, message) {
+    super(message, status);
+  }
+}
+
+const FINAL_STATUS = ["exception", "refused", "no_rights", "echo_mismatch", "wrong_type"];
+
+/** The reply is no good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...). */
+export class FrameError extends FieldscribeError {
+  /** @param {string} status @param {string} message */
+  constructor(status, message) {
+    super(message, status);
+    /** Process data that came in the same telegram, where the rest of it was good. @type {readonly number[]} */
+    this.words = [];
+  }
+
+  get lost() {
+    return !FINAL_STATUS.includes(this.status);
+  }
+}
+
+/** The device took a write and confirmed another value than the one `written`: `answered` is what it has now. */
+export class EchoError extends FrameError {
+  /** @param {string} message @param {readonly number[]} written @param {readonly number[]} answered */
+  constructor(message, written, answered) {
+    super("echo_mismatch", message);
+    this.written = written;
+    this.answered = answered;
+  }
+}
+
+/** The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. */
+export class ExceptionReplyError extends FrameError {
+  /** @param {number} code @param {string} [codeName] */
+  constructor(code, codeName) {
+    const hex = code.toString(16).toUpperCase().padStart(2, "0");
+    super("exception", `the device answered exception ${hex}h${codeName ? ` (${codeName})` : ""}`);
+    this.code = code;
+    this.codeName = codeName;
+  }
+
+  /** Whether a gateway says that the unit is not there (codes 0Ah and 0Bh, unless the device names them). */
+  get lost() {
+    return this.codeName === undefined && (this.code === 0x0a || this.code === 0x0b);
+  }
+}
+
+/** The device refused the task with an error number `code`; `codeName` is the manual's name for it, where known. */
+export class RefusedError extends FrameError {
+  /** @param {number} code @param {string} [codeName] */
+  constructor(code, codeName) {
+    super("refused", `the device refused the task: error ${code}${codeName ? ` (${codeName})` : ""}`);
+    this.code = code;
+    this.codeName = codeName;
+  }
+}
+
+/** Words of a telegram cannot be told; `status` is `missing` (not all came yet) or `torn` (they do not agree). */
+export class TelegramError extends FieldscribeError {
+  /** @param {string} status @param {string} message */
+  constructor(status, message) {
+    super(message, status);
+  }
+}
+
+/** Nothing came that answers, in time; `received` is what came in its place. */
+export class NoReplyError extends FieldscribeError {
+  /** @param {string} message @param {Uint8Array} [received] */
+  constructor(message, received) {
+    super(message, "timeout");
+    this.received = received;
+  }
+
+  get lost() {
+    return true;
+  }
+}
+
+/** The line itself failed: it cannot be opened, or the other side is gone. `unsent`: the request was not sent. */
+export class LineError extends FieldscribeError {
+  /** @param {string} message @param {boolean} [unsent] */
+  constructor(message, unsent = false) {
+    super(message, "line");
+    this.unsent = unsent;
+  }
+
+  get lost() {
+    return true;
+  }
+}
+
+/** A value as text for messages. @param {unknown} value @returns {string} */
+export function shown(value) {
+  if (typeof value === "string") return `'${value}'`.slice(0, 80);
+  if (Array.isArray(value)) return `[${value.map(shown).join(", ")}]`.slice(0, 80);
+  return String(value).slice(0, 80);
+}

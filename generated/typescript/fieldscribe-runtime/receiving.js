@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: 0BSD
+/** Replies from bytes as they come, without any I/O, and what requests of all families are checked for. */
+import { FrameError, NoReplyError, RequestError, shown } from "./errors.js";
+
+/**
+ * What a line must know of the reply to a request. Nobody answers a `broadcast`: a line resolves at once with no bytes.
+ *
+ * `size` tells the length of the frame that begins with these bytes, null while they are too few; `isOwn` whether a
+ * whole frame belongs to the request: it has its unit, or transaction.
+ * @typedef {object} ReplyShape
+ * @property {string} framing
+ * @property {boolean} broadcast
+ * @property {number} shortest
+ * @property {number} longest
+ * @property {(received: Uint8Array) => number | null} size
+ * @property {(frame: Uint8Array) => boolean} isOwn
+ */
+
+/**
+ * Carries one request to the bus and one reply back; rejects with NoReplyError when none comes in time, and with
+ * LineError where the line itself failed. Lines take one exchange after the other.
+ * @typedef {object} Line
+ * @property {string} [framing] what the frames look like: `rtu`, `tcp`, `pdu` or `uss`
+ * @property {(request: Uint8Array, reply: ReplyShape) => Promise<Uint8Array>} exchange
+ */
+
+/** Collects the reply to one request out of bytes as they come. Whole frames of others are dropped. */
+export class ReplyReader {
+  /** @param {ReplyShape} shape */
+  constructor(shape) {
+    this.shape = shape;
+    /** @type {Uint8Array} */
+    this.received = new Uint8Array(0);
+    /** @type {Uint8Array | undefined} */
+    this.foreign = undefined;
+  }
+
+  /**
+   * Add bytes that came; returns the reply once it is whole. Raises FrameError (long_frame) when there are more bytes
+   * than any frame has, and no frame among them.
+   * @param {Uint8Array} data @returns {Uint8Array | undefined}
+   */
+  take(data) {
+    const { size, longest, isOwn } = this.shape;
+    this.received = joinedBytes(this.received, data);
+    for (;;) {
+      const length = this.received.length;
+      const expected = size(this.received);
+      if (expected !== null && expected > longest) {
+        throw new FrameError("long_frame", `${quotedBytes(this.received)}: a frame has at most ${longest} bytes`);
+      }
+      if (expected === null || length < expected) {
+        if (length < longest) return undefined;
+        throw new FrameError("long_frame", `${quotedBytes(this.received)}, more than any frame has`);
+      }
+      const frame = this.received.subarray(0, expected);
+      if (isOwn(frame)) return frame;
+      this.foreign = frame;
+      this.received = this.received.subarray(expected);
+    }
+  }
+
+  /** The last frame of another address, for the error that names it; raises NoReplyError without one. */
+  giveUp() {
+    if (this.foreign && !(this.received.length && this.shape.isOwn(this.received))) return this.foreign;
+    if (!this.received.length) throw new NoReplyError("no byte came");
+    throw new NoReplyError(`${quotedBytes(this.received)}, which are no reply`, this.received);
+  }
+}
+
+/** @param {Uint8Array} received @returns {string} */
+function quotedBytes(received) {
+  const first = [...received.subarray(0, 16)].map(hex2).join(" ");
+  return `${received.length} bytes came (${first}${received.length > 16 ? " ..." : ""}); is the baud rate right?`;
+}
+
+/** @param {Uint8Array} first @param {Uint8Array} second @returns {Uint8Array} */
+export function joinedBytes(first, second) {
+  if (!first.length) return second;
+  const joined = new Uint8Array(first.length + second.length);
+  joined.set(first);
+  joined.set(second, first.length);
+  return joined;
+}
+
+/** A byte as two hexadecimal digits. @param {number} byte @returns {string} */
+export function hex2(byte) {
+  return byte.toString(16).toUpperCase().padStart(2, "0");
+}
+
+/** The words of bytes, the high byte first. @param {Uint8Array} data @returns {number[]} */
+export function wordsOfBytes(data) {
+  return Array.from({ length: data.length >> 1 }, (_, at) => (data[2 * at] << 8) | data[2 * at + 1]);
+}
+
+/** Raises FrameError (wrong_type) for what is no reply at all. @param {unknown} reply */
+export function checkBytes(reply) {
+  if (!(reply instanceof Uint8Array)) throw new FrameError("wrong_type", `a reply is a Uint8Array, not ${shown(reply)}`);
+}
+
+/** Raises RequestError for what is no integer. @param {string} status @param {string} what @param {unknown} number */
+export function checkInteger(status, what, number) {
+  if (!Number.isSafeInteger(number)) throw new RequestError(status, `${what} is an integer, not ${shown(number)}`);
+}
+
+/** The same, also for one that lies outside of the ends.
+ * @param {string} status @param {string} what @param {number} number @param {readonly [number, number]} ends */
+export function checkNumber(status, what, number, [low, high]) {
+  checkInteger(status, what, number);
+  if (number < low || number > high) throw new RequestError(status, `${what} ${number} is outside ${low}..${high}`);
+}

@@ -1,0 +1,596 @@
+// SPDX-License-Identifier: 0BSD
+/**
+ * What a device is asked, in which order: the part of all devices that knows no bus. How words travel is the family's
+ * part: a subclass with `_get` and `_store`. Names with an underscore are for subclasses and commands.
+ */
+import { giveCommand, paused } from "./commands.js";
+import {
+  AbsentError,
+  AccessError,
+  EchoError,
+  ExceptionReplyError,
+  FieldscribeError,
+  NoReplyError,
+  OtherDeviceError,
+  RequestError,
+  shown,
+} from "./errors.js";
+import { placeLabel, placesOverlap } from "./places.js";
+import { attributeName, labelOf, pointExists, PointTable } from "./table.js";
+
+/** @typedef {import("./places.js").Place} Place */
+/** @typedef {import("./table.js").AnyPoint} AnyPoint */
+/** @typedef {Map<AnyPoint, FieldscribeError>} Refusals */
+/** @typedef {Map<AnyPoint, number | bigint>} PointRaws */
+
+/**
+ * What is common to the options of all devices: the unit, and variants and given numbers by name.
+ * @typedef {{ unit: number, [name: string]: unknown }} DeviceOptions
+ */
+
+/** Exceptions that say that a request does not suit the device: no such function, address, or number of words. */
+const LASTING_CODES = [0x01, 0x02, 0x03];
+
+/** @param {FieldscribeError} error */
+function isLasting(error) {
+  return error instanceof ExceptionReplyError && LASTING_CODES.includes(error.code);
+}
+
+/** A device on a bus: its unit number, its variants, and what is remembered of it. One operation at a time. */
+export class Session {
+  /** The points of the device; `defineDevice` sets it. @type {PointTable} */
+  get table() {
+    throw new RequestError("bad_device", "takes the class of a generated device");
+  }
+
+  /** @param {any} line @param {DeviceOptions} options */
+  constructor(line, options) {
+    if (typeof line?.exchange !== "function") {
+      throw new RequestError("bad_transport", `a line has a method exchange(request, reply); ${shown(line)} has none`);
+    }
+    if (typeof options !== "object" || options === null) {
+      throw new RequestError("bad_unit", `takes options as { unit: 1 }, not ${shown(options)}`);
+    }
+    this.line = line;
+    this.unit = options.unit;
+    this.variants = this.table.variants(options);
+    /** So often a request is sent again after the line lost it or its reply; a command is sent once. */
+    this.retries = 0;
+    /** Seconds between a failure and the next try. */
+    this.retryPause = 0;
+    /** Requests, good replies, and failures by status. */
+    this.traffic = { requests: 0, replies: 0, errors: /** @type {Record<string, number>} */ ({}) };
+    this._profile = this.table.facts.profile;
+    /** @type {PointRaws} */
+    this._kept = new Map();
+    /** What `readMany` does not request again. @type {Refusals} */
+    this._refused = new Map();
+    this._isFirstDue = true;
+    this._isOnce = false;
+    /** @type {Promise<unknown>} */
+    this._turn = Promise.resolve();
+    /** @type {Map<AnyPoint, any>} */
+    this._handles = new Map();
+  }
+
+  /** Read the words or bits of a place, in ascending order of address. @param {Place} at @returns {Promise<number[]>} */
+  async _get(at) {
+    throw new RequestError("bad_space", `${placeLabel(at)} cannot be read`);
+  }
+
+  /** Write words or bits at a place, in ascending order of address. @param {Place} at @param {readonly number[]} words */
+  async _store(at, words) {
+    throw new RequestError("bad_space", `${placeLabel(at)} cannot take ${words.length} words`);
+  }
+
+  /** Carry out an operation once those before it are done, before it the commands that come first.
+   * @template T @param {() => Promise<T>} work @param {boolean} [prepares] @returns {Promise<T>} */
+  _run(work, prepares = true) {
+    const turn = this._turn.then(async () => {
+      if (this._isFirstDue && prepares) {
+        await this._automatic("first");
+        this._isFirstDue = false;
+      }
+      return work();
+    });
+    this._turn = turn.catch(() => undefined);
+    return turn;
+  }
+
+  /** Give the commands that a device gives by itself. @param {string} run */
+  async _automatic(run) {
+    for (const [name, given] of Object.entries(this.table.facts.commands ?? {})) {
+      if ("requests" in given && given.run === run) await giveCommand(this, name, given);
+    }
+  }
+
+  /** Send nothing again meanwhile: what a device did already must not be done twice.
+   * @template T @param {() => Promise<T>} work @returns {Promise<T>} */
+  async _once(work) {
+    this._isOnce = true;
+    try {
+      return await work();
+    } finally {
+      this._isOnce = false;
+    }
+  }
+
+  /** Add to errors raised meanwhile what was requested. @template T
+   * @param {AnyPoint | readonly AnyPoint[] | string} what @param {() => Promise<T>} work @returns {Promise<T>} */
+  async _about(what, work) {
+    try {
+      return await work();
+    } catch (error) {
+      if (!(error instanceof FieldscribeError)) throw error;
+      const asked = Array.isArray(what) ? what : [what];
+      const labels = asked.slice(0, 4).map((one) => (typeof one === "string" ? one : labelOf(one)));
+      const more = asked.length > 4 ? ` and ${asked.length - 4} more` : "";
+      throw error.about({ point: labels.join(", ") + more });
+    }
+  }
+
+  /** Carry out one request, again while the line loses it, as often as is left; failures are counted.
+   * @template T @param {number} left @param {() => Promise<T>} ask @returns {Promise<T>} */
+  async _retried(left, ask) {
+    for (; ; left--) {
+      try {
+        const result = await ask();
+        this.traffic.replies++;
+        return result;
+      } catch (error) {
+        if (!(error instanceof FieldscribeError)) throw error;
+        this.traffic.errors[error.status] = (this.traffic.errors[error.status] ?? 0) + 1;
+        if (left <= 0 || this._isOnce || !error.lost) throw error;
+      }
+      if (this.retryPause) await paused(this.retryPause);
+    }
+  }
+
+  /** One exchange over the line; `awaited` is said where no reply comes. @param {any} request @param {any} reply
+   * @param {string} awaited @returns {Promise<any>} */
+  async _exchange(request, reply, awaited) {
+    this.traffic.requests++;
+    try {
+      return await this.line.exchange(request, reply);
+    } catch (error) {
+      const isTimeout = error instanceof NoReplyError || /** @type {any} */ (error)?.name === "TimeoutError";
+      if (!isTimeout) throw error;
+      const { text = "", received = undefined } = error instanceof NoReplyError ? error : {};
+      throw new NoReplyError(text ? `${awaited}: ${text}` : awaited, received);
+    }
+  }
+
+  /** What a test of a step compares: the value of an axis, or the raw number of a point. @param {string} of
+   * @returns {Promise<number | string>} */
+  async _compared(of) {
+    if (!(of in (this.table.facts.variants ?? {}))) {
+      return Number(await this._readRaw(this.table.resolved(of, this.variants)));
+    }
+    const value = this.variants[of];
+    if (value === undefined) throw new AccessError(`depends on ${of}: pass it when the device is made`);
+    return value;
+  }
+
+  /** @param {AnyPoint} point @returns {Promise<number | bigint>} */
+  _readRaw(point) {
+    return this._about(point, async () => this._taken(point, await this._get(point.at)));
+  }
+
+  /** The raw number in words that came; it is remembered if the description says when it changes.
+   * @param {AnyPoint} point @param {readonly number[]} words @returns {number | bigint} */
+  _taken(point, words) {
+    const raw = point.fromWords(words);
+    const { changes, changesWith } = point.facts;
+    if (changes === "never" || changes === "rarely" || changesWith?.length) this._kept.set(point, raw);
+    this._refused.delete(point);
+    return raw;
+  }
+
+  /** The raw numbers that a point needs of others, by name: those known, those remembered, the rest read.
+   *
+   * What is written must not follow from a number that has changed meanwhile, by another master or by hand: then only
+   * what never changes is taken from memory.
+   * @param {AnyPoint} point @param {Iterable<string>} names
+   * @param {{ known?: PointRaws, refusals?: Refusals, writes?: boolean }} [how]
+   * @returns {Promise<Record<string, number | bigint>>}
+   */
+  async _raws(point, names, { known, refusals, writes } = {}) {
+    /** @type {Record<string, number | bigint>} */
+    const raws = {};
+    for (const name of names) {
+      const other = this._needed(point, name);
+      const isKept = this._kept.has(other) && (!writes || other.facts.changes === "never");
+      const held = known?.get(other) ?? (isKept ? this._kept.get(other) : undefined);
+      if (held !== undefined) {
+        raws[name] = held;
+        continue;
+      }
+      try {
+        const refused = refusals?.get(other);
+        if (refused) throw refused.copied();
+        raws[name] = await this._readRaw(other);
+      } catch (error) {
+        throw error instanceof FieldscribeError ? error.needing(labelOf(point)) : error;
+      }
+    }
+    return raws;
+  }
+
+  /** The point that another one needs; raises AccessError that says so. @param {AnyPoint} point @param {string} name
+   * @returns {AnyPoint} */
+  _needed(point, name) {
+    const found = this.table.found(name, this.variants);
+    if (found) return found;
+    throw new AccessError(`${labelOf(point)} needs ${name}, which ${this.table.absence(name, this.variants)}`);
+  }
+
+  /** Read a point's value. @param {AnyPoint} point @returns {Promise<any>} */
+  async _read(point) {
+    const raws = await this._raws(point, point.scaleNeeds ?? []);
+    return point.decode(await this._readRaw(point), raws);
+  }
+
+  /** Write a value, to another place than the usual one where one is named.
+   * @param {AnyPoint} point @param {unknown} value @param {Place} [at] */
+  async _write(point, value, at) {
+    point.require?.(value);
+    const needs = new Set([...(point.scaleNeeds ?? []), ...(point.limitNeeds ?? [])]);
+    const raws = await this._raws(point, needs, { writes: true });
+    await this._putRaw(point, point.encode(value, raws), raws, at);
+  }
+
+  /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw @param {Place} [at] */
+  async _writeRaw(point, raw, at) {
+    point.requireRaw?.(raw);
+    const raws = await this._raws(point, point.limitNeeds ?? [], { writes: true });
+    point.check(raw, raws);
+    await this._putRaw(point, raw, raws, at);
+  }
+
+  /** Write a raw number that was checked; raises EchoError if the device confirms another one.
+   * @param {AnyPoint} point @param {number | bigint} raw @param {Record<string, number | bigint>} raws
+   * @param {Place} [at] */
+  async _putRaw(point, raw, raws, at) {
+    const isGroup = point.facts.bits !== undefined;
+    await this._automatic("before write");
+    await this._about(point, async () => {
+      const words = isGroup ? [point.insert(await this._sharedWord(point), raw)] : point.toWords(raw);
+      try {
+        await this._put(at ?? point.facts.writeAt ?? point.at, words);
+      } catch (error) {
+        if (!(error instanceof EchoError) || isGroup || error.answered.length !== point.size) throw error;
+        const answered = point.fromWords(error.answered);
+        if (point.same(raw, answered)) return;
+        const [wrote, has] = [raw, answered].map((one) => point.told(one, raws));
+        const text = `${wrote} was written, and the device answered ${has}`;
+        throw new EchoError(text, error.written, error.answered);
+      }
+    });
+  }
+
+  /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
+   * @returns {Promise<number>} */
+  async _sharedWord(point) {
+    if (!point.decode) throw new AccessError("the other bits of its word cannot be read back");
+    return (await this._get(point.at))[0];
+  }
+
+  /** Write words or bits at a place, and forget what they change. @param {Place} at @param {readonly number[]} words */
+  async _put(at, words) {
+    for (const kept of [...this._kept.keys()]) {
+      const names = kept.facts.changesWith ?? [];
+      const changing = [...this.table.points.values()].filter((point) => names.includes(point.name));
+      const places = [kept, ...changing].flatMap((point) => [point.at, point.facts.writeAt ?? point.at]);
+      if (places.some((one) => placesOverlap(at, one))) this._kept.delete(kept);
+    }
+    await this._store(at, words);
+  }
+
+  /** Read the raw numbers of several points (of a whole group, where one is named): place by place.
+   * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+   * @returns {Promise<PointRaws>} */
+  async _gather(points, group, refusals) {
+    /** @type {Map<string, AnyPoint[]>} */
+    const places = new Map();
+    for (const point of points) {
+      const key = JSON.stringify([point.at.space, point.at.telegram, point.at.base, point.at.index, point.at.addresses]);
+      places.set(key, [...(places.get(key) ?? []), point]);
+    }
+    /** @type {PointRaws} */
+    const raws = new Map();
+    for (const inside of places.values()) {
+      const ask = async () => {
+        const words = await this._get(inside[0].at);
+        return new Map(inside.map((point) => [point, this._taken(point, words)]));
+      };
+      for (const [point, raw] of await this._part(inside, refusals, ask)) raws.set(point, raw);
+    }
+    return raws;
+  }
+
+  /** Read some points by one request; where `refusals` are noted, by one each if the device refuses that.
+   * @param {readonly AnyPoint[]} points @param {Refusals | undefined} refusals @param {() => Promise<PointRaws>} ask
+   * @param {any} [block] @returns {Promise<PointRaws>} */
+  async _part(points, refusals, ask, block) {
+    let isRefusedForGood = false;
+    try {
+      return await this._about(points, ask);
+    } catch (error) {
+      if (!(error instanceof FieldscribeError) || !refusals || error.lost) throw error;
+      isRefusedForGood = isLasting(error);
+      if (points.length === 1) {
+        refusals.set(points[0], error);
+        if (isRefusedForGood) this._refused.set(points[0], error.copied());
+        return new Map();
+      }
+    }
+    /** @type {PointRaws} */
+    const raws = new Map();
+    for (const point of points) {
+      for (const [one, raw] of await this._gather([point], undefined, refusals)) raws.set(one, raw);
+    }
+    if (block && isRefusedForGood && raws.size === points.length) this._noteGaps(points, block);
+    return raws;
+  }
+
+  /** Note that the device refuses a part for what lies between its points: each of them comes by itself.
+   * @param {readonly AnyPoint[]} points @param {any} block */
+  _noteGaps(points, block) {
+    void [points, block];
+  }
+
+  /** The points of a group that are in this device; families with blocks look there. @param {AnyPoint[]} points
+   * @returns {Promise<AnyPoint[]>} */
+  async _there(points) {
+    return points;
+  }
+
+  /** Whether the words of a point travel the way the link is set; families say where that differs.
+   * @param {AnyPoint} point @returns {boolean} */
+  _isCarried(point) {
+    return point !== undefined;
+  }
+
+  /** The values of points, by name, and before them what their scales need.
+   * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+   * @returns {Promise<Record<string, any>>} */
+  async _values(points, group, refusals) {
+    const wanted = new Set(points);
+    for (const point of points) {
+      for (const name of point.scaleNeeds ?? []) {
+        const other = refusals ? this.table.found(name, this.variants) : this._needed(point, name);
+        if (other && !this._kept.has(other)) wanted.add(other);
+      }
+    }
+    const raws = await this._gather([...wanted].filter((point) => !refusals?.has(point)), group, refusals);
+    /** @type {Record<string, any>} */
+    const values = {};
+    for (const point of points) {
+      try {
+        const refused = refusals?.get(point);
+        if (refused) throw refused.copied();
+        const known = await this._raws(point, point.scaleNeeds ?? [], { known: raws, refusals });
+        values[attributeName(point.name)] = point.decode(raws.get(point), known);
+      } catch (error) {
+        if (!(error instanceof FieldscribeError) || !refusals || (error.lost && !refusals.size)) throw error;
+        values[attributeName(point.name)] = error.about({ group });
+      }
+    }
+    return values;
+  }
+
+  /** @param {string} group @returns {AnyPoint[]} */
+  _group(group) {
+    const members = [...this.table.points.values()].filter(
+      (point) => point.group === group && pointExists(point, this.variants),
+    );
+    if (!members.length) {
+      const hint = this.table.found(group, this.variants) || this.table.coded(group).length;
+      const known = hint ? `; it is a point: readMany([${shown(group)}]) reads it` : `, only ${this.table.groups().join(", ")}`;
+      throw new AccessError(`there is no group ${group}${known}`);
+    }
+    const travels = (/** @type {AnyPoint} */ point) =>
+      [point, ...(point.scaleNeeds ?? []).map((/** @type {string} */ name) => this.table.found(name, this.variants))].every(
+        (one) => !one || this._isCarried(one),
+      );
+    return members.filter((point) => point.decode && travels(point));
+  }
+
+  /** Raises AccessError if the point belongs to another variant than the one given for this device, or is not one.
+   * @param {AnyPoint} point @returns {AnyPoint} */
+  _required(point) {
+    const { variant, onlyFor } = point.facts;
+    for (const [axis, values] of [variant && [variant[0], [variant[1]]], onlyFor]) {
+      const chosen = this.variants[axis];
+      if (chosen !== undefined && !values.includes(chosen)) {
+        throw new AbsentError(`${labelOf(point)} exists only for ${axis} ${values.join(" or ")}`);
+      }
+    }
+    return point;
+  }
+
+  /** @param {unknown} what @returns {AnyPoint} */
+  _readable(what) {
+    const point = this.table.resolved(typeof what === "object" ? this._attributeOf(what) : what, this.variants);
+    if (!this._required(point).decode) throw new AccessError(`${labelOf(point)} cannot be read`);
+    return point;
+  }
+
+  /** The attribute of a point, or of one that is bound to this device. @param {any} one @returns {unknown} */
+  _attributeOf(one) {
+    const point = this.table.attributes.has(one) ? one : Object.getPrototypeOf(one);
+    const attribute = this.table.attributes.get(point);
+    const isOther = one !== point && this._handles.get(point) !== one;
+    if (attribute === undefined || isOther) throw new AccessError(`${labelOf(one)} is a point of another device`);
+    return attribute;
+  }
+
+  /** The point bound to this device. @param {AnyPoint} point @returns {any} */
+  _bound(point) {
+    let handle = this._handles.get(this._required(point));
+    if (!handle) {
+      handle = boundPoint(this, point);
+      this._handles.set(point, handle);
+    }
+    return handle;
+  }
+
+  /** Where a point is written; families with several memories choose. @param {AnyPoint} point @param {boolean} keep
+   * @returns {Place | undefined} */
+  _writePlace(point, keep) {
+    if (keep) throw new AccessError(`${labelOf(point)} has no choice of keeping its value`);
+    return undefined;
+  }
+
+  /**
+   * A point by its name, old name or code (`P0731[1]` is one element of an array), bound to this device. Raises
+   * AccessError.
+   * @param {string} what @returns {any}
+   */
+  point(what) {
+    return this._bound(this.table.resolved(what, this.variants));
+  }
+
+  /**
+   * Read a group by its name, or several points, with few requests; values by attribute.
+   *
+   * With `errors: "return"` a point that is absent, refused or without a value has its error as value, and only a lost
+   * line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the same
+   * error, until it was read in another way or `forget()` is called.
+   * @param {string | Iterable<string | object>} what @param {{ errors?: "raise" | "return" }} [how]
+   * @returns {Promise<Record<string, any>>}
+   */
+  readMany(what, { errors = "raise" } = {}) {
+    return this._run(async () => {
+      const group = typeof what === "string" ? what : undefined;
+      /** @type {Record<string, any>} */
+      const absent = {};
+      /** @type {AnyPoint[]} */
+      let points = [];
+      try {
+        if (typeof what === "string") points = await this._there(this._group(what));
+        else {
+          for (const one of what) {
+            try {
+              points.push(this._readable(one));
+            } catch (error) {
+              if (errors === "raise" || !(error instanceof AccessError) || typeof one !== "string") throw error;
+              absent[one] = error;
+            }
+          }
+        }
+        const refusals = errors === "raise" ? undefined : new Map(this._refused);
+        return { ...(await this._values(points, group, refusals)), ...absent };
+      } catch (error) {
+        throw error instanceof FieldscribeError ? error.about({ group }) : error;
+      }
+    });
+  }
+
+  /**
+   * Read what tells this device from others; returns the value of each variant axis that what it holds fits. Raises
+   * OtherDeviceError for another device.
+   * @returns {Promise<Record<string, string>>}
+   */
+  identify() {
+    return this._run(async () => {
+      /** @type {Map<string, unknown>} */
+      const held = new Map();
+      /** @type {Record<string, string>} */
+      const variants = {};
+      const rows = [...(this.table.facts.identifications ?? [])];
+      while (rows.length) {
+        const [{ variant }] = rows;
+        const end = rows.findIndex((row) => String(row.variant) !== String(variant));
+        const alternative = rows.splice(0, end < 0 ? rows.length : end);
+        if (variant && variant[0] in variants) continue;
+        const misfit = await this._misfit(alternative, held);
+        if (variant && !misfit) variants[variant[0]] = variant[1];
+        else if (!variant && misfit) throw new OtherDeviceError(misfit);
+      }
+      return variants;
+    }, false);
+  }
+
+  /** What a point holds in place of what is wanted. @param {import("./table.js").Identification[]} rows
+   * @param {Map<string, unknown>} held @returns {Promise<string | undefined>} */
+  async _misfit(rows, held) {
+    for (const { point: name, values } of rows) {
+      if (!held.has(name)) {
+        const point = this.table.resolved(name, this.variants);
+        try {
+          const raw = await this._readRaw(point);
+          held.set(name, typeof values[0] === "string" ? point.decode(raw) : raw);
+        } catch (error) {
+          if (error instanceof ExceptionReplyError) return `${name}: ${error.message}`;
+          throw error;
+        }
+      }
+      const found = /** @type {any} */ (held.get(name));
+      if (!values.includes(found)) return `${name} is ${shown(found)}, not ${values.map(shown).join(" or ")}`;
+    }
+    return undefined;
+  }
+
+  /** Read everything anew: what changes rarely or never, and what the device has refused; first commands come again. */
+  forget() {
+    this._isFirstDue = true;
+    this._kept.clear();
+    this._refused.clear();
+  }
+}
+
+/** @param {Session} session @param {AnyPoint} point @returns {any} */
+function boundPoint(session, point) {
+  const handle = Object.create(point);
+  /** @type {Record<string, unknown>} */
+  const methods = {};
+  if (point.decode) {
+    methods.read = () => session._run(() => session._read(point));
+    methods.readRaw = () => session._run(() => session._readRaw(point));
+  }
+  if (point.encode) {
+    const placed = (/** @type {{ keep?: boolean } | undefined} */ how) => session._writePlace(point, how?.keep ?? false);
+    methods.write = (/** @type {unknown} */ value, /** @type {{ keep?: boolean }} */ how) =>
+      session._run(async () => session._write(point, value, placed(how)));
+    methods.writeRaw = (/** @type {number} */ raw, /** @type {{ keep?: boolean }} */ how) =>
+      session._run(async () => session._writeRaw(point, raw, placed(how)));
+  }
+  for (const [name, value] of Object.entries(methods)) Object.defineProperty(handle, name, { value });
+  return handle;
+}
+
+/**
+ * Give a class the points and commands of a device, as attributes of its objects.
+ * @template {typeof Session} T @param {T} kind @param {import("./table.js").DeviceFacts} facts @returns {T}
+ */
+export function defineDevice(kind, facts) {
+  const table = new PointTable(facts);
+  const define = (/** @type {string} */ name, /** @type {(this: any) => unknown} */ get) =>
+    Object.defineProperty(kind.prototype, name, { get, configurable: true });
+  define("table", () => table);
+  Object.defineProperty(kind, "table", { value: table });
+  for (const [attribute, point] of table.points) {
+    define(attribute, function () {
+      return this._bound(point);
+    });
+    const shared = attributeName(point.name);
+    if (point.facts.variant && !table.points.has(shared)) {
+      define(shared, function () {
+        return this.point(point.name);
+      });
+    }
+  }
+  for (const [old, now] of Object.entries(facts.oldNames ?? {})) {
+    define(old, function () {
+      return this[now];
+    });
+  }
+  for (const [name, given] of Object.entries(facts.commands ?? {})) {
+    define(name, function () {
+      const send = (/** @type {any} */ value) => this._run(() => giveCommand(this, name, given, value));
+      return { send, every: "every" in given ? given.every : undefined };
+    });
+  }
+  return kind;
+}

@@ -1,0 +1,72 @@
+"""The TypeScript target: a package of ES modules with types per device, and the runtime that all of them share."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+
+from fieldscribe import __version__
+from fieldscribe.model import Device
+from fieldscribe.resources import Render, runtime_files
+from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.typescript.identifiers import Identifiers
+from fieldscribe.targets.typescript.namespaces import device_name_taken, identifiers
+from fieldscribe.text import js_comment, line
+
+SEES_TITLES = False
+NEEDS_FAMILY = True
+BEFORE_POINTS = ("",)
+
+_RUNTIME = "fieldscribe-runtime"
+
+
+def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
+    """Yield the files of the device's package, as paths below the output folder and their text."""
+    from fieldscribe.targets.typescript.device import device_context
+    from fieldscribe.targets.typescript.enums import enums_context
+    from fieldscribe.targets.typescript.points import points_context
+
+    del tests  # they are not generated
+    names = Identifiers(device)
+    head = {
+        "head": head_lines(device, "typescript", js_comment),
+        "product": js_comment(f"{device.vendor} {device.model}"),
+    }
+    folder = f"typescript/{names.folder}"
+    views = {
+        "enums": enums_context(device, names, render),
+        "points": points_context(device, names, render),
+        "index": device_context(device, names),
+    }
+    yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
+    for name, view in views.items():
+        for kind in ("js", "d.ts"):
+            yield f"{folder}/{name}.{kind}", render(f"typescript/{name}.{kind}.j2", {**head, "view": view})
+
+
+def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
+    """Yield the files copied beside the package: output path, and path under the templates folder.
+
+    All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
+    """
+    del device, tests  # its tests are not generated
+    for name in runtime_files(f"typescript/runtime/{_RUNTIME}"):
+        yield f"typescript/{_RUNTIME}/{name}", f"typescript/runtime/{_RUNTIME}/{name}"
+
+
+def _package(device: Device, names: Identifiers) -> dict[str, object]:
+    modules = {".": "index", "./points": "points", "./enums": "enums"}
+    return {
+        "name": names.package,
+        "version": device.version + (f"+{device.digest[:8]}" if device.command else ""),
+        "description": line(f"{device.vendor} {device.model}"),
+        "license": "0BSD",
+        "type": "module",
+        "sideEffects": False,
+        "exports": {key: {"types": f"./{name}.d.ts", "default": f"./{name}.js"} for key, name in modules.items()},
+        "files": ["*.js", "*.d.ts"],
+        "peerDependencies": {_RUNTIME: __version__},
+    }
+
+
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]

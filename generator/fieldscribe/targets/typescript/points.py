@@ -1,0 +1,138 @@
+"""The view of the points module: a constant for each point and command, with its type."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from fieldscribe.model import Device, Point
+from fieldscribe.resources import Render
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
+from fieldscribe.targets.runtime_calls.class_facts import commands_of
+from fieldscribe.targets.runtime_calls.expressions import Call, Name, Node
+from fieldscribe.targets.runtime_calls.point_call import call_of, numbers_of
+from fieldscribe.targets.runtime_calls.point_texts import end_texts, fields_of_texts, texts_of
+from fieldscribe.targets.runtime_calls.remarks import limits_text, remarks_text
+from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
+from fieldscribe.targets.typescript.families import in_typescript
+from fieldscribe.targets.typescript.identifiers import Identifiers, attribute, scope_of
+from fieldscribe.targets.typescript.layout import Layout, doc_lines
+from fieldscribe.targets.typescript.types import TYPE_NAMES, type_of
+from fieldscribe.text import js_comment, js_string
+from fieldscribe.wording import open_text
+
+_KEEP = "`keep: true`"
+"""What a program says so that a value outlives power-off."""
+
+_FIRST_LINE = ("name", "item", "at", "writeAt", "bits", "group", "code", "references")
+"""The facts that say which point it is, by their names in calls."""
+
+
+class Declared(NamedTuple):
+    """A constant: its name, the lines of its comment, its type; `old_names` are aliases."""
+
+    name: str
+    comment: tuple[str, ...]
+    type: str
+    old_names: tuple[str, ...] = ()
+
+
+def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
+    """Return the context of the points module.
+
+    `constants` are the texts of the points and commands, `imports` names of the runtime, `numbers` those of the module
+    of enums, `codes` the special codes that several points share; `declared` says all of it to type checkers.
+    """
+    del render
+    points = Points(device, names)
+    made = [point for point in device.points if point.terms.generated]
+    constants = list(map(points.text, made))
+    commands = list(points.commands())
+    declared = [*map(points.declared, made), *(found for _, found in commands)]
+    scope, layout = points.scope, points.layout
+    numbers = sorted({numbers_of(point, scope) for point in made} - {""})
+    return {
+        "constants": [*constants, *(text for text, _ in commands)],
+        "codes": [layout.laid_out(codes, 0, f"const {name} = /* @__PURE__ */ ") for name, codes in scope.codes.items()],
+        "imports": sorted({*map(layout.maker, scope.used)}),
+        "numbers": numbers,
+        "points": [attribute(point.item) for point in made],
+        "commands": list(scope.commands.values()),
+        "old_names": [(old, found.name) for found in declared for old in found.old_names],
+        "declared": declared,
+        "types": [name for name in TYPE_NAMES if any(name in found.type for found in declared)],
+        "device": js_string(device.id),
+    }
+
+
+class Points:
+    """Makes the texts of a device's constants: laid out once for all points with the same template key."""
+
+    def __init__(self, device: Device, names: Identifiers) -> None:
+        self.scope: Scope = scope_of(device, names)
+        self.layout = Layout(in_typescript(device).makers, attribute)
+        self._keys = self.scope.lowered.template_keys
+        self._texts = TextTemplates()
+        self._types: dict[tuple[int, str], str] = {}
+        self._remarks: dict[int, str] = {}
+
+    def text(self, point: Point) -> str:
+        """Return the constant of a point."""
+        leaf = self.layout.leaf
+        own = texts_of(point, numbers_of(point, self.scope), end_texts(point), (js_string, leaf))
+        fields = (attribute(point.item), js_string(point.name), *own)
+        if len(fields) > MOST_FIELDS:
+            return self._laid_out(point, fields)
+        return self._texts.fill(
+            (self._keys[id(point)], len(fields)), fields, lambda: self._laid_out(point, placeholders(fields))
+        )
+
+    def _laid_out(self, point: Point, texts: tuple[str, ...]) -> str:
+        made = call_of(point, fields_of_texts(texts[2:], point), self.scope)
+        maker, layout = self.layout.maker(made.name), self.layout
+        facts: dict[str, Node] = {"name": Name(texts[1])}
+        facts |= {} if point.variant is None else {"item": point.item}
+        facts |= {key: fact for key, fact in made.keywords.items() if key != "name"}
+        lines = ["", ""]
+        for key, fact in facts.items():
+            text = layout.flat_keyword(key, fact)
+            lines[text.partition(":")[0] not in _FIRST_LINE] += f" {text},"
+        body = "\n".join(f" {line}" for line in lines if line)
+        form = layout.flat(made.positional[0])
+        return f"export const {texts[0]} = /* @__PURE__ */ {maker}({form}, {{\n{body}\n}});\n"
+
+    def declared(self, point: Point) -> Declared:
+        """Return how a point is declared."""
+        scope, key = self.scope, self._keys[id(point)]
+        numbers = numbers_of(point, scope)
+        kind = self._types.get((key, numbers))
+        if kind is None:
+            kind = self._types[key, numbers] = type_of(point, family_calls(scope.device).maker(point), scope)
+        said = self._remarks.get(key)
+        if said is None:
+            said = self._remarks[key] = f"{remarks_text(point, scope, _KEEP)}{self._errata(point)}"
+        limits = limits_text(point, scope)
+        title = f"{point.title['en']}: {limits}" if limits else point.title["en"]
+        doc = doc_lines(js_comment(f"{title}{'' if title.endswith('.') else '.'}{said}"))
+        old = () if point.variant is not None else tuple(map(attribute, point.was))
+        return Declared(attribute(point.item), doc, kind, old)
+
+    def commands(self) -> Iterator[tuple[str, Declared]]:
+        """Yield the constants of the commands."""
+        for command, made in commands_of(self.scope):
+            name = self.scope.commands[command.name]
+            text = self.layout.laid_out(made, 0, f"export const {name} = /* @__PURE__ */ ")
+            doc = doc_lines(js_comment(command.title["en"].rstrip(".") + "."))
+            yield f"{text};\n", Declared(name, doc, _command_type(made))
+
+    def _errata(self, point: Point) -> str:
+        changing, doubts = self.scope.lowered.errata_of(point)
+        text = f" Errata: {', '.join(changing)}." if changing else ""
+        return f"{text} The {open_text(doubts)}." if doubts else text
+
+
+def _command_type(made: Call) -> str:
+    given = made.keywords.get("arguments")
+    if isinstance(given, Mapping):
+        return f"Command<{{ {'; '.join(f'{js_string(str(name))}: number' for name in given)} }}>"
+    return "Command" if made.name == "Command" else "Command<Record<never, number>>"
