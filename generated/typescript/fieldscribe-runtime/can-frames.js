@@ -214,6 +214,12 @@ export class SignalPacking {
     });
   }
 
+  /** The first word of each signal in the telegram of the message. @returns {number[]} */
+  firsts() {
+    let at = 0;
+    return this.signals.map((signal) => (at += signalWords(signal)) - signalWords(signal));
+  }
+
   /** The raw number of a signal without its sign. @param {Uint8Array} data @param {number} number @returns {bigint} */
   raw(data, number) {
     const { start, width, lowFirst } = this.signals[number];
