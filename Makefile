@@ -50,10 +50,11 @@ misra:              ## compare MISRA C:2012 findings in generated headers and ru
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/misra/misra.py
 
-fuzz:               ## feed mutated descriptions, frames and words to everything that reads them (SEED=1)
+fuzz:               ## feed mutated descriptions, frames and words to everything that reads them, spoil answers of lines (SEED=1 COUNT=200000)
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
 	PYTHONPATH=tests $(PYTHON) tests/fuzz/soak.py --seed $(or $(SEED),1)
+	PYTHONPATH=tests $(PYTHON) tests/fuzz/soak_simulated.py --seed $(or $(SEED),1) --requests $(or $(COUNT),200000)
 
 mutants:            ## change one thing at a time and list what no test notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions|generator ROOM=resolve)
 	@sh generator/setup.sh tests

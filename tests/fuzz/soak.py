@@ -78,7 +78,7 @@ def soak(requests: int, faults: float, seed: int) -> bool:
             for number in range(requests):
                 if number in (requests // 2, requests - 1):
                     gc.collect()
-                    kept[number == requests - 1] = _resident()
+                    kept[number == requests - 1] = resident()
                 address = number * 7 & 0xFFFF
                 lost += drive.read_at("holding", address) != (0xFFFF - address,)
             took = time.monotonic() - before
@@ -89,7 +89,7 @@ def soak(requests: int, faults: float, seed: int) -> bool:
     return fine
 
 
-def _resident() -> int:
+def resident() -> int:
     """Kibibytes of this process in memory."""
     return int(Path("/proc/self/statm").read_text("utf-8").split()[1]) * 4
 

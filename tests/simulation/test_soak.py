@@ -1,0 +1,14 @@
+"""Two thousand reads of a simulated drive with faults of all kinds; `make fuzz` makes 200,000."""
+
+from __future__ import annotations
+
+import pytest
+from fieldscribe.simulation.faults import KINDS
+from fuzz.soak_simulated import soak
+
+
+@pytest.mark.full(seconds=12)
+def test_each_read_ends_as_its_fault_explains() -> None:
+    outcome = soak(2000, 0.15, 1, timeout=0.1)
+    assert outcome.findings == []
+    assert {fault for fault, _ in outcome.ends} == {"", *KINDS}
