@@ -86,6 +86,11 @@ class Talk:
                 words.update(enumerate(self.ask(function, start, [count]), start))
         return tuple(words[address] for address in at)
 
+    def held(self, point: Point) -> tuple[int, ...]:
+        """Return the words of a point as the device holds them."""
+        cells = self.layout.cells[point.name]
+        return tuple(self.memory.areas[cells.area][address] for address in cells.addresses)
+
     def ways(self, point: Point) -> list[int]:
         """Return the functions that write the point in one request."""
         cells = self.layout.written[point.name]
@@ -162,10 +167,10 @@ def refusal(talk: Talk, point: Point, raw: int, function: int) -> int:
 
 def exercise(name: str, talk: Talk) -> None:
     """Do with each point all that a client can."""
-    codes, memory, layout = CODES[name], talk.memory, talk.layout
+    codes, memory = CODES[name], talk.memory
     for point in talk.points():
         if point.access != "w":
-            assert talk.raw(point) == memory.words(point, layout.cells[point.name]), point.name
+            assert talk.raw(point) == talk.held(point), point.name
             talk.read.add(point.name)
     for point in [*talk.points()]:
         held, ways = memory.raw(point.name), talk.ways(point)
@@ -195,7 +200,7 @@ def change(talk: Talk, point: Point, held: int, way: int) -> None:
             continue
         assert talk.memory.raw(point.name) == raw, (point.name, way)
         if point.access == "rw":
-            assert talk.raw(point) == talk.memory.words(point, talk.layout.cells[point.name]), (point.name, way)
+            assert talk.raw(point) == talk.held(point), (point.name, way)
         talk.written.add((point.name, way))
         return
     assert any((cells.area, address) in talk.layout.commands for address in cells.addresses), (point.name, way)
