@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
 from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
@@ -67,17 +67,13 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
 
 
 class _Part(NamedTuple):
-    """A point in the frames of a telegram: `offsets` of its words if one frame brings all of them, else none.
+    """A point in the frames of a telegram: `offsets` of its words if one frame brings all of them, else none."""
 
-    Without a formatter it is a place without a point, and nothing else is there.
-    """
-
-    place: int
-    point: Any = None
-    formatter: PointFormatter | None = None
-    read: Any = None
-    offsets: tuple[int, ...] = ()
-    teaches: bool = False
+    point: Point
+    formatter: PointFormatter
+    read: Callable[[Sequence[int]], int]
+    offsets: tuple[int, ...]
+    teaches: bool
 
 
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
@@ -85,19 +81,20 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     telegram, settings = piece.telegram.name, state.settings
     parts = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
     parts = parts or _planned(state, piece)
-    taught = [(part.point, raw) for part in parts if part.teaches and (raw := _raw(part, piece)) is not None]
+    teaching = (part for _, part in parts if part is not None and part.teaches)
+    taught = [(part.point, raw) for part in teaching if (raw := _raw(part, piece)) is not None]
     if taught:
         state.learn(taught)
     items: list[Item] = []
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
-    for part in parts:
-        formatter = part.formatter
-        if formatter is None:
-            word = hex_words((piece.words[part.place - piece.positions.start],))
-            subject = f"word {part.place}"
+    for place, part in parts:
+        if part is None:
+            word = hex_words((piece.words[place - piece.positions.start],))
+            subject = f"word {place}"
             text = f"{subject}: no point is described here ({word})"
-            items.append(Item(telegram, part.place, 1, text, subject=subject))
+            items.append(Item(telegram, place, 1, text, subject=subject))
             continue
+        formatter = part.formatter
         raw = _raw(part, piece)
         if raw is None:
             text = _incomplete_text(state, piece, part.point, formatter)
@@ -117,19 +114,20 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     return items
 
 
-def _planned(state: DecodeState, piece: Piece) -> list[_Part]:
-    """Return and keep the points that a frame of a telegram brings; these are the same for each such frame."""
+def _planned(state: DecodeState, piece: Piece) -> list[tuple[int, _Part | None]]:
+    """Return and keep what a frame of a telegram brings, by place: the same for each such frame, None for no point."""
     telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
-    parts: list[_Part] = []
+    parts: list[tuple[int, _Part | None]] = []
     for place in positions:
         points = directory.at(telegram, place)
-        parts += [] if points else [_Part(place)]
+        parts += [] if points else [(place, None)]
         for point in points:
             if place == min(position for position in point.addresses if position in positions):
                 formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
                 whole = all(at in positions for at in point.addresses)
                 offsets = tuple(at - positions.start for at in point.addresses) if whole else ()
-                parts.append(_Part(place, point, formatter, reader_of(point), offsets, directory.teaches(point)))
+                part = _Part(point, formatter, reader_of(point), offsets, directory.teaches(point))
+                parts.append((place, part))
     directory.plans[(telegram, positions.start, -1), len(positions)] = parts
     return parts
 
@@ -138,8 +136,7 @@ def _raw(part: _Part, piece: Piece) -> int | None:
     """Return the raw number; None while words of other frames are not known."""
     if part.offsets:
         words = piece.words
-        number: int = part.read([words[offset] for offset in part.offsets])
-        return number
+        return part.read([words[offset] for offset in part.offsets])
     status, words = piece.pieces.words(part.point.addresses)
     return part.read(words) if status == "ok" else None
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, Protocol
 
 from fieldscribe.families import Family, families, family
 from fieldscribe.model import Device
@@ -72,12 +72,19 @@ class LineAddress:
         return UnclearError(f"the line `{shortened(self.text)}`: {why}", f"lines are {', '.join(examples())}")
 
 
+class Closable(Protocol):
+    """A transport of the runtime, as far as the line itself needs it."""
+
+    def close(self) -> None:
+        """Give the line back."""
+
+
 @dataclass(frozen=True, slots=True)
 class OpenLine:
     """A line with the transport of the runtime that it has, and the seconds to wait for an answer (None: the usual)."""
 
     address: LineAddress
-    transport: Any
+    transport: Closable
     timeout: float | None
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.live.connection import Connection
 from fieldscribe.live.readings import GOOD, Choice, Reader
@@ -12,7 +12,7 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
+    from fieldscribe_runtime import AnyDevice, FieldscribeError
 
 
 class Answer(NamedTuple):
@@ -81,7 +81,7 @@ class Scanner:
         return ", ".join([*filter(None, [name]), *variants, *(f"{one.label} = {one.text}" for one in readings)])
 
 
-def _remark(error: Any) -> str:
+def _remark(error: FieldscribeError) -> str:
     """Return what to say of an answer that is no good one."""
     if error.lost:
         return f"an answer that is damaged: {error}; two units of one number, or other settings of the line?"

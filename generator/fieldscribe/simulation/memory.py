@@ -6,13 +6,15 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from fractions import Fraction
 from random import Random
 from threading import RLock
-from typing import Any
+from typing import TypeVar
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.arithmetic.words import insert, joined, words_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
 from fieldscribe.simulation.starting import corrected_raw, starting_raw
+
+V = TypeVar("V")
 
 LOCK = RLock()
 """Held while a request is answered, and while a test reads or writes values from another thread."""
@@ -64,13 +66,13 @@ class Memory:
             held[cells.addresses[0]] = joined(words_of(point, raw))
 
 
-class Lookup(Mapping[str, Any]):
+class Lookup(Mapping[str, V]):
     """Numbers by name, read from the memory when they are needed."""
 
-    def __init__(self, names: Collection[str], get: Callable[[str], Any]) -> None:
+    def __init__(self, names: Collection[str], get: Callable[[str], V]) -> None:
         self._names, self._get = names, get
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> V:
         return self._get(name)
 
     def __contains__(self, name: object) -> bool:

@@ -36,16 +36,18 @@ class _End(asyncio.Protocol):
     def __init__(self, line: Line, ends: set[_End]) -> None:
         self._loop = asyncio.get_running_loop()
         self._stream, self._ends = Stream(line), ends
-        self._reader: Any = None
-        self._writer: Any = None
+        self._reader: asyncio.ReadTransport | None = None
+        self._writer: asyncio.WriteTransport | None = None
         self._timer: asyncio.TimerHandle | None = None
         self._free, self._pending = 0.0, 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin; of a serial port the direction out comes first."""
         self._ends.add(self)
-        self._writer = self._writer or transport
-        self._reader = transport
+        if isinstance(transport, asyncio.WriteTransport):
+            self._writer = transport
+        if isinstance(transport, asyncio.ReadTransport):
+            self._reader = transport
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End: what waits is dropped."""
@@ -99,7 +101,8 @@ class _End(asyncio.Protocol):
             return
         if outcome.data:
             self._writer.write(outcome.data)
-        if outcome.drop and self._writer is self._reader:  # a serial port stays
+        writer: object = self._writer
+        if outcome.drop and writer is self._reader:  # a serial port stays
             self.close()
 
 

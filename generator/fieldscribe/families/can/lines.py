@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.live.lines import LineAddress, OpenLine
 from fieldscribe.model import Device
+
+if TYPE_CHECKING:
+    import can
+    from fieldscribe_runtime.transports.can import CanLine
 
 SCHEMES: dict[str, tuple[str, ...]] = {"can": ("bitrate",)}
 EXAMPLES = ("can://socketcan/can0",)
@@ -13,14 +17,14 @@ EXAMPLES = ("can://socketcan/can0",)
 _FASTEST = 1_000_000
 
 
-def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
+def open_line(line: LineAddress, timeout: dict[str, Any]) -> CanLine:
     """Return the runtime's transport; `timeout` is empty for its usual one. Raises UnclearError."""
     from fieldscribe_runtime.transports.can import CanLine
 
     return CanLine(open_bus(line), **timeout)
 
 
-def open_bus(line: LineAddress) -> Any:
+def open_bus(line: LineAddress) -> can.BusABC:
     """Return the bus of python-can. Raises UnclearError."""
     import can
 

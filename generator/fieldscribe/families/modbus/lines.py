@@ -10,6 +10,8 @@ from fieldscribe.model import Device
 
 if TYPE_CHECKING:
     from fieldscribe_runtime.modbus import ModbusDevice
+    from fieldscribe_runtime.transports.serial import SerialLine
+    from fieldscribe_runtime.transports.tcp import TcpLine
 
 SCHEMES: dict[str, tuple[str, ...]] = {"tcp": (), "rtu": SERIAL_KEYS, "rtu+tcp": ()}
 EXAMPLES = ("tcp://192.168.0.20:502", "rtu:///dev/ttyUSB0?baud=9600&parity=even", "rtu+tcp://192.168.0.20:4001")
@@ -17,7 +19,7 @@ EXAMPLES = ("tcp://192.168.0.20:502", "rtu:///dev/ttyUSB0?baud=9600&parity=even"
 _PORT = 502
 
 
-def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
+def open_line(line: LineAddress, timeout: dict[str, Any]) -> SerialLine | TcpLine:
     """Return the runtime's transport; `timeout` is empty for its usual one. Raises UnclearError."""
     if line.scheme == "rtu":
         from fieldscribe_runtime.transports.serial import SerialLine

@@ -9,13 +9,14 @@ from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
 from fieldscribe.model import Device
 
 if TYPE_CHECKING:
+    from fieldscribe_runtime.transports.serial import UssLine
     from fieldscribe_runtime.uss import UssDevice
 
 SCHEMES: dict[str, tuple[str, ...]] = {"uss": (*SERIAL_KEYS, "pkw", "pzd", "single_first")}
 EXAMPLES = ("uss:///dev/ttyUSB0?baud=9600&pkw=4&pzd=2",)
 
 
-def open_line(line: LineAddress, timeout: dict[str, Any]) -> Any:
+def open_line(line: LineAddress, timeout: dict[str, Any]) -> UssLine:
     """Return the runtime's transport; `timeout` is empty for its usual one. Raises UnclearError."""
     from fieldscribe_runtime.transports.serial import UssLine
 
