@@ -28,8 +28,8 @@ EXAMPLE = """examples:
 
 With --frame only the frames go to stdout, one a line; their meaning goes to stderr. A rounded value is a note there.
 
-ends with 1 when the value is refused: it is out of range or no name of the point, the point cannot be written, or the
-device takes no such frame
+ends with 1 when the value is refused: it is out of range or no name of the point, a frame is to write a point that is
+read only, or the device takes no such frame
 ends with 2 when the command lacks something (as --with), or VALUE is no value"""
 
 
@@ -82,6 +82,6 @@ def _encoded(
     """Return the raw number, and the frames if `--frame` or an option about frames was given."""
     name = arguments.point.removesuffix(".raw")
     point = choose_point(device, name, index=options.index)
-    encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
     wants_frames = arguments.frame or options != Options(index=options.index)
+    encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
     return encoded, frames_for(device, point, encoded.raw, settings, options) if wants_frames else None

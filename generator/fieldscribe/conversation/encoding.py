@@ -48,7 +48,11 @@ class Encoded:
 
 def encode_point(device: Device, point: Point, value: str, settings: Settings, *, as_raw: bool = False) -> Encoded:
     """Return the raw number of a typed value, or of a typed raw number. Raises RefusedError, UnclearError."""
-    _refuse_unwritable(device, point)
+    if missing := absence(device, point):
+        raise RefusedError("absent", f"{label(point)}: {missing}")
+    if not point.generated:
+        reason = point.reason or "the manual leaves it open"
+        raise RefusedError("not_generated", line(f"{label(point)} cannot be encoded: {reason}"))
     typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)
     notes = () if typed.value is None else tuple(_rounding_notes(point, typed.value, raw, settings))
@@ -59,6 +63,7 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings, *
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """Return the frames that write a raw number. Raises RefusedError, UnclearError."""
+    require_writable(point)
     frames: BuiltFrames = family_part(device, "frame_builder").frames_for(device, point, raw, settings, options)
     return frames
 
@@ -72,12 +77,8 @@ def family_part(device: Device, name: str) -> Any:
     return part
 
 
-def _refuse_unwritable(device: Device, point: Point) -> None:
-    if missing := absence(device, point):
-        raise RefusedError("absent", f"{label(point)}: {missing}")
-    if not point.generated:
-        reason = point.reason or "the manual leaves it open"
-        raise RefusedError("not_generated", line(f"{label(point)} cannot be written: {reason}"))
+def require_writable(point: Point) -> None:
+    """Raises RefusedError for a point that is only read."""
     if not point.writable:
         raise RefusedError("read_only", f"{label(point)} is {wording.access_text(point.access)}")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
-from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.encoding import encode_point, require_writable
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.families import family
@@ -99,6 +99,7 @@ class Planner:
             raise UnclearError(message, "write POINT=VALUE")
         point = choose_point(self._model, name.removesuffix(".raw"))
         keep = self._keep and self._kept_by_request(point)
+        require_writable(point)
         settings = self._needed(point)
         encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))
         self._settings[point.name] = codec.setting_of(point, encoded.raw)
