@@ -34,6 +34,11 @@ def descriptions_dir() -> Path:
     return _shipped("descriptions")
 
 
+def pages_dir() -> Path:
+    """Return the folder of our pages: the README, and the folder of the descriptions with the others."""
+    return descriptions_dir().parent
+
+
 def compiler_files() -> Iterator[str]:
     """Yield the files of the compiler and its templates, in a fixed order: all output depends on them."""
     for root in (_PACKAGE, templates_dir()):

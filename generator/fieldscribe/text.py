@@ -155,6 +155,11 @@ def markdown(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned)
 
 
+def html(text: str) -> str:
+    """Return text for HTML, between tags or in an attribute in double quotes."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
+
+
 _FORMULA_SIGNS = frozenset("=+-@\uff1d\uff0b\uff0d\uff20")
 """What starts a formula in spreadsheets; some take the full-width forms of Asian keyboards, too."""
 

@@ -54,6 +54,7 @@ ROOMS = (
     ("passive listening", "listening"),
     ("how a family is heard", "families.*.listening"),
     ("output", "output"),
+    ("our own pages", "pages"),
     ("what a project takes", "vendoring"),
     ("a person who writes a description", "authoring"),
     ("the command line", "cli __main__"),

@@ -1,22 +1,28 @@
-"""`fieldscribe docs`: the documentation of devices as a workbook, as CSV or in Markdown."""
+"""`fieldscribe docs`: the documentation of devices as a workbook, as CSV, in Markdown, and an index of it as pages."""
 
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from functools import partial
 
-from fieldscribe.cli import FINE
-from fieldscribe.cli.common import StopError, add_descriptions, open_device, some_path
+from fieldscribe.cli import FINDINGS, FINE
+from fieldscribe.cli.common import StopError, add_descriptions, open_device, report_findings, some_path
 from fieldscribe.cli.vendor import deliver_all, print_deliveries
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
+from fieldscribe.pages.site import load_pages
 from fieldscribe.vendoring.deliveries import Order
-from fieldscribe.vendoring.requests import FORMATS, DocumentRequest
+from fieldscribe.vendoring.requests import FORMATS, DocumentRequest, IndexRequest
 
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
   fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
   fieldscribe docs nord_sk5xxe --format markdown --out manuals
+  fieldscribe docs hitachi_l200 nord_sk5xxe --pages --format html --out site
   fieldscribe docs hitachi_l200 --format xlsx --out tables --check
 
 a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
+several devices as html have an index.html, which lists and searches all that the command names, without a network
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
@@ -24,10 +30,11 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
     add = parser.add_argument
-    add("devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml")
+    add("devices", nargs="*", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml")
     add_descriptions(parser)
     forms = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
     add("--format", choices=tuple(FORMATS), required=True, help=forms)
+    add("--pages", action="store_true", help="html: the pages of fieldscribe itself, too: language, keys, using")
     add("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
     add("--check", action="store_true", help="write nothing; say what is not as it should be")
     add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
@@ -35,13 +42,33 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write or compare the files; return the exit code."""
-    orders, code = [], FINE
+    if arguments.pages and arguments.format != "html":
+        raise StopError("--pages is for --format html")
+    if not arguments.devices and not arguments.pages:
+        raise StopError("DEVICE is missing", "name devices, or say --pages for the pages of fieldscribe itself")
+    devices, code = [], FINE
     for name in arguments.devices:
         try:
-            device = open_device(Namespace(device=name, descriptions=arguments.descriptions))
+            devices.append(open_device(Namespace(device=name, descriptions=arguments.descriptions)))
         except StopError as stop:
             code = max(code, stop.tell())
-        else:
-            orders.append(Order(device, DocumentRequest(arguments.format), arguments.out))
+    request = DocumentRequest(arguments.format)
+    orders = [Order(device.id, request, arguments.out, partial(request.contents, device)) for device in devices]
+    if arguments.format == "html" and (arguments.pages or len(devices) > 1):
+        orders.append(_index(arguments, devices))
     deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
     return max(code, print_deliveries(deliveries, "text", check=arguments.check))
+
+
+def _index(arguments: Namespace, devices: list[Device]) -> Order:
+    """Return the order of the index. Raises StopError."""
+    report, shelves = Report(), ()
+    try:
+        shelves = load_pages([device.id for device in devices], report) if arguments.pages else ()
+    except ModuleNotFoundError as error:
+        raise StopError("--pages needs markdown-it-py", 'pip install "fieldscribe[html]"') from error
+    if report.has_errors:
+        report_findings(report, "text")
+        raise StopError("", code=FINDINGS)
+    index = IndexRequest(tuple(devices), shelves)
+    return Order(index.name, index, arguments.out, index.contents)

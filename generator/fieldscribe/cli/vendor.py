@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from argparse import SUPPRESS, ArgumentParser, Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from fieldscribe.checks.device_name_is_free import reasons
@@ -160,7 +161,7 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
     select(opened, request.chosen)
     for message in address_only_messages(opened, request.chosen):
         usage_error(message)
-    return Order(opened, request, out)
+    return Order(opened.id, request, out, partial(request.contents, opened))
 
 
 _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"

@@ -9,7 +9,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
-from fieldscribe.model import Device
 from fieldscribe.output.contents import Contents, contents_of
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import VENDORED, Manifests, manifest_text
@@ -17,23 +16,27 @@ from fieldscribe.output.plan import Plan, TargetFiles, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import read_regular
 from fieldscribe.user_errors import UnclearError
-from fieldscribe.vendoring.requests import CodeRequest, DocumentRequest
+from fieldscribe.vendoring.requests import CodeRequest, DocumentRequest, IndexRequest
 
 _MOST_BYTES = 512 << 20
 """The largest file that is compared."""
 
 
 class Order(NamedTuple):
-    """A request, with the device and the folder of the project."""
+    """A request, with the id of its device, the folder of the project, and what makes the files.
 
-    device: Device
-    request: CodeRequest | DocumentRequest
+    `contents` takes the texts of others in the folder, by path.
+    """
+
+    device: str
+    request: CodeRequest | DocumentRequest | IndexRequest
     out: Path
+    contents: Callable[[Mapping[str, str]], Iterable[tuple[str, bytes]]]
 
     @property
     def name(self) -> str:
         """The device's name in the project."""
-        return self.request.name or self.device.id
+        return self.request.name or self.device
 
 
 @dataclass(slots=True)
@@ -62,7 +65,7 @@ class Delivery:
         order = self.order
         names = ("files", "written", "removed", "missing", "edited", "stale", "kept", "refused")
         head = {
-            "device": order.device.id,
+            "device": order.device,
             "name": order.name,
             "language": order.request.language,
             "out": str(order.out),
@@ -126,7 +129,7 @@ def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Pat
 
 
 def _files(order: Order, manifests: Manifests) -> TargetFiles:
-    contents = order.request.contents(order.device, dict(_others(order, manifests)))
+    contents = order.contents(dict(_others(order, manifests)))
     return {order.request.language: {path: contents_of(data) for path, data in contents}}
 
 
@@ -156,7 +159,7 @@ def _manifests_of_others(order: Order, manifests: Manifests, made: Mapping[str, 
 def _planned(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> tuple[Plan, Delivery]:
     """Return the plan, and the delivery before anything is written, with the files in its way."""
     requests = manifests.requests.setdefault(order.name, {})
-    requests[order.request.language] = order.request.as_data(order.device.id)
+    requests[order.request.language] = order.request.as_data(order.device)
     plan = plan_of(order.out, manifests, order.name, made, force=force)
     advice = {path: plan.advice(path) for path in plan.refused}
     return plan, Delivery(order, sorted(plan.digests), refused=dict(sorted(plan.refused.items())), advice=advice)

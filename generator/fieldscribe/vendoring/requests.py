@@ -11,6 +11,7 @@ from typing import Any
 
 from fieldscribe.code_view import for_code
 from fieldscribe.model import Device
+from fieldscribe.pages.site import NAME, Shelf, site_files
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
@@ -33,6 +34,7 @@ _POINTS_IN_A_HEAD = 60
 
 FORMATS = {
     "csv": "the points and their meanings as tables",
+    "html": "a page",
     "markdown": "the reference as a page",
     "xlsx": "the tables, and the errata, as a workbook",
 }
@@ -124,6 +126,28 @@ class DocumentRequest:
             return
         texts = csv_files(scope) if self.language == "csv" else markdown_files(scope, render)
         for path, text in texts:
+            yield path, text.encode()
+
+
+@dataclass(frozen=True, slots=True)
+class IndexRequest:
+    """A request for an index of devices, with our pages if there are any."""
+
+    devices: tuple[Device, ...]
+    shelves: tuple[Shelf, ...] = ()
+    language = "html"
+    name = NAME
+    extra = DocumentRequest.extra
+
+    def as_data(self, device: str) -> dict[str, object]:
+        """Return what the manifest records of the request."""
+        return {"device": device, "devices": [each.id for each in self.devices], "pages": bool(self.shelves)}
+
+    def contents(self, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
+        """Yield the files: path below the folder, and bytes."""
+        pages = ("--pages",) if self.shelves else ()
+        command = "fieldscribe", "docs", *(each.id for each in self.devices), *pages, "--format", self.language
+        for path, text in site_files(self.devices, self.shelves, " ".join(command), render):
             yield path, text.encode()
 
 
