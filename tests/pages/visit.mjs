@@ -1,40 +1,29 @@
-// Visits the pages in a folder with a real browser and prints what a reader meets, as JSON.
-// Usage: node visit.mjs FOLDER BROWSER NODE_MODULES
+// Visits the pages of a folder in a real browser, from the file system, and prints as JSON what a reader meets.
+// Usage: node visit.mjs FOLDER BROWSER NODE_MODULES PAGE_FOR_AXE... -- QUERY...
 import { readFileSync, readdirSync } from "node:fs";
 import { createRequire } from "node:module";
-import { join } from "node:path";
-import { pathToFileURL } from "node:url";
+import { join, relative } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
-const [folder, executablePath, modules] = process.argv.slice(2);
+const [folder, executablePath, modules, ...words] = process.argv.slice(2);
 const require = createRequire(join(modules, "x.js"));
-const { chromium } = require("playwright-core");
 const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
-
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
-const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+const browser = await require("playwright-core").chromium.launch({
+  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
+});
+const context = await browser.newContext({ permissions: ["clipboard-read", "clipboard-write"] });
 const page = await context.newPage();
-const troubles = [];
-page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
-page.on("pageerror", (error) => troubles.push(String(error)));
-page.on("request", (request) => request.url().startsWith("file:") || troubles.push(request.url()));
+const seen = { troubles: [], wide: [], axe: {}, searches: {} };
+page.on("console", (message) => message.type() === "error" && seen.troubles.push(message.text()));
+page.on("pageerror", (error) => seen.troubles.push(String(error)));
+page.on("request", (request) => request.url().startsWith("file:") || seen.troubles.push(request.url()));
+
 const open = (path) => page.goto(pathToFileURL(join(folder, path)).href);
-const hits = () => page.$$eval("#page-hits a", (links) => links.map((link) => [link.textContent, link.href]));
+const here = () => page.evaluate("location.href").then((url) => relative(folder, fileURLToPath(url)) + new URL(url).hash);
+const focused = () => page.evaluate("document.activeElement.textContent || document.activeElement.id");
+const paper = () => page.evaluate("getComputedStyle(document.body).backgroundColor");
 
-async function search(words) {
-  await page.keyboard.press("/");
-  await page.fill("#page-find", words);
-  return hits();
-}
-
-async function findings(scheme) {
-  await page.emulateMedia({ colorScheme: scheme });
-  const found = await page.evaluate(`${axe}; axe.run()`);
-  return found.violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id} ${node.html.slice(0, 120)}`));
-}
-
-const seen = { searches: {}, axe: {}, wide: [], dead: [] };
-const files = readdirSync(folder, { recursive: true }).filter((path) => path.endsWith(".html")).sort();
-for (const path of files) {
+for (const path of readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".html")).sort()) {
   await open(path);
   for (const width of [360, 1280]) {
     await page.setViewportSize({ width, height: 800 });
@@ -42,17 +31,43 @@ for (const path of files) {
     if (over > 0) seen.wide.push(`${path} at ${width}: ${over}`);
   }
 }
-for (const path of process.argv.slice(5)) {
-  await open(path);
-  for (const scheme of ["light", "dark"]) {
-    for (const width of [360, 1280]) {
-      await page.setViewportSize({ width, height: 800 });
-      const found = await findings(scheme);
-      if (found.length) seen.axe[`${path} ${scheme} ${width}`] = found;
-    }
+for (const path of words.slice(0, words.indexOf("--"))) {
+  for (const [colorScheme, width] of [["light", 1280], ["dark", 360]]) {
+    await page.emulateMedia({ colorScheme });
+    await page.setViewportSize({ width, height: 800 });
+    await open(path);
+    const found = await page.evaluate(`${axe}; axe.run({ preload: false })`);
+    const nodes = found.violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.html.slice(0, 200)}`));
+    if (nodes.length) seen.axe[`${path} ${colorScheme}`] = nodes;
   }
 }
+for (const query of words.slice(words.indexOf("--") + 1)) {
+  await open("index.html");
+  await page.keyboard.press("/");
+  await page.keyboard.type(query);
+  const found = await page.$$eval("#page-hits li", (items) => items.map((item) => item.textContent));
+  await page.keyboard.press("ArrowDown");
+  const first = await focused();
+  await page.keyboard.press("Escape");
+  const cleared = [await page.inputValue("#page-find"), await page.isHidden("#page-hits"), await focused()];
+  await page.keyboard.type(query);
+  if (found.length) {
+    await page.keyboard.press("Enter");
+    await page.waitForURL(/#/);
+  }
+  const marked = await page.evaluate("document.querySelector(':target')?.textContent ?? null");
+  seen.searches[query] = { found, first, cleared, at: await here(), marked };
+}
+await page.emulateMedia({ colorScheme: "light" });
+await open("fieldscribe/README.html");
+await page.click(".code >> nth=0 >> .copy");
+seen.copied = await page.evaluate("navigator.clipboard.readText()");
+seen.papers = [await paper()];
+await page.click("#page-scheme");
+seen.papers.push(await paper());
 await open("index.html");
-for (const words of ["with_units_xyz", "bit_offset", "rounds"]) seen.searches[words] = (await search(words)).slice(0, 3);
-console.log(JSON.stringify({ ...seen, troubles }));
+seen.papers.push(await paper());
+await page.emulateMedia({ media: "print" });
+seen.printed = await page.$$eval("header, nav", (parts) => parts.filter((part) => part.offsetHeight > 0).length);
+console.log(JSON.stringify(seen));
 await browser.close();

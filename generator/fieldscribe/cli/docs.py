@@ -62,9 +62,9 @@ def run(arguments: Namespace) -> int:
 
 def _index(arguments: Namespace, devices: list[Device]) -> Order:
     """Return the order of the index. Raises StopError."""
-    report, shelves = Report(), ()
+    report, names = Report(), [device.id for device in devices]
     try:
-        shelves = load_pages([device.id for device in devices], report) if arguments.pages else ()
+        shelves = load_pages(names, report) if arguments.pages else ()
     except ModuleNotFoundError as error:
         raise StopError("--pages needs markdown-it-py", 'pip install "fieldscribe[html]"') from error
     if report.has_errors:

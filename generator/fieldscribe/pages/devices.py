@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
-from fieldscribe.text import counted, html, line
+from fieldscribe.text import html, line
 from fieldscribe.wording import address_text, label, title_text
 
 Row = tuple[str, str, str]

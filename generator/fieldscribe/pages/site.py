@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from posixpath import dirname, relpath
 from typing import NamedTuple
@@ -66,8 +67,9 @@ def load_pages(devices: Collection[str], report: Report, root: Path | None = Non
     pages: dict[str, Page] = {}
     shelves = []
     for heading, patterns in _SHELVES:
-        files = {file.relative_to(root).as_posix(): file for each in patterns for file in sorted(root.glob(each))}
-        shelf = {path: page_of(path, file.read_text("utf-8")) for path, file in files.items()}
+        files = [file for each in patterns for file in sorted(root.glob(each), key=attrgetter("stem"))]
+        paths = {file.relative_to(root).as_posix(): file for file in files}
+        shelf = {path: page_of(path, file.read_text("utf-8")) for path, file in paths.items()}
         shelves.append(Shelf(heading, tuple(shelf.values())))
         pages |= shelf
     Links(pages, devices, root, report).lead()

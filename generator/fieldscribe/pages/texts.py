@@ -50,13 +50,13 @@ class Page:
 
     def html(self) -> str:
         """Return the text as HTML."""
-        reader = _reader()
+        reader = markdown_reader()
         return str(reader.renderer.render(self.tokens, reader.options, {}))
 
 
 def page_of(path: str, text: str) -> Page:
     """Return the page of a text. Raises ModuleNotFoundError without markdown-it-py."""
-    tokens = list(_without_comments(_reader().parse(_clean(text))))
+    tokens = list(_without_comments(markdown_reader().parse(_clean(text))))
     return Page(path, tokens, list(_sections(tokens)))
 
 
@@ -66,7 +66,7 @@ def words_of(inline: Token) -> str:
 
 
 def _clean(text: str) -> str:
-    """Return the text without characters that are not seen and may change the order of others, such as bidi controls."""
+    """Return the text without characters that are not seen, such as bidi controls, which change the order of others."""
     return "".join(char for char in text if char in "\n\t" or unicodedata.category(char) not in {"Cc", "Cf", "Cs"})
 
 
@@ -106,7 +106,7 @@ def _sections(tokens: Sequence[Token]) -> Iterator[Section]:
 
 
 def _starts_with_code(inline: Token) -> bool:
-    return bool(inline.children) and inline.children[0].type == "code_inline"
+    return (inline.children or [inline])[0].type == "code_inline"
 
 
 def _anchor(title: str, taken: dict[str, int]) -> str:
@@ -117,7 +117,8 @@ def _anchor(title: str, taken: dict[str, int]) -> str:
 
 
 @cache
-def _reader() -> MarkdownIt:
+def markdown_reader() -> MarkdownIt:
+    """Return what reads Markdown and writes HTML. Raises ModuleNotFoundError without markdown-it-py."""
     from markdown_it import MarkdownIt
 
     reader = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
@@ -126,20 +127,24 @@ def _reader() -> MarkdownIt:
     return reader
 
 
-def _heading_end(renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
+def _heading_end(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
     token = tokens[at]
     anchor, name = html(token.meta["anchor"]), html(token.meta["name"])
     return f' <a class="anchor" href="#{anchor}" aria-label="Link to: {name}">#</a></{token.tag}>\n'
 
 
-def _code_block(renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
-    name = html(f"Code: {tokens[at].meta.get('name', '')}")
-    return f'<div class="code"><pre tabindex="0" role="group" aria-label="{name}"><code>{html(tokens[at].content)}</code></pre></div>\n'
+def _code_block(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
+    code = html(tokens[at].content)
+    return f'<div class="code"><pre{_scrolls("Code", tokens[at])}><code>{code}</code></pre></div>\n'
 
 
-def _table_start(renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
-    name = html(f"Table: {tokens[at].meta.get('name', '')}")
-    return f'<div class="wide" tabindex="0" role="group" aria-label="{name}"><table>\n'
+def _table_start(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
+    return f'<div class="wide"{_scrolls("Table", tokens[at])}><table>\n'
+
+
+def _scrolls(kind: str, token: Token) -> str:
+    """Return the attributes of a box that the keyboard scrolls and a screen reader names."""
+    return f' tabindex="0" role="group" aria-label="{kind}: {html(token.meta.get("name", ""))}"'
 
 
 def _table_end(*_: object) -> str:
@@ -153,4 +158,4 @@ _RULES: dict[str, Any] = {
     "table_open": _table_start,
     "table_close": _table_end,
 }
-"""What differs from plain HTML: anchors at headings, and boxes that scroll, with a name for screen readers."""
+"""What differs from plain HTML: anchors at headings, and boxes that scroll."""

@@ -34,7 +34,7 @@ _POINTS_IN_A_HEAD = 60
 
 FORMATS = {
     "csv": "the points and their meanings as tables",
-    "html": "a page",
+    "html": "pages to read and search, without a network",
     "markdown": "the reference as a page",
     "xlsx": "the tables, and the errata, as a workbook",
 }

@@ -6,7 +6,7 @@ const MOST_HITS = 50;
 
 /** Return text as a search compares it: small letters without marks. */
 function folded(text) {
-  return text.toLowerCase().normalize("NFKD").replace(/\p{M}/gu, "");
+  return text.toLowerCase().normalize("NFD").replace(/\p{M}/gu, "");
 }
 
 function element(name, text, facts = {}) {
@@ -25,6 +25,7 @@ function searched(rows, query) {
     for (const word of words) {
       const inTitle = row.key.indexOf(word);
       if (inTitle >= 0) rank += row.key === word ? 0 : startsWord(row.key, inTitle) ? 1 : 2;
+      else if (row.near.includes(word)) rank += 3;
       else if (row.text.includes(word)) rank += 4;
       else { rank = -1; break; }
     }
@@ -37,12 +38,16 @@ function startsWord(text, at) {
   return at === 0 || !/[\p{L}\p{N}]/u.test(text[at - 1]);
 }
 
-/** Return the words around the first match, for people. */
+/** Return the words around the first match, which is marked. */
 function excerpt(row, query) {
-  const word = folded(query).split(/\s+/).find((each) => row.text.includes(each)) ?? "";
-  const at = Math.max(0, row.text.indexOf(word) - 40);
-  const cut = row.words.slice(at, at + 140);
-  return (at ? "… " : "") + cut + (at + 140 < row.words.length ? " …" : "");
+  const word = folded(query).split(/\s+/).find((each) => each && row.text.includes(each)) ?? "";
+  const at = word ? row.text.indexOf(word) : 0;
+  const start = at < 40 ? 0 : row.words.lastIndexOf(" ", at - 30) + 1;
+  const rest = row.words.slice(at + word.length);
+  const made = element("small", (start ? "… " : "") + row.words.slice(start, at));
+  if (word) made.append(element("mark", row.words.slice(at, at + word.length)));
+  made.append(rest.slice(0, 90) + (rest.length > 90 ? " …" : ""));
+  return made;
 }
 
 /** Start a page; `places` are [path, name, [anchor, title, words][]]. */
@@ -50,9 +55,8 @@ function startPages(places) {
   const top = document.documentElement.dataset.top + "/";
   const rows = places.flatMap(([path, place, inside]) => inside.map(([anchor, title, words]) => ({
     href: top + path + (anchor && "#" + anchor), title, place, words,
-    key: folded(title), text: folded(place + " " + words),
+    key: folded(title), text: folded(words), near: folded(place),
   })));
-  for (const row of rows) row.words = row.place + " " + row.words;
   startSearch(rows);
   startScheme();
   if (navigator.clipboard) document.querySelectorAll(".code").forEach(addCopy);
@@ -69,7 +73,7 @@ function startSearch(rows) {
     status.textContent = found.length > MOST_HITS ? `${found.length} places, the nearest ${MOST_HITS}` : found.length === 1 ? "1 place" : `${found.length} places`;
     list.replaceChildren(...found.slice(0, MOST_HITS).map((row) => {
       const item = element("li", "");
-      item.append(element("a", row.title, { href: row.href }), element("small", excerpt(row, input.value)));
+      item.append(element("a", row.title, { href: row.href }), element("span", " " + row.place), excerpt(row, input.value));
       return item;
     }));
   }

@@ -1,0 +1,74 @@
+"""The pages in Chromium, from the file system: search, keyboard, copying, widths, schemes, print, and axe."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fieldscribe.cli import main
+from support.toolchains import NODE_MODULES, npm_package, succeed, tool
+
+FOR_AXE = (
+    "index",
+    "fieldscribe/README",
+    "fieldscribe/descriptions/language/which-key",
+    "fieldscribe/descriptions/using/c",
+)
+FINDS = {
+    "view_of": ("view_of", "fieldscribe/descriptions/KEYS.html#"),
+    "other readings": ("Other readings", "fieldscribe/descriptions/using/listen.html#other-readings"),
+    "SIGNALS can": ("Signals", "fieldscribe/descriptions/language/can.html#signals"),
+}
+"""What people type, with the first place found, and the start of where Enter leads."""
+
+pytestmark = pytest.mark.full(seconds=20)
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """What a reader meets."""
+    site = tmp_path_factory.mktemp("site")
+    assert main(["docs", "--pages", "--format", "html", "--out", str(site)]) == 0
+    npm_package("playwright-core"), npm_package("axe-core")
+    words = [*(f"{path}.html" for path in FOR_AXE), "--", *FINDS, "zzyzx"]
+    visit = Path(__file__).with_name("visit.mjs")
+    return dict(json.loads(succeed([tool("node"), visit, site, tool("chromium-headless-shell"), NODE_MODULES, *words])))
+
+
+def test_nothing_is_wrong_and_nothing_leaves_the_pages(seen: dict[str, Any]) -> None:
+    assert seen["troubles"] == []
+
+
+def test_nothing_scrolls_sideways(seen: dict[str, Any]) -> None:
+    assert seen["wide"] == []
+
+
+def test_axe_finds_nothing(seen: dict[str, Any]) -> None:
+    assert seen["axe"] == {}
+
+
+@pytest.mark.parametrize("query", FINDS)
+def test_the_search_leads_there(query: str, seen: dict[str, Any]) -> None:
+    title, place = FINDS[query]
+    search = seen["searches"][query]
+    assert search["found"][0].startswith(title)
+    assert search["first"] == title
+    assert search["at"].startswith(place)
+    assert search["marked"].strip().startswith(title)
+    assert search["cleared"] == ["", True, "page-find"]
+
+
+def test_a_search_without_a_hit(seen: dict[str, Any]) -> None:
+    assert seen["searches"]["zzyzx"]["found"] == []
+
+
+def test_code_is_copied_and_the_chosen_scheme_stays(seen: dict[str, Any]) -> None:
+    assert seen["copied"].startswith("- code: A020\n")
+    light, dark, elsewhere = seen["papers"]
+    assert light != dark == elsewhere
+
+
+def test_print_has_the_text_alone(seen: dict[str, Any]) -> None:
+    assert seen["printed"] == 0

@@ -1,0 +1,176 @@
+"""Our own pages as HTML: what their Markdown becomes, where their links lead, and the files of an index."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from posixpath import dirname, join, normpath
+from typing import Any
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.pages.site import load_pages, site_files
+from fieldscribe.pages.texts import markdown_reader, page_of
+from fieldscribe.resources import render
+from support.places import ROOT
+
+HOSTILE = """# <script>alert(1)</script> \u202e"x" & `<b>`
+
+<img src=x onerror=alert(1)> [run](javascript:alert(1)) ![picture](https://example.org/x.png)
+
+<!-- a mark of ours -->
+| key | what |
+|---|---|
+| `a.<any>` | <i>first</i> |
+| `a.<any>` | the next |
+
+## Twice
+## Twice
+"""
+
+
+def made(root: Path, **files: str) -> tuple[dict[str, str], Report]:
+    """The files of an index of such pages alone, by path."""
+    (root / "descriptions").mkdir()
+    for name, text in files.items():
+        (root / f"{name}.md").write_text(text, "utf-8")
+    report = Report()
+    shelves = load_pages(["hitachi_l200"], report, root)
+    return dict(site_files([], shelves, "fieldscribe docs", render)), report
+
+
+def test_nothing_of_a_text_becomes_markup() -> None:
+    page = page_of("README.md", HOSTILE)
+    tags = set(re.findall(r"<(\w+)", page.html()))
+    assert tags == {"h1", "h2", "a", "code", "p", "div", "table", "thead", "tbody", "tr", "th", "td"}
+    assert not re.search(r'\son\w+="|href="(?!#|https://example)|\u202e|a mark of ours', page.html())
+    assert page.title == '<script>alert(1)</script> "x" & <b>'
+    assert "<h1" in page.html()
+    assert "&lt;script&gt;alert(1)&lt;/script&gt; &quot;x&quot; &amp; <code>&lt;b&gt;</code>" in page.html()
+
+
+def test_headings_and_rows_have_anchors_of_their_own() -> None:
+    page = page_of("README.md", HOSTILE)
+    rows = [(section.anchor, section.level, " ".join(section.words)) for section in page.sections[1:]]
+    head = "scriptalert1script-x--b"
+    assert rows == [
+        (f"{head}-a-any", 0, "<i>first</i>"),
+        (f"{head}-a-any-1", 0, "the next"),
+        ("twice", 2, ""),
+        ("twice-1", 2, ""),
+    ]
+    assert all(f'id="{section.anchor}"' in page.html() for section in page.sections)
+
+
+@pytest.mark.parametrize(
+    ("link", "leads"),
+    [
+        ("CHANGELOG.md", "CHANGELOG.html"),
+        ("CHANGELOG.md#1-new", "CHANGELOG.html#1-new"),
+        ("#own", "#own"),
+        ("descriptions/hitachi_l200/", "../hitachi_l200.html"),
+        ("https://example.org/a.md", "https://example.org/a.md"),
+        ("descriptions/nord_sk5xxe/", None),
+        ("generator/README.md", None),
+    ],
+)
+def test_where_links_lead(link: str, leads: str | None, tmp_path: Path) -> None:
+    files, report = made(tmp_path, README=f"# First\n\nsee [there]({link})\n\n## Own\n", CHANGELOG="# 1: new\n")
+    expected = "see there" if leads is None else f'see <a href="{leads}">there</a>'
+    assert expected in files["fieldscribe/README.html"]
+    assert not report.findings
+
+
+@pytest.mark.parametrize("link", ["NOTES.md", "CHANGELOG.md#old", "#old", "descriptions/KEYS.md"])
+def test_a_link_that_leads_nowhere_is_a_finding(link: str, tmp_path: Path) -> None:
+    _, report = made(tmp_path, README=f"# First\n\nsee\n[there]({link})\n", CHANGELOG="# 1\n")
+    (finding,) = report.findings
+    assert (finding.rule, finding.span.file, finding.span.line) == ("broken-link", str(tmp_path / "README.md"), 4)
+    assert f"`{link}` leads to no page or heading" in finding.message
+
+
+class Links(HTMLParser):
+    """What a page leads to, and the anchors that it has."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.targets: list[str] = []
+        self.anchors: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        of = dict(attrs)
+        self.anchors += filter(None, [of.get("id")])
+        self.targets += [target for key in ("href", "src") if (target := of.get(key))]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of all pages."""
+    out = tmp_path_factory.mktemp("site")
+    assert main(["docs", "--pages", "--format", "html", "--out", str(out)]) == 0
+    return out
+
+
+def test_every_page_is_there_and_every_link_leads_somewhere(site: Path) -> None:
+    pages = {path.relative_to(site).as_posix(): Links(path.read_text("utf-8")) for path in site.rglob("*.html")}
+    sources = [*ROOT.glob("*.md"), *(ROOT / "descriptions").rglob("*.md")]
+    assert pages.keys() - {"index.html"} == {
+        f"fieldscribe/{path.relative_to(ROOT).with_suffix('.html').as_posix()}" for path in sources
+    }
+    for path, page in pages.items():
+        assert len(page.anchors) == len(set(page.anchors)), path
+        for target in page.targets:
+            if "://" not in target:
+                name, _, anchor = target.partition("#")
+                there = normpath(join(dirname(path), name)) if name else path
+                assert (site / there).is_file(), f"{path}: {target}"
+                assert not anchor or anchor in pages[there].anchors, f"{path}: {target}"
+
+
+def places(site: Path) -> dict[str, Any]:
+    """The rows of the search by the path of their place."""
+    data = (site / "index.js").read_text("utf-8").rpartition("startPages(")[2]
+    return {path: rows for path, _, rows in json.loads(data.removesuffix(");\n"))}
+
+
+def test_the_search_has_every_key_and_section(site: Path) -> None:
+    rows = places(site)["fieldscribe/descriptions/KEYS.html"]
+    keys = (ROOT / "descriptions/KEYS.md").read_text("utf-8")
+    titles = [title for _, title, _ in rows]
+    assert set(re.findall(r"(?m)^\| `([^`]+)`", keys)) <= set(titles)
+    assert set(re.findall(r"(?m)^#+ (.*)$", keys.replace("`", ""))) <= set(titles)
+    assert all(rows for rows in places(site).values())
+
+
+def test_the_command_says_what_it_lacks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def said(*words: str) -> tuple[int, str]:
+        return main(["docs", *words, "--out", str(tmp_path)]), capsys.readouterr().err
+
+    assert said("--format", "html") == (
+        2,
+        "fieldscribe: DEVICE is missing\n  hint: name devices, or say --pages for the pages of fieldscribe itself\n",
+    )
+    assert said("--pages", "--format", "csv") == (2, "fieldscribe: --pages is for --format html\n")
+    markdown_reader.cache_clear()
+    monkeypatch.setitem(sys.modules, "markdown_it", None)
+    assert said("--pages", "--format", "html") == (
+        2,
+        'fieldscribe: --pages needs markdown-it-py\n  hint: pip install "fieldscribe[html]"\n',
+    )
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_second_run_finds_nothing_to_do(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["docs", "--pages", "--format", "html", "--out", str(site)]
+    assert main([*words, "--check"]) == 0
+    assert re.fullmatch(r"0 of \d+ files of index in .* are not current\n", capsys.readouterr().out)
+    (site / "index.css").unlink()
+    assert main(words) == 0
+    assert capsys.readouterr().out.startswith("1 written, 0 removed, ")
