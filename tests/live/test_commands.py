@@ -131,6 +131,8 @@ def test_a_command_ends_and_answers(words: str, code: int, out: str, err: str, o
             "^P1082 maximum_frequency  50 Hz\n$",
             "^unit 1 -> 02 0E 01 14(.|\n)*1 req",
         ),
+        ("read siemens_mm4 P0719", 0, "^(P0719.* remote_local_selection_index_[012] .*\n){3}$", "^$"),
+        ("read siemens_mm4 remote_local_selection", 0, "^(P0719.* .*\n){3}$", "^$"),
         ("read siemens_mm4 P1082 r0021", 1, "50 Hz\noutput_frequency +documented only: ", "^$"),
         ("read siemens_mm4 P1082 --unit 7", 2, "^$", r"unit 7 did not reply .*\n  hint: "),
         ("write siemens_mm4 P1082=45 --keep", 2, "^$", "write only when: stopped\n.*each write wears the memory"),

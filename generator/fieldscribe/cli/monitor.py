@@ -39,7 +39,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
     add = parser.add_argument
-    add("points", nargs="+", metavar="POINT|GROUP", help="points by code, name or address, or groups")
+    add(
+        "points",
+        nargs="+",
+        metavar="POINT|GROUP",
+        help="points by code, name or address; or groups, records, sets, arrays",
+    )
     add_unit(parser)
     add("--every", type=_seconds, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
     add("--count", type=int, metavar="N", help="so often (default: until Ctrl-C)")

@@ -27,7 +27,7 @@ ends with 1 when a point has no value or the device refuses it, with 2 when the 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
-    help_text = "points by code, name or address, or groups"
+    help_text = "points by code, name or address; or groups, records, sets, arrays"
     parser.add_argument("points", nargs="+", metavar="POINT|GROUP", help=help_text)
     add_unit(parser)
     add_format(parser)

@@ -57,20 +57,39 @@ class Choice(NamedTuple):
 
 
 def chosen(model: Device, names: list[str]) -> Choice:
-    """Return the points that are named, by themselves or by their group. Raises UnclearError."""
+    """Return the points that are named, by themselves or by what has them. Raises UnclearError."""
     groups = {group.name for group in model.groups} - {point.item for point in model.points}
     items: dict[str, None] = {}
     by_group: set[str] = set()
     for name in names:
-        inside = [point for point in model.points if point.group == name and may_be_read(model, point)]
-        if name not in groups:
+        members = [point for point in model.points if point.group == name] if name in groups else _elements(model, name)
+        inside = [point for point in members if may_be_read(model, point)]
+        if not members:
             items[_point(model, name, groups)] = None
         elif not inside:
-            raise UnclearError(f"no point of the group {name} can be read", "")
+            raise UnclearError(f"no point of {name} can be read", "")
         else:
             by_group.update(point.name for point in inside if point.item not in items)
             items.update(dict.fromkeys(point.item for point in inside))
     return Choice(list(items), frozenset(by_group))
+
+
+def _elements(model: Device, name: str) -> list[Point]:
+    """Return the points of a record, or those of an array or of sets, by their code or by what their names share."""
+    if any(name == point.item for point in model.points):
+        return []
+    found = {id(match.point) for match in find(model, name)}
+    repeated = [point for point in model.points if point.index is not None or point.set is not None]
+    coded = [point for point in repeated if id(point) in found and point.code is not None]
+    if len(coded) < max(2, len(found)):
+        coded = [point for point in repeated if point.name in _names(name, point)]
+    return [point for point in model.points if point.record == name] or coded
+
+
+def _names(name: str, point: Point) -> tuple[str, ...]:
+    """Return the names that a point with the plain name may have by its set and its index."""
+    in_set = f"{name}_set_{point.set}"
+    return in_set, f"{name}_index_{point.index}", f"{in_set}_index_{point.index}"
 
 
 def may_be_read(model: Device, point: Point) -> bool:
