@@ -6,6 +6,7 @@ import json
 import re
 import sys
 from html.parser import HTMLParser
+from operator import attrgetter
 from pathlib import Path
 from posixpath import dirname, join, normpath
 from typing import Any
@@ -15,7 +16,9 @@ from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.pages.site import load_pages, site_files
 from fieldscribe.pages.texts import markdown_reader, page_of
+from fieldscribe.pipeline import load_device
 from fieldscribe.resources import render
+from support.described import shipped
 from support.places import ROOT
 
 HOSTILE = """# <script>alert(1)</script> \u202e"x" & `<b>`
@@ -132,19 +135,20 @@ def test_every_page_is_there_and_every_link_leads_somewhere(site: Path) -> None:
                 assert not anchor or anchor in pages[there].anchors, f"{path}: {target}"
 
 
-def places(site: Path) -> dict[str, Any]:
+def data(script: str) -> dict[str, Any]:
     """The rows of the search by the path of their place."""
-    data = (site / "index.js").read_text("utf-8").rpartition("startPages(")[2]
-    return {path: rows for path, _, rows in json.loads(data.removesuffix(");\n"))}
+    places = json.loads(script.rpartition("startPages(")[2].removesuffix(");\n"))
+    return {path: rows for path, _, rows in places}
 
 
 def test_the_search_has_every_key_and_section(site: Path) -> None:
-    rows = places(site)["fieldscribe/descriptions/KEYS.html"]
+    places = data((site / "index.js").read_text("utf-8"))
+    rows = places["fieldscribe/descriptions/KEYS.html"]
     keys = (ROOT / "descriptions/KEYS.md").read_text("utf-8")
-    titles = [title for _, title, _ in rows]
+    titles = [title for _, title, *_ in rows]
     assert set(re.findall(r"(?m)^\| `([^`]+)`", keys)) <= set(titles)
     assert set(re.findall(r"(?m)^#+ (.*)$", keys.replace("`", ""))) <= set(titles)
-    assert all(rows for rows in places(site).values())
+    assert all(places.values())
 
 
 def test_the_command_says_what_it_lacks(
@@ -174,3 +178,29 @@ def test_a_second_run_finds_nothing_to_do(site: Path, capsys: pytest.CaptureFixt
     (site / "index.css").unlink()
     assert main(words) == 0
     assert capsys.readouterr().out.startswith("1 written, 0 removed, ")
+
+
+def test_the_index_lists_devices_and_finds_their_points_by_any_number() -> None:
+    devices = [shipped("hitachi_l200"), shipped("woodward_mpu2s")]
+    files = dict(site_files(devices, (), "fieldscribe docs", render))
+    assert files.keys() == {"index.html", "index.css", "index.js"}
+    cells = re.findall(r"<t[hd][^>]*>(?:<a href=\"(.*?)\">)?(.*?)<", files["index.html"].partition("<tbody>")[2])
+    assert cells[:7] == [
+        ("hitachi_l200.html", "L200"),
+        *(("", text) for text in ("Hitachi", "Frequency inverter / Frequenzumrichter", "modbus: rtu")),
+        *(("", text) for text in ("256", "236", "162")),
+    ]
+    rows = {title: words for _, title, words, _ in data(files["index.js"])["hitachi_l200.html"]}
+    words = rows["A020 base_frequency: Base frequency / Basisfrequenz"].split()
+    assert {"1028h", "(4136)", "0x1028", "4137", "404137"} <= set(words)
+
+
+@pytest.mark.parametrize("device", sorted((ROOT / "tests/devices").iterdir()), ids=attrgetter("name"))
+def test_any_device_has_a_row_for_each_point(device: Path) -> None:
+    described = load_device(device / "device.yaml", Report())
+    assert described is not None
+    files = dict(site_files([described], (), "fieldscribe docs", render))
+    assert [anchor for anchor, *_ in data(files["index.js"])[f"{described.id}.html"]] == [
+        point.item for point in described.points
+    ]
+    assert "alert(" not in files["index.html"]

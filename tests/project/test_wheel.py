@@ -6,6 +6,7 @@ import subprocess
 import sys
 import venv
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 from support.places import ROOT
@@ -22,6 +23,8 @@ def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
     pip = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
     run(*pip, "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", "dist", ROOT, folder=tmp_path)
     (wheel,) = (tmp_path / "dist").glob("fieldscribe-*.whl")
+    shipped = {path.removeprefix("fieldscribe/shipped/") for path in ZipFile(wheel).namelist()}
+    assert {"README.md", "CHANGELOG.md", "descriptions/KEYS.md", "descriptions/using/c.md"} <= shipped
     venv.create(tmp_path / "empty")
     scripts = tmp_path / "empty" / "bin"
     run(*pip, "--python", scripts / "python", "install", wheel, folder=tmp_path)

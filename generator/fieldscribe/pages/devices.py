@@ -10,34 +10,28 @@ from fieldscribe.model import Device, Point
 from fieldscribe.text import html, line
 from fieldscribe.wording import address_text, label, title_text
 
-Row = tuple[str, str, str]
-"""What a search sees of a place: its anchor, its title, and its further words."""
+Row = tuple[str, str, str, str]
+"""What a search sees of a place: its anchor, its title, its further words, and the heading above it."""
 
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """A row of the list of devices."""
+    """A row of the list of devices, in HTML."""
 
     href: str
-    name: str
-    title: str
-    bus: str
-    points: str
-    errata: str
+    cells: tuple[str, ...]
 
 
 def device_view(device: Device) -> DeviceView:
-    """Return the row of a device in the list, for HTML."""
-    generated = sum(point.generated for point in device.points)
+    """Return the row of a device in the list."""
     framings = ", ".join(device.bus.framings)
-    return DeviceView(
-        html(f"{device.id}.html"),
-        html(device_name(device)),
-        html(line(title_text(device.title))),
-        html(f"{device.family}: {framings}" if framings else device.family),
-        html(f"{len(device.points)}, {generated} of them in code"),
-        html(str(len(device.errata))),
+    generated = sum(point.generated for point in device.points)
+    texts = (
+        *(device.model, device.vendor, title_text(device.title)),
+        *(f"{device.family}: {framings}" if framings else device.family, str(len(device.points))),
+        *(str(generated), str(len(device.errata))),
     )
+    return DeviceView(html(f"{device.id}.html"), tuple(html(line(text)) for text in texts))
 
 
 def device_name(device: Device) -> str:
@@ -47,9 +41,10 @@ def device_name(device: Device) -> str:
 
 def rows_of(device: Device) -> Iterator[Row]:
     """Yield what a search sees of the points of a device: names, codes, titles, addresses in all notations."""
+    groups = {group.name: line(title_text(group.title)) for group in device.groups}
     for point in device.points:
         title = f"{label(point)}: {line(title_text(point.title))}"
-        yield f"point={point.item}", title, " ".join(dict.fromkeys(_numbers(device, point)))
+        yield point.item, title, " ".join(dict.fromkeys(_numbers(device, point))), groups[point.group]
 
 
 def _numbers(device: Device, point: Point) -> Iterable[str]:

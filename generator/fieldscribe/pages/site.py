@@ -106,9 +106,9 @@ def _view(path: str, title: str, shelves: Sequence[Shelf], contents: tuple[LinkV
 
 
 def _search_data(devices: Sequence[Device], shelves: Sequence[Shelf]) -> str:
-    """Return the call that gives the search its places (path, name) with their rows (anchor, title, words)."""
+    """Return the call that gives the search its places: path, name, and rows of anchor, title, words, heading above."""
     places: list[object] = [[f"{device.id}.html", device_name(device), list(rows_of(device))] for device in devices]
     for page in (page for shelf in shelves for page in shelf.pages):
-        rows = [(section.anchor, section.title, " ".join(" ".join(section.words).split())) for section in page.sections]
+        rows = [(at.anchor, at.title, " ".join(" ".join(at.words).split()), at.within) for at in page.sections]
         places.append([html_path(page.path), page.title, rows])
     return f"startPages({json.dumps(places, separators=(',', ':'))});\n"

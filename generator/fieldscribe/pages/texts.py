@@ -26,12 +26,13 @@ _COMMENT = re.compile(r"(?s)\s*<!--.*?-->\s*")
 class Section:
     """A place that a link can lead to: a heading, or a row of a table that starts with a name in code (level 0).
 
-    `words` is the text below the heading, or of the row.
+    `words` is the text below the heading, or of the row; `within` is the heading above the row.
     """
 
     anchor: str
     level: int
     title: str
+    within: str = ""
     words: list[str] = field(default_factory=list)
 
 
@@ -96,7 +97,7 @@ def _sections(tokens: Sequence[Token]) -> Iterator[Section]:
         elif token.type == "inline" and before.meta.get("row") and _starts_with_code(token):
             title = words_of(token)
             named = re.sub(r"\W+", "-", title).strip("-")
-            place = Section(_anchor(f"{heading.anchor}-{named}", taken), 0, title)
+            place = Section(_anchor(f"{heading.anchor}-{named}", taken), 0, title, heading.title)
             before.meta["row"].attrSet("id", place.anchor)
             yield place
         elif token.type == "inline":

@@ -50,12 +50,12 @@ function excerpt(row, query) {
   return made;
 }
 
-/** Start a page; `places` are [path, name, [anchor, title, words][]]. */
+/** Start a page; `places` are [path, name, [anchor, title, words, heading above][]]. */
 function startPages(places) {
   const top = document.documentElement.dataset.top + "/";
-  const rows = places.flatMap(([path, place, inside]) => inside.map(([anchor, title, words]) => ({
-    href: top + path + (anchor && "#" + anchor), title, place, words,
-    key: folded(title), text: folded(words), near: folded(place),
+  const rows = places.flatMap(([path, place, inside]) => inside.map(([anchor, title, words, above]) => ({
+    href: top + path + (anchor && "#" + anchor), title, place: above ? `${place}: ${above}` : place, words,
+    key: folded(title), text: folded(words), near: folded(place + " " + above),
   })));
   startSearch(rows);
   startScheme();
