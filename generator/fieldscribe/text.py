@@ -155,8 +155,8 @@ def markdown(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned)
 
 
-def html(text: str) -> str:
-    """Return text for HTML, between tags or in an attribute in double quotes."""
+def html_code(text: str) -> str:
+    """Return text for an HTML element or an attribute in double quotes, with its line breaks and blanks."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
-from fieldscribe.text import html, line
+from fieldscribe.text import html_code, line
 from fieldscribe.wording import address_text, label, title_text
 
 Row = tuple[str, str, str, str]
@@ -31,7 +31,7 @@ def device_view(device: Device) -> DeviceView:
         *(f"{device.family}: {framings}" if framings else device.family, str(len(device.points))),
         *(str(generated), str(len(device.errata))),
     )
-    return DeviceView(html(f"{device.id}.html"), tuple(html(line(text)) for text in texts))
+    return DeviceView(html_code(f"{device.id}.html"), tuple(html_code(line(text)) for text in texts))
 
 
 def device_name(device: Device) -> str:

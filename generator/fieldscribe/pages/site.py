@@ -17,7 +17,7 @@ from fieldscribe.pages.devices import device_name, device_view, rows_of
 from fieldscribe.pages.links import Links, html_path
 from fieldscribe.pages.texts import Page, page_of
 from fieldscribe.resources import Render, pages_dir, templates_dir
-from fieldscribe.text import html
+from fieldscribe.text import html_code
 
 NAME = "index"
 """The name of the files, as a device has one: their manifest's, too."""
@@ -85,7 +85,9 @@ def site_files(
     text = render("docs/pages/devices.html.j2", {"devices": [device_view(device) for device in devices]})
     views = [_view(f"{NAME}.html", "Devices", shelves, (), text)]
     for page in (page for shelf in shelves for page in shelf.pages):
-        contents = tuple(LinkView(f"#{html(at.anchor)}", html(at.title)) for at in page.sections if at.level == 2)
+        contents = tuple(
+            LinkView(f"#{html_code(at.anchor)}", html_code(at.title)) for at in page.sections if at.level == 2
+        )
         views.append(_view(html_path(page.path), page.title, shelves, contents, page.html()))
     for view in views:
         yield view.path, render("docs/pages/page.html.j2", {**context, "page": view})
@@ -98,11 +100,13 @@ def _view(path: str, title: str, shelves: Sequence[Shelf], contents: tuple[LinkV
     here = dirname(path) or "."
 
     def link(target: str, name: str) -> LinkView:
-        return LinkView(html(relpath(target, here)), html(name), target == path)
+        return LinkView(html_code(relpath(target, here)), html_code(name), target == path)
 
-    listed = [(html(each.heading), [link(html_path(page.path), page.title) for page in each.pages]) for each in shelves]
+    listed = [
+        (html_code(each.heading), [link(html_path(page.path), page.title) for page in each.pages]) for each in shelves
+    ]
     top = relpath(".", here)
-    return PageView(path, html(title), top, (("", [link(f"{NAME}.html", "Devices")]), *listed), contents, text)
+    return PageView(path, html_code(title), top, (("", [link(f"{NAME}.html", "Devices")]), *listed), contents, text)
 
 
 def _search_data(devices: Sequence[Device], shelves: Sequence[Shelf]) -> str:

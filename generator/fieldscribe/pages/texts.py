@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.text import html
+from fieldscribe.text import html_code
 
 if TYPE_CHECKING:
     from markdown_it import MarkdownIt
@@ -130,12 +130,12 @@ def markdown_reader() -> MarkdownIt:
 
 def _heading_end(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
     token = tokens[at]
-    anchor, name = html(token.meta["anchor"]), html(token.meta["name"])
+    anchor, name = html_code(token.meta["anchor"]), html_code(token.meta["name"])
     return f' <a class="anchor" href="#{anchor}" aria-label="Link to: {name}">#</a></{token.tag}>\n'
 
 
 def _code_block(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -> str:
-    code = html(tokens[at].content)
+    code = html_code(tokens[at].content)
     return f'<div class="code"><pre{_scrolls("Code", tokens[at])}><code>{code}</code></pre></div>\n'
 
 
@@ -145,7 +145,7 @@ def _table_start(_renderer: Any, tokens: Sequence[Token], at: int, *_: object) -
 
 def _scrolls(kind: str, token: Token) -> str:
     """Return the attributes of a box that the keyboard scrolls and a screen reader names."""
-    return f' tabindex="0" role="group" aria-label="{kind}: {html(token.meta.get("name", ""))}"'
+    return f' tabindex="0" role="group" aria-label="{kind}: {html_code(token.meta.get("name", ""))}"'
 
 
 def _table_end(*_: object) -> str:
