@@ -6,7 +6,7 @@
  *     await client.connectTCP("192.168.0.20");
  *     const drive = new HitachiL200(new ModbusSerialLine(client), { unit: 1 });
  */
-import { LineError, NoReplyError, RequestError } from "./errors.js";
+import { FrameError, LineError, NoReplyError, RequestError } from "./errors.js";
 import {
   READ_COILS,
   READ_DISCRETE,
@@ -34,6 +34,9 @@ import { hex2, wordsOfBytes } from "./receiving.js";
  * @property {(unit: number, address: number, states: boolean[], next: NodeCallback) => void} writeFC15
  * @property {(unit: number, address: number, values: number[], next: NodeCallback) => void} writeFC16
  */
+
+/** What the client says of wrong replies. @type {readonly (readonly [string, RegExp])[]} */
+const CLIENT_FAULTS = [["bad_crc", /CRC/], ["wrong_unit", /address/i], ["wrong_function", /code/i]];
 
 /** A line over a client that is connected; it keeps the client's timeout. Loop-back tests and padding are not there. */
 export class ModbusSerialLine {
@@ -69,7 +72,8 @@ export class ModbusSerialLine {
       }
       if (error instanceof LineError || error instanceof RequestError) throw error;
       if (errno) throw new LineError(String(message ?? errno));
-      throw new NoReplyError(String(message)); // what came is no reply to the request
+      const [status] = CLIENT_FAULTS.find(([, words]) => words.test(message)) ?? ["short_frame"];
+      throw new FrameError(status, String(message));
     }
   }
 }

@@ -51,7 +51,7 @@ export class ReplyReader {
       }
       if (expected === null || length < expected) {
         if (length < longest) return undefined;
-        throw new FrameError("long_frame", `${quotedBytes(this.received)}, more than any frame has`);
+        throw new FrameError("long_frame", `${quotedBytes(this.received)}, more than any frame has; is the baud rate right?`);
       }
       const frame = this.received.subarray(0, expected);
       if (isOwn(frame)) return frame;
@@ -64,14 +64,14 @@ export class ReplyReader {
   giveUp() {
     if (this.foreign && !(this.received.length && this.shape.isOwn(this.received))) return this.foreign;
     if (!this.received.length) throw new NoReplyError("no byte came");
-    throw new NoReplyError(`${quotedBytes(this.received)}, which are no reply`, this.received);
+    throw new NoReplyError(`${quotedBytes(this.received)}, which are no reply; is the baud rate right?`, this.received);
   }
 }
 
 /** @param {Uint8Array} received @returns {string} */
 function quotedBytes(received) {
   const first = [...received.subarray(0, 16)].map(hex2).join(" ");
-  return `${received.length} bytes came (${first}${received.length > 16 ? " ..." : ""}); is the baud rate right?`;
+  return `${received.length} bytes came (${first}${received.length > 16 ? " ..." : ""})`;
 }
 
 /** @param {Uint8Array} first @param {Uint8Array} second @returns {Uint8Array} */
