@@ -31,3 +31,14 @@ class RefusedError(Exception):
 def did_you_mean(names: list[str]) -> str:
     """Return a hint that offers near names; empty if there are none."""
     return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
+
+
+def can_package(interface: str, error: Exception) -> str:
+    """Return how to install what an interface of python-can lacks; empty if the error is about something else."""
+    if not ("not installed" in str(error) or isinstance(error, ImportError)):
+        return ""
+    from importlib.metadata import metadata
+
+    extra = "multicast" if interface == "udp_multicast" else interface.replace("_", "-")
+    known = metadata("python-can").get_all("Provides-Extra") or ()
+    return f"pip install 'python-can[{extra}]'" if extra in known else ""

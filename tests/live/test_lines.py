@@ -144,3 +144,17 @@ def test_a_port_that_takes_no_such_settings(monkeypatch: pytest.MonkeyPatch, run
     done = run("read", "hitachi_l200", "A020", "--line", "rtu:///dev/pts/9?parity=even")
     assert (done.code, done.out) == (2, "")
     assert "/dev/pts/9 cannot be set as the line needs it: a pseudo terminal has no parity" in done.err
+
+
+def test_a_bus_without_its_package_says_how_to_install_it(
+    monkeypatch: pytest.MonkeyPatch, run: Callable[..., Output]
+) -> None:
+    """The error is that of python-can without msgpack, whether that is installed here or not."""
+    import can
+
+    def lacking(*_: object, **__: object) -> None:
+        raise can.CanInterfaceNotImplementedError("msgpack not installed")
+
+    monkeypatch.setattr(can, "Bus", lacking)
+    done = run("read", "woodward_mpu2s", "generator_frequency", "--line", "can://udp_multicast/239.74.163.2")
+    assert (done.code, done.err.splitlines()[-1]) == (2, "  hint: pip install 'python-can[multicast]'")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.simulation.faults import Outcome
 from fieldscribe.simulation.line import Line, Stream
-from fieldscribe.user_errors import UnclearError
+from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:
     import can
@@ -191,7 +191,7 @@ async def serve_can(line: Line, interface: str, channel: str) -> Server:
     try:
         bus = can.Bus(channel, interface=interface, **options)
     except Exception as error:  # each interface raises errors of its own
-        hint = "name it as python-can does: `socketcan:can0`, `slcan:/dev/ttyUSB0`"
+        hint = can_package(interface, error) or "name it as python-can does: `socketcan:can0`, `slcan:/dev/ttyUSB0`"
         raise UnclearError(f"the bus `{interface}:{channel}` cannot be opened: {str(error)[:200]}", hint) from None
     end = _CanEnd(line, bus)
     return Server(f"can://{interface}/{channel}", end.close)

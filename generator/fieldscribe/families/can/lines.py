@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.live.lines import LineAddress, OpenLine
 from fieldscribe.model import Device
+from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:
     import can
@@ -35,7 +36,8 @@ def open_bus(line: LineAddress) -> can.BusABC:
     try:
         return can.Bus(channel, interface=interface, **settings)
     except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
-        raise line.wrong(f"python-can cannot open it: {error}") from error
+        wrong = line.wrong(f"python-can cannot open it: {error}")
+        raise UnclearError(wrong.message, can_package(interface, error) or wrong.hint) from error
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
