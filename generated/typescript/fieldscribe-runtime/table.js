@@ -2,6 +2,7 @@
 /** A device's points, found by what people call them: names, codes and groups, for the variants told. */
 import { AbsentError, AccessError, RequestError, shown } from "./errors.js";
 import { checkNumber } from "./receiving.js";
+import { camelName } from "./words.js";
 
 /** A point of any kind, as far as devices need to know. @typedef {any} AnyPoint */
 
@@ -35,11 +36,6 @@ export function identification(point, values, variant) {
 
 /** The values of variants that are known, by axis. @typedef {Record<string, string | undefined>} Variants */
 
-/** A name of a description as attributes have it: base_frequency is baseFrequency. @param {string} name */
-export function attributeName(name) {
-  return name.replace(/(?!^)_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
-}
-
 /** Whether the known variants have a point; a point of a variant needs that variant to be known.
  * @param {AnyPoint} point @param {Variants} variants @returns {boolean} */
 export function pointExists(point, variants) {
@@ -66,7 +62,7 @@ export class PointTable {
     this.attributes = new Map();
     for (const [attribute, point] of this.points) {
       this.attributes.set(point, attribute);
-      for (const name of new Set([attribute, point.name, attributeName(point.name)])) {
+      for (const name of new Set([attribute, point.name, camelName(point.name)])) {
         this.byName.set(name, [...(this.byName.get(name) ?? []), point]);
       }
     }
@@ -78,7 +74,7 @@ export class PointTable {
     /** @type {Variants} */
     const chosen = {};
     for (const [axis, values] of Object.entries(this.facts.variants ?? {})) {
-      const value = options[attributeName(axis)] ?? options[axis];
+      const value = options[camelName(axis)] ?? options[axis];
       if (value !== undefined && !values.includes(/** @type {string} */ (value))) {
         throw new RequestError("bad_variant", `${axis} is one of ${values.join(", ")}, not ${shown(value)}`);
       }
@@ -129,7 +125,7 @@ export class PointTable {
       if (variants[axis] === undefined) return `depends on ${axis}: pass it when the device is made`;
       return `does not exist for ${axis} ${variants[axis]}`;
     }
-    const documented = this.facts.documented?.[name] ?? this.facts.documented?.[attributeName(name)];
+    const documented = this.facts.documented?.[name] ?? this.facts.documented?.[camelName(name)];
     if (documented) return `is documented only: ${documented.reason}`;
     if (this.facts.commands?.[name]) return `is a command of this device: ${name}.send() gives it`;
     if (this.groups().includes(name)) return `is a group of this device: readMany(${shown(name)}) reads it`;

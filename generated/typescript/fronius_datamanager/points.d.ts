@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: 0BSD
 /** Fronius Datamanager with a three-phase inverter: its points. */
 import type * as runtime from "fieldscribe-runtime";
-import type { Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   ActiveControls,
   ApparentPowerMethod,

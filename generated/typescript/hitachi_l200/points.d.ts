@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: 0BSD
 /** Hitachi L200: its points. */
 import type * as runtime from "fieldscribe-runtime";
-import type { Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   Alarm,
   AnalogInputFilter,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.model import Device
 from fieldscribe.targets.runtime_calls.class_facts import class_facts
 from fieldscribe.targets.typescript.families import in_typescript
-from fieldscribe.targets.typescript.identifiers import Identifiers, attribute, option, scope_of
+from fieldscribe.targets.typescript.identifiers import Identifiers, option, scope_of
 from fieldscribe.targets.typescript.layout import Layout
 from fieldscribe.text import camel, js_string
 
@@ -15,7 +15,7 @@ RUNTIME = "fieldscribe-runtime"
 def device_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the main module: imports by module, facts of the class, and options."""
     family, scope = in_typescript(device), scope_of(device, names)
-    layout = Layout(family.makers, attribute)
+    layout = Layout(family.makers, camel)
     facts = {name.lower(): node for name, node in class_facts(scope).items()}
     facts |= {"version": device.version, "digest": device.digest}
     imports: dict[str, list[str]] = {}

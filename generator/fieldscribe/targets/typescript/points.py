@@ -18,7 +18,7 @@ from fieldscribe.targets.typescript.families import in_typescript
 from fieldscribe.targets.typescript.identifiers import Identifiers, attribute, scope_of
 from fieldscribe.targets.typescript.layout import Layout, doc_lines
 from fieldscribe.targets.typescript.types import TYPE_NAMES, type_of
-from fieldscribe.text import js_comment, js_string
+from fieldscribe.text import camel, js_comment, js_string
 from fieldscribe.wording import open_text
 
 _KEEP = "`keep: true`"
@@ -70,7 +70,7 @@ class Points:
 
     def __init__(self, device: Device, names: Identifiers) -> None:
         self.scope: Scope = scope_of(device, names)
-        self.layout = Layout(in_typescript(device).makers, attribute)
+        self.layout = Layout(in_typescript(device).makers, camel)
         self._keys = self.scope.lowered.template_keys
         self._texts = TextTemplates()
         self._types: dict[tuple[int, str], str] = {}

@@ -8,7 +8,7 @@ from fieldscribe.model import Point
 from fieldscribe.targets.runtime_calls.point_call import numbers_of
 from fieldscribe.targets.runtime_calls.scope import Scope
 from fieldscribe.targets.typescript.identifiers import code_attribute
-from fieldscribe.text import js_string
+from fieldscribe.text import camel, js_string
 
 TYPE_NAMES = ("ReadOnly", "ReadWrite", "Stored", "StoredWriteOnly", "WriteOnly")
 """The types of points, which differ in their methods."""
@@ -74,4 +74,4 @@ def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]
 
 
 def _union(names: dict[str, None], scope: Scope) -> str:
-    return " | ".join(js_string(scope.attribute(name)) for name in names)
+    return " | ".join(js_string(camel(name)) for name in names)

@@ -48,7 +48,7 @@ KINDS = {
     "unicode_encode": "text:bytes? status:word words:ints?",
     "bytes_decode": "only:c.rust words:ints bytes:bytes",
     "bytes_encode": "only:c.rust bytes:bytes words:ints",
-    "notation": "only:python words:ints text:text",
+    "notation": "only:python.typescript words:ints text:text",
     "digits": "raw:int status:word digits:ints? special:word?",
     "digits_encode": "digits:ints status:word raw:int?",
     # facts of a point apart from its conversions
@@ -61,25 +61,25 @@ KINDS = {
     "write": _EXCHANGE,
     "store": _EXCHANGE,
     # facts that only Python has in code: in C and Rust they are comments, which no program can check
-    "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+    "facts": "only:python.typescript group:word name:word type:word symbol:text? default:real? changes:word? "
     "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
     # what identifies the device and its variants, each alternative alone
     "identification": "name:word of:word raw:int? text:text? variant:pairs?",
     # old names of a point
-    "alias": "only:c.python old:word new:word",
+    "alias": "only:c.python.typescript old:word new:word",
     # the values of an axis of variants, and what is only documented
-    "variant": "only:python axis:word choices:names",
-    "left_out": "only:python names:names codes:names",
+    "variant": "only:python.typescript axis:word choices:names",
+    "left_out": "only:python.typescript names:names codes:names",
     # the number of decimals that people see, the date of a time as seconds after 1970-01-01, and the texts of values
     "display": "decimals:int",
     "epoch": "seconds:int",
-    "told": "only:python.rust raw:int status:word text:text?",
+    "told": "only:python.rust.typescript raw:int status:word text:text?",
     # the symbol of a point's unit
     "symbol": "only:rust symbol:text",
     # the addresses of points that are only documented
     "documented": "name:word space:word address:int words:int index:int?",
     # the reads of a group's words; not in Rust, which reads points one by one
-    "group": "only:c.python group:word addresses:ints",
+    "group": "only:c.python.typescript group:word addresses:ints",
     # the contents of tables of constants: functions or tasks in order, limits, lengths of tables
     "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
     "limit": "only:c what:word number:int",

@@ -11,7 +11,7 @@ import { mergedWords, stepReads } from "../fieldscribe-runtime/commands.js";
 import { FieldscribeError, NoReplyError } from "../fieldscribe-runtime/errors.js";
 import { buildModbusRequest, parseModbusReply } from "../fieldscribe-runtime/modbus-frames.js";
 import { lowestOf } from "../fieldscribe-runtime/places.js";
-import { attributeName } from "../fieldscribe-runtime/table.js";
+import { camelName } from "../fieldscribe-runtime/words.js";
 import { buildUssBroadcast, buildUssRequest, parseUssReply } from "../fieldscribe-runtime/uss-frames.js";
 
 /** The fields of a vector by name. @typedef {Record<string, any>} Vector */
@@ -39,7 +39,7 @@ function isSame(one, other) {
 /** The point of a vector. @param {DeviceClass} device @param {Vector} vector @returns {any} */
 function pointOfVector(device, vector) {
   const { points } = device.table;
-  const name = attributeName(vector.point);
+  const name = camelName(vector.point);
   const found = points.get(name) ?? points.get(`${name}_`);
   if (!found) throw new Error(`there is no point ${vector.point}`);
   return found;
@@ -89,7 +89,7 @@ function scripted(device, vector, point) {
   if ("pkw" in vector) options.link = linkOfVector(vector);
   const { variant, onlyFor } = point?.facts ?? {};
   for (const [axis, value] of [variant, onlyFor && [onlyFor[0], onlyFor[1][0]]].filter(Boolean)) {
-    options[attributeName(axis)] = value;
+    options[camelName(axis)] = value;
   }
   const made = new device(line, options);
   for (const [base, start] of Object.entries(vector.starts ?? {})) {
@@ -114,7 +114,7 @@ function rawOfVector(point, vector) {
 /** The raw numbers of other points that a vector needs. @param {Vector} vector */
 function rawsOfVector(vector) {
   const pairs = Object.entries(vector.with ?? {});
-  return Object.fromEntries(pairs.map(([name, raw]) => [attributeName(name), Number(raw)]));
+  return Object.fromEntries(pairs.map(([name, raw]) => [camelName(name), Number(raw)]));
 }
 
 /** @param {DeviceClass} device @param {any} vector */
@@ -153,7 +153,7 @@ async function commandFollows(device, vector) {
 /** What a command is called: its name may be a point's, or a method. @param {DeviceClass} device @param {string} name */
 function commandAttribute(device, name) {
   const { commands = {} } = device.table.facts;
-  const plain = attributeName(name);
+  const plain = camelName(name);
   return [`${plain}Command`, plain, `${plain}_`].find((one) => one in commands) ?? plain;
 }
 
@@ -199,7 +199,7 @@ function stepMerges(device, vector) {
 
 /** @param {DeviceClass} device @param {any} vector */
 function blockIsPlanned(device, { group, space, function: code, address, count }) {
-  const blocks = device.table.facts.blocks?.[group] ?? device.table.facts.blocks?.[attributeName(group)] ?? [];
+  const blocks = device.table.facts.blocks?.[group] ?? device.table.facts.blocks?.[camelName(group)] ?? [];
   return blocks.some((/** @type {any} */ one) =>
     isSame([one.space, one.function, one.address, one.count], [space, code, address, count]),
   );

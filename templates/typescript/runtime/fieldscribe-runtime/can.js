@@ -16,7 +16,8 @@ import { EchoError, FieldscribeError, NoReplyError, RequestError, shown, Telegra
 import { ascending, place, placeLabel } from "./places.js";
 import { checkNumber } from "./receiving.js";
 import { Session } from "./session.js";
-import { attributeName, checkUnit } from "./table.js";
+import { checkUnit } from "./table.js";
+import { camelName } from "./words.js";
 
 /** @typedef {import("./places.js").Place} Place */
 /** @typedef {import("./table.js").AnyPoint} AnyPoint */
@@ -171,7 +172,7 @@ export function packMessage(device, message, values, { unit = 0, raws } = {}) {
   /** @type {[number, number | bigint][]} */
   const found = [];
   for (const [name, value] of Object.entries(values)) {
-    const point = table.points.get(attributeName(name));
+    const point = table.points.get(camelName(name));
     if (point?.at.telegram !== message) throw new RequestError("bad_point", `${shown(name)} is no signal of ${message}`);
     if (!point.encode) throw new RequestError("bad_point", `${name} cannot be written`);
     found.push([packing.firsts().indexOf(point.at.addresses[0]), point.encode(value, raws)]);

@@ -16,7 +16,8 @@ import {
   shown,
 } from "./errors.js";
 import { placeLabel, placesOverlap } from "./places.js";
-import { attributeName, labelOf, pointExists, PointTable } from "./table.js";
+import { labelOf, pointExists, PointTable } from "./table.js";
+import { camelName } from "./words.js";
 
 /** @typedef {import("./places.js").Place} Place */
 /** @typedef {import("./table.js").AnyPoint} AnyPoint */
@@ -370,10 +371,10 @@ export class Session {
         const refused = refusals?.get(point);
         if (refused) throw refused.copied();
         const known = await this._raws(point, point.scaleNeeds ?? [], { known: raws, refusals });
-        values[attributeName(point.name)] = point.decode(raws.get(point), known);
+        values[camelName(point.name)] = point.decode(raws.get(point), known);
       } catch (error) {
         if (!(error instanceof FieldscribeError) || !refusals || (error.lost && !refusals.size)) throw error;
-        values[attributeName(point.name)] = error.about({ group });
+        values[camelName(point.name)] = error.about({ group });
       }
     }
     return values;
@@ -574,7 +575,7 @@ export function defineDevice(kind, facts) {
     define(attribute, function () {
       return this._bound(point);
     });
-    const shared = attributeName(point.name);
+    const shared = camelName(point.name);
     if (point.facts.variant && !table.points.has(shared)) {
       define(shared, function () {
         return this.point(point.name);
