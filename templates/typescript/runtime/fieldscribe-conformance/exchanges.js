@@ -28,9 +28,9 @@ async function outcomeOf(work) {
   }
 }
 
-/** Whether two values are the same, all through. @param {any} one @param {any} other @returns {boolean} */
+/** Whether two values are the same, all through; a raw number of a vector may be a number or a bigint. @param {any} one @param {any} other @returns {boolean} */
 function isSame(one, other) {
-  if (Object.is(one, other)) return true;
+  if (Object.is(one, other) || (typeof one === "bigint" && String(one) === String(other))) return true;
   if (typeof one !== "object" || typeof other !== "object" || !one || !other) return false;
   const names = Object.keys(one);
   return names.length === Object.keys(other).length && names.every((name) => isSame(one[name], other[name]));
