@@ -103,7 +103,7 @@ export class SerialLine extends StreamLine {
       const wrong = () => reject(new NoReplyError("what was sent was not heard: another speaks, or there is no echo"));
       const timer = setTimeout(wrong, this.timeout * 1000);
       let heard = 0;
-      this._onData = (data) => {
+      this._onData = (/** @type {Uint8Array} */ data) => {
         const own = data.subarray(0, request.length - heard);
         if (own.some((byte, at) => byte !== request[heard + at])) return wrong();
         heard += own.length;

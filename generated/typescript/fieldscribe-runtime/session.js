@@ -401,7 +401,7 @@ export class Session {
    * @param {AnyPoint} point @returns {AnyPoint} */
   _required(point) {
     const { variant, onlyFor } = point.facts;
-    for (const [axis, values] of [variant && [variant[0], [variant[1]]], onlyFor]) {
+    for (const [axis, values] of [variant && [variant[0], [variant[1]]], onlyFor].filter(Boolean)) {
       const chosen = this.variants[axis];
       if (chosen !== undefined && !values.includes(chosen)) {
         throw new AbsentError(`${labelOf(point)} exists only for ${axis} ${values.join(" or ")}`);
