@@ -21,7 +21,7 @@ from support.python_transports import behind_a_gateway, transport
 
 from fuzz.soak import MOST_GROWTH, resident
 
-TIMEOUT = 0.05
+TIMEOUT = 0.1
 """Seconds for an answer."""
 HEAD = 9
 """The bytes of an answer that are not the number itself, which nothing guards over TCP."""

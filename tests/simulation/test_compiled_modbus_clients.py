@@ -130,8 +130,8 @@ def test_rust(name: str, tmp_path_factory: pytest.TempPathFactory, request: pyte
         assert refused <= writable
 
 
-def is_right(printed: str, value: object) -> bool:
+def is_right(printed: str, value: str | float) -> bool:
     """Return True if a printed value is that of the device."""
     if isinstance(value, str):
         return printed == value
-    return float(printed) == pytest.approx(float(value))  # type: ignore[arg-type]
+    return float(printed) == pytest.approx(float(value))
