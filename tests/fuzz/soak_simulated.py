@@ -9,6 +9,7 @@ import argparse
 import gc
 import json
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -23,12 +24,15 @@ from fuzz.soak import MOST_GROWTH, resident
 
 TIMEOUT = 0.1
 """Seconds for an answer."""
+PATIENCE = 5.0
+"""Seconds after which a request that has not come to the drive is lost."""
 HEAD = 9
 """The bytes of an answer that are not the number itself, which nothing guards over TCP."""
 GARBLED = {"timeout", "wrong_transaction", "bad_protocol", "long_frame", "short_frame", "wrong_unit", "wrong_function"}
 GARBLED |= {"bad_byte_count", "exception"}
 EXPLAINED = {
     "": {"ok"},
+    "busy": {"timeout", "ok"},
     "silent": {"timeout"},
     "late": {"timeout"},
     "cut": {"timeout"},
@@ -41,7 +45,7 @@ EXPLAINED = {
     "noise": GARBLED,
     "drop": {"line"},
 }
-"""How a read may end by each fault of its answer."""
+"""How a read may end by each fault of its answer; `busy` is a machine that was slow to give an answer without one."""
 POINTS = ("base_frequency", "acceleration_time", "output_frequency", "trip_count", "motor_current")
 
 
@@ -56,18 +60,23 @@ class Outcome(NamedTuple):
 def faults(share: float, timeout: float) -> Iterator[str]:
     """Yield faults of all kinds, each as often as the others, at all bytes where a place matters."""
     for kind in KINDS:
-        places: tuple[object, ...] = (*range(HEAD),) if kind in ("cut", "damaged", "noise", "drop") else ("",)
+        end = HEAD - 1 if kind == "noise" else HEAD  # it may be a count, and the next of it a number
+        places: tuple[object, ...] = (*range(end),) if kind in ("cut", "damaged", "noise", "drop") else ("",)
         for place in (3 * timeout,) if kind == "late" else places:
             yield f"{kind} {place} {100 * share / len(KINDS) / len(places):.6f}%"
 
 
 def soak(requests: int, share: float, seed: int, timeout: float = TIMEOUT) -> Outcome:
     """Read the points of a drive in turn, so many times, while a share of the answers is spoiled."""
-    struck: list[str] = []
+    struck: list[tuple[float, str]] = []
     kept = resident()
     outcome = Outcome(Counter(), [], 0)
     spoils = [*faults(share, timeout)]
-    with simulated("hitachi_l200", on="tcp", seed=seed, trace=struck.append, faults=spoils) as drive:
+
+    def note(entry: str) -> None:
+        struck.append((time.monotonic(), entry))
+
+    with simulated("hitachi_l200", on="tcp", seed=seed, trace=note, faults=spoils) as drive:
         right = {name: drive.values[name] for name in POINTS}
         for client in clients(drive, timeout):
             for number in range(requests):
@@ -76,13 +85,25 @@ def soak(requests: int, share: float, seed: int, timeout: float = TIMEOUT) -> Ou
                     kept = resident()
                 name = POINTS[number % len(POINTS)]
                 struck.clear()
+                began = time.monotonic()
                 end = read(client, name, right[name])
-                fault = json.loads(struck[0])["fault"] or "" if len(struck) == 1 else f"{len(struck)} requests"
+                fault = struck_by(struck, began + timeout / 2)
                 outcome.ends[fault, end] += 1
                 if end not in EXPLAINED.get(fault, ()):
                     outcome.findings.append(f"read {number} of {name}: {end} by {fault or 'no fault'}")
             gc.collect()
     return outcome._replace(growth=resident() - kept)
+
+
+def struck_by(struck: list[tuple[float, str]], busy: float) -> str:
+    """Return the fault of the one answer since a read began; `busy` is the time after which any answer is late."""
+    end = time.monotonic() + PATIENCE
+    while not struck and time.monotonic() < end:
+        time.sleep(0.001)  # the request is still on its way
+    if len(struck) != 1:
+        return f"{len(struck)} requests"
+    at, entry = struck[0]
+    return json.loads(entry)["fault"] or ("busy" if at > busy else "")
 
 
 def clients(drive: Simulated, timeout: float) -> Iterator[Any]:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe.text import camel
-from support.node_device import NodeDevice, NodeError, bridged, installed, node_device
+from support.node_device import NodeDevice, bridged, installed, node_device
 
 RTU, TCP, USS = ("tcp", "rtu"), ("tcp", "tcp"), ("tcp", "uss")
 VARIANTS = {
@@ -52,7 +52,10 @@ def connected(
     settings |= {"framing": framing} if framing else {}
     with simulated(device, on=on, variants=made, given=GIVEN.get(device, {}), **settings) as drive:
         options = {camel(axis): value for axis, value in variants.items()} | LINK.get(device, {})
-        with _line(drive, on, kind) as line, node_device(folder, device, line | {"framing": framing}, unit=drive.unit, **options) as node:
+        with (
+            _line(drive, on, kind) as line,
+            node_device(folder, device, line | {"framing": framing}, unit=drive.unit, **options) as node,
+        ):
             yield drive, node
 
 
