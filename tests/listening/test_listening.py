@@ -166,6 +166,30 @@ def test_a_bus_with_messages(listen: Listen) -> None:
     assert "1 line without a frame" in messages
 
 
+@pytest.mark.parametrize(("writer", "file"), [(can.BLFWriter, "bus.blf"), (can.ASCWriter, "bus.asc")])
+def test_captures_of_can_tools(writer: Callable[..., can.Listener], file: str, listen: Listen, tmp_path: Path) -> None:
+    """The files are written by python-can; what is cut off is an error behind what is whole."""
+    written = writer(tmp_path / file)
+    for place, text in enumerate(("DD00051513880064", "DD010302000007D0") * 20):
+        frame = can.Message(1e9 + place, 0x321, is_extended_id=False, data=bytes.fromhex(text), channel=0)
+        written.on_message_received(frame)
+    written.stop()
+    whole = (tmp_path / file).read_bytes()
+    _, lines, messages = listen("woodward_mpu2s", whole)
+    assert "  unit 1  visualisation  telegram_identification = 1301, generator_frequency = 50 Hz" in lines[0]
+    assert "40 exchanges" in lines
+    assert messages == ""
+    if file == "bus.blf":
+        code, _, messages = listen("woodward_mpu2s", whole[:-50])
+        assert (code, "no whole BLF file" in messages) == (2, True)
+
+
+def test_captures_of_can_tools_need_python_can(listen: Listen, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "can", None)
+    code, _, messages = listen("woodward_mpu2s", b"LOGG" + bytes(200))
+    assert (code, messages.splitlines()[-1]) == (2, "  hint: pip install 'fieldscribe[live]'")
+
+
 def test_telegrams(listen: Listen) -> None:
     asked, came = telegram(1, (0x143A, 0, 0, 0, 0x047F, 0x3333)), telegram(1, (0x243A, 0, 0x4248, 0, 0xFA31, 0x3333))
     _, lines, _ = listen("siemens_mm4", logged([asked, b"\x02", came, b"\x02\x0e\x01"]))

@@ -1,4 +1,4 @@
-"""Opens captures, whatever they are: packets (pcap, pcapng), or lines of text."""
+"""Opens captures, whatever they are: packets (pcap, pcapng), messages (BLF, ASC), or lines of text."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Iterator
 from io import BufferedReader
 
+from fieldscribe.listening.bus_files import bus_chunks, is_bus_file
 from fieldscribe.listening.chunks import Chunk
 from fieldscribe.listening.packet_files import Packet, is_packet_file, read_packets
 from fieldscribe.listening.packets import Packets
@@ -32,6 +33,9 @@ def chunks_of(
             if each is not None:
                 each(packet)
             yield from packets.chunks(packet)
+        return
+    if is_bus_file(stream.peek(4)):
+        yield from bus_chunks(stream)
         return
     read = skipped = 0
     while line := stream.readline(_LONGEST_LINE):
@@ -63,5 +67,5 @@ def _frames_in(text: str) -> list[str]:
 
 _NONE = (
     "it has no frame",
-    "captures are pcap, pcapng, logs of candump, traces of `simulate`, and lines of hexadecimal bytes with times",
+    "captures are pcap, pcapng, BLF, ASC, logs of candump, traces of `simulate`, lines of hexadecimal bytes with times",
 )
