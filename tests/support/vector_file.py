@@ -82,7 +82,7 @@ class File:
             self._shapes[fields[0]] = [field.split(":") for field in fields[1:]]
         elif what == "kind":
             shape = [field.split(":") for field in fields[2:]]
-            only = next((form for key, form in shape if key == "only"), "c.python.rust")
+            only = next((form for key, form in shape if key == "only"), self._language)
             if self._language in only.split("."):
                 self.counts[fields[0]] = int(fields[1])
             self._shapes[fields[0]] = [field for field in shape if field[0] != "only"]

@@ -109,7 +109,7 @@ def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] =
 
 
 def _limits_of(point: Point, scope: Scope) -> LimitTexts:
-    return limits_text(point, scope), end_texts(point)
+    return limits_text(point, scope), end_texts(point, leaf)
 
 
 def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:

@@ -32,12 +32,12 @@ def texts_of(point: Point, numbers: str, ends: tuple[str, ...], encoders: Encode
     )
 
 
-def end_texts(point: Point) -> tuple[str, ...]:
+def end_texts(point: Point, leaf: Callable[[Leaf], str]) -> tuple[str, ...]:
     """Return the ends of the intervals of raw numbers, where they are fields."""
     limits = point.allowed
     if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
         return ()
-    return tuple([str(end) for interval in limits.fixed for end in interval])
+    return tuple([leaf(end) for interval in limits.fixed for end in interval])
 
 
 def fields_of_texts(texts: tuple[str, ...], point: Point) -> PointFields:

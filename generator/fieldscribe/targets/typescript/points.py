@@ -79,7 +79,7 @@ class Points:
     def text(self, point: Point) -> str:
         """Return the constant of a point."""
         leaf = self.layout.leaf
-        own = texts_of(point, numbers_of(point, self.scope), end_texts(point), (js_string, leaf))
+        own = texts_of(point, numbers_of(point, self.scope), end_texts(point, leaf), (js_string, leaf))
         fields = (attribute(point.item), js_string(point.name), *own)
         if len(fields) > MOST_FIELDS:
             return self._laid_out(point, fields)

@@ -214,6 +214,7 @@ function isWords(device, vector) {
 /** The raw number of words that are in the order of their characters. @param {any} point @param {readonly number[]} words */
 function rawOfOrdered(point, words) {
   const { addresses } = point.at;
+  if (words.length !== addresses.length) throw new Error(`${words.length} words for ${addresses.length} addresses`);
   const ascending = [...addresses].sort((one, other) => one - other);
   return point.fromWords(ascending.map((address) => words[addresses.indexOf(address)]));
 }
@@ -334,8 +335,8 @@ function isAlias(device, vector) {
   const point = pointNamed(device, vector.point);
   const suffix = point.item.slice(point.name.length); // points of variants share their old names too
   const [old, now] = [vector.old, vector.new].map((name) => camelName(suffix ? name.slice(0, -suffix.length) : name));
-  const known = table.facts.oldNames[old];
-  return suffix ? now === camelName(point.name) : known !== undefined && table.points.get(known) === point;
+  if (now !== camelName(point.name)) return false;
+  return Boolean(suffix) || table.points.get(table.facts.oldNames[old]) === point;
 }
 
 /** The values of an axis of variants. @type {CodecCheck} */

@@ -241,11 +241,11 @@ class ScaledForm extends Form {
   quickDecode(low, high, slow) {
     const steps = this.exactSteps();
     if (!steps) return slow;
-    const [times, less, over] = steps;
+    const [times, less, over] = steps; // adding 0 takes the sign of -0
     if (times === 1 && less === 0) {
       return (raw, raws) => (Number.isInteger(raw) && raw >= low && raw <= high ? raw / over : slow(raw, raws));
     }
-    return (raw, raws) => (Number.isInteger(raw) && raw >= low && raw <= high ? (raw * times - less) / over : slow(raw, raws));
+    return (raw, raws) => (Number.isInteger(raw) && raw >= low && raw <= high ? (raw * times - less + 0) / over : slow(raw, raws));
   }
 
   quickWord() {
@@ -254,7 +254,7 @@ class ScaledForm extends Form {
     const [times, less, over] = steps;
     return times === 1 && less === 0
       ? (/** @type {number} */ word) => word / over
-      : (/** @type {number} */ word) => (word * times - less) / over;
+      : (/** @type {number} */ word) => (word * times - less + 0) / over;
   }
 
   /** The scale in binary64, where that is exact up to the division for all numbers of the type.

@@ -1,0 +1,44 @@
+"""Packages of the TypeScript target as npm would install them: beside the runtime, in a folder `node_modules`."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+from fieldscribe.model import Device
+from fieldscribe.resources import render, templates_dir
+from fieldscribe.targets import typescript
+
+from support.files import write_files
+from support.places import ROOT
+from support.toolchains import npm_package, succeed, tool
+
+RUNTIME = templates_dir() / "typescript/runtime"
+SHIPPED = ROOT / "generated/typescript"
+RUNNER = Path(__file__).with_name("run_vectors.mjs")
+
+
+def install(folder: Path, packages: Iterable[Path | Device] = ()) -> Path:
+    """Install packages, generated ones or those of a model, with the runtime; return the folder of modules."""
+    modules = folder / "node_modules"
+    for name in ("fieldscribe-runtime", "fieldscribe-conformance"):
+        shutil.copytree(RUNTIME / name, modules / name, dirs_exist_ok=True)
+    for package in packages:
+        if isinstance(package, Path):
+            shutil.copytree(package, modules / package.name.replace("_", "-"), dirs_exist_ok=True)
+        else:
+            texts = dict(typescript.outputs(package, render))
+            write_files({path.split("/", 2)[2]: text for path, text in texts.items()}, modules / package_name(package))
+    return modules
+
+
+def package_name(device: Device) -> str:
+    """Return what the package of a device is called."""
+    return device.id.replace("_", "-")
+
+
+def compile_types(folder: Path, *options: str) -> str:
+    """Check the TypeScript programs of a folder without output; return what the compiler says."""
+    compiler = [tool("node"), npm_package("typescript") / "bin/tsc"]
+    return succeed([*compiler, "--noEmit", "-p", folder, *options])
