@@ -12,14 +12,23 @@ from fieldscribe.simulation import Simulated, simulated
 from fieldscribe.text import camel
 from support.node_device import NodeDevice, bridged, installed, node_device
 
-RTU, TCP, USS = ("tcp", "rtu"), ("tcp", "tcp"), ("tcp", "uss")
 VARIANTS = {
     "hitachi_l200": {"voltage_class": "400V"},
     "siemens_mm4": {"model": "mm440", "interface": "rs485"},
     "woodward_mpu2s": {"voltage": "400V"},
 }
+VALUES = {"siemens_mm4": {"uss_pzd_length_index_0": "4", "uss_pzd_length_index_1": "4"}}
 LINK = {"siemens_mm4": {"link": {"pkw": 127, "pzd": 4}}}
-GIVEN: dict[str, dict[str, int]] = {}
+LEAST = {
+    "eastron_sdm630": 98,
+    "fronius_datamanager": 200,
+    "hitachi_l200": 234,
+    "jumo_controller": 23,
+    "nord_sk5xxe": 12,
+    "siemens_mm4": 29,
+    "woodward_mpu2s": 240,
+}
+"""How many points are read, at the least."""
 LINES = [
     ("eastron_sdm630", "tcp", "rtu", "tcp"),
     ("fronius_datamanager", "tcp", "tcp", "tcp"),
@@ -50,7 +59,7 @@ def connected(
     variants = VARIANTS.get(device, {})
     made = [f"{axis}={value}" for axis, value in variants.items()]
     settings |= {"framing": framing} if framing else {}
-    with simulated(device, on=on, variants=made, given=GIVEN.get(device, {}), **settings) as drive:
+    with simulated(device, on=on, variants=made, values=VALUES.get(device, {}), **settings) as drive:
         options = {camel(axis): value for axis, value in variants.items()} | LINK.get(device, {})
         with (
             _line(drive, on, kind) as line,
@@ -66,3 +75,118 @@ def _line(drive: Simulated, on: str, kind: str) -> Iterator[dict[str, Any]]:
         return
     with bridged(drive.url.rpartition("/")[2]) as port:
         yield {"kind": kind, "port": port}
+
+
+CODEC = {"special", "not_a_number", "zero_factor", "no_case", "overflow", "malformed", "unknown_value", "out_of_range"}
+"""What a value of a simulated device may lack; the vectors say when."""
+
+
+def raw_of(found: Any) -> int:
+    """The raw number that a device in node gave."""
+    return int(found["bigint"]) if isinstance(found, dict) else int(found)
+
+
+def value_of(node: NodeDevice, attribute: str) -> Any:
+    """The value of a point; None where its number has none."""
+    try:
+        return node(attribute, "read")
+    except NodeError as error:
+        if error.status in CODEC:
+            return None
+        raise
+
+
+@pytest.mark.full(6)
+@pytest.mark.parametrize(
+    ("device", "on", "framing", "kind"), [pytest.param(*line, id=" ".join(line)) for line in LINES]
+)
+def test_every_readable_point(folder: Path, device: str, on: str, framing: str, kind: str) -> None:
+    """Each point that can be read has the raw number that the device holds, alone and with its group."""
+    with connected(folder, device, on, framing, kind) as (drive, node):
+        table = {one["name"]: one for one in node(None, "table")}
+        points = [
+            point
+            for point in drive.device.layout.points.values()
+            if point.generated and point.readable and point.variant is None and point.space != "signal"
+        ]
+        groups: dict[str, dict[str, Any]] = {}
+        for point in points:
+            attribute = table[point.name]["attribute"]
+            if point.text is None:
+                assert raw_of(node(attribute, "readRaw")) == drive.device.memory.raw(point.name), point.name
+            value = value_of(node, attribute)
+            if point.group not in groups:
+                groups[point.group] = node(None, "readMany", point.group, {"errors": "return"})
+            if value is not None:
+                assert groups[point.group][camel(point.name)] == value, point.name
+        assert len(points) >= LEAST[device]
+
+
+RTU_LINE, TCP_LINE, USS_LINE, CAN_LINE, SERIAL = LINES[2], LINES[1], LINES[5], LINES[6], LINES[7]
+ASKED = {
+    "hitachi_l200": "baseFrequency",
+    "fronius_datamanager": "deviceAddress",
+    "siemens_mm4": "maximumFrequency",
+    "woodward_mpu2s": "generatorFrequencySetpoint",
+}
+FAULTS = [
+    (RTU_LINE, "silent", "timeout"),
+    (RTU_LINE, "late 0.45", "timeout"),
+    (RTU_LINE, "cut", "timeout"),
+    (RTU_LINE, "noise", "timeout"),
+    (RTU_LINE, "check", "bad_crc"),
+    (RTU_LINE, "damaged 3", "bad_crc"),
+    (RTU_LINE, "unit", "wrong_unit"),
+    (RTU_LINE, "exception", "exception"),
+    (RTU_LINE, "drop", "line"),
+    (RTU_LINE, "doubled", "ok"),
+    (TCP_LINE, "silent", "timeout"),
+    (TCP_LINE, "check", "wrong_transaction"),
+    (TCP_LINE, "unit", "wrong_unit"),
+    (TCP_LINE, "function", "wrong_function"),
+    (TCP_LINE, "exception", "exception"),
+    (TCP_LINE, "doubled", "ok"),
+    (SERIAL, "silent", "timeout"),
+    (SERIAL, "late 0.45", "timeout"),
+    (SERIAL, "check", "bad_crc"),
+    (SERIAL, "exception", "exception"),
+    (SERIAL, "doubled", "ok"),
+    (USS_LINE, "silent", "timeout"),
+    (USS_LINE, "late 0.45", "timeout"),
+    (USS_LINE, "check", "wrong_check"),
+    (USS_LINE, "unit", "wrong_unit"),
+    (USS_LINE, "exception", "refused"),
+    (CAN_LINE, "silent", "timeout"),
+    (CAN_LINE, "check", "timeout"),
+    (LINES[9], "silent", "timeout"),
+    (LINES[9], "check", "bad_crc"),
+    (LINES[9], "exception", "exception"),
+]
+
+
+@pytest.mark.full(2)
+@pytest.mark.parametrize(
+    ("line", "fault", "status"), [pytest.param(*row, id=f"{' '.join(row[0])} {row[1]}") for row in FAULTS]
+)
+def test_a_fault_has_its_error_and_passes(folder: Path, line: tuple[str, ...], fault: str, status: str) -> None:
+    """The request that a fault strikes says so, by status; the next one works, and a retry hides the fault."""
+    with connected(folder, *line) as (drive, node):
+        point = ASKED[line[0]]
+        if line is CAN_LINE:
+            node.set(patience=0.3)
+        expected = node(point, "readRaw")
+        drive.fault(f"{fault} x1")
+        assert outcome(node, point, expected) == status
+        assert node(point, "readRaw") == expected
+        node.set(retries=1)
+        drive.fault(f"{fault} x1")
+        assert outcome(node, point, expected) == (status if status in ("exception", "refused") else "ok")
+
+
+def outcome(node: NodeDevice, point: str, expected: Any) -> str:
+    """The status of reading a point, which gives what is expected where it is ok."""
+    try:
+        assert node(point, "readRaw") == expected
+    except NodeError as error:
+        return str(error.status)
+    return "ok"
