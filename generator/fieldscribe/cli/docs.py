@@ -18,6 +18,7 @@ EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
   fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
   fieldscribe docs nord_sk5xxe --format markdown --out manuals
+  fieldscribe docs woodward_mpu2s --format html --out pages
   fieldscribe docs --pages --format html --out site
   fieldscribe docs hitachi_l200 --format xlsx --out tables --check
 
@@ -46,8 +47,6 @@ def run(arguments: Namespace) -> int:
         raise StopError("--pages is for --format html")
     if not arguments.devices and not arguments.pages:
         raise StopError("DEVICE is missing", "name devices, or say --pages for the pages of fieldscribe itself")
-    if arguments.format == "html" and arguments.devices:
-        raise StopError("--format html has no pages of devices yet", "leave out DEVICE, or choose markdown")
     devices, code = [], FINE
     for name in arguments.devices:
         try:

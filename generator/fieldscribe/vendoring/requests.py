@@ -14,7 +14,7 @@ from fieldscribe.model import Device
 from fieldscribe.pages.site import NAME, Shelf, site_files
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import target
-from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
+from fieldscribe.targets.docs import csv_files, html_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.heads import LEFT_OUT
 from fieldscribe.user_errors import UnclearError
@@ -124,7 +124,10 @@ class DocumentRequest:
         if self.language == "xlsx":
             yield from xlsx_files(scope)
             return
-        texts = csv_files(scope) if self.language == "csv" else markdown_files(scope, render)
+        if self.language == "csv":
+            texts = csv_files(scope)
+        else:
+            texts = (html_files if self.language == "html" else markdown_files)(scope, render)
         for path, text in texts:
             yield path, text.encode()
 

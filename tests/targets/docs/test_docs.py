@@ -14,7 +14,7 @@ from fieldscribe.families import family
 from fieldscribe.model import Allowed, Device, Document, Enum, Fixed, Flag, Interval, Limit, Place, Source, Special
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import bus, outputs
-from fieldscribe.targets.docs.cells import anchor, link, narrow, target
+from fieldscribe.targets.docs.cells import MARKDOWN, anchor, link, narrow, target
 from support.models import HERTZ, NUMBER, changed, entry, linear, point, sample_device, titles, value_of
 
 HOSTILE = "a | b `c` </td><script>alert(1)</script> [x](http://e) {{ 7*7 }} \\"
@@ -40,9 +40,9 @@ def _row(page: str, item: str) -> list[str]:
     return [one.strip() for one in _cells(found)]
 
 
-def test_three_files_and_the_same_bytes_each_time() -> None:
-    names = ["docs/sample_drive.md", "docs/sample_drive.csv", "docs/sample_drive_meanings.csv"]
-    assert list(_written()) == names
+def test_four_files_and_the_same_bytes_each_time() -> None:
+    ends = (".md", ".csv", "_meanings.csv", ".html")
+    assert list(_written()) == [f"docs/sample_drive{end}" for end in ends]
     assert dict(outputs(sample_device(), render)) == _written()
 
 
@@ -313,7 +313,7 @@ def test_the_facts_of_a_group(source: Source, facts: str) -> None:
 def test_a_family_that_adds_nothing_has_the_facts_of_every_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     bare = replace_record(family("modbus"), name="bare", folder="support")
     monkeypatch.setattr(bus, "family", lambda _: bare)
-    view = bus.bus_view(DEVICE)
+    view = bus.bus_view(DEVICE, MARKDOWN)
     assert "| Unit numbers | 1..32 |" in view.facts
     assert "padded" not in view.facts
     assert "Functions" in dict(view.sections)

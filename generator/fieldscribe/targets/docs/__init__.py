@@ -1,4 +1,4 @@
-"""The documentation target: a Markdown reference, and the points and their meanings as tables (CSV, XLSX)."""
+"""The documentation target: a Markdown reference, an HTML page, and the points and meanings as tables (CSV, XLSX)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.docs.scope import scope_of
 
     scope = scope_of(device)
-    for path, text in (*markdown_files(scope, render), *csv_files(scope)):
+    for path, text in (*markdown_files(scope, render), *csv_files(scope), *html_files(scope, render)):
         yield f"docs/{path}", text
 
 
@@ -34,6 +34,13 @@ def markdown_files(scope: DocsScope, render: Render) -> Iterable[tuple[str, str]
     from fieldscribe.targets.docs.page import page_of
 
     yield f"{scope.device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
+
+
+def html_files(scope: DocsScope, render: Render) -> Iterable[tuple[str, str]]:
+    """Yield the page in HTML."""
+    from fieldscribe.targets.docs.html import html_of
+
+    yield f"{scope.device.id}.html", html_of(scope, render)
 
 
 def csv_files(scope: DocsScope) -> Iterable[tuple[str, str]]:

@@ -7,19 +7,8 @@ from functools import partial
 from typing import Any
 
 from fieldscribe.families import family
-from fieldscribe.model import Bus, Code, Command, Device, Message, SteppedCommand, Telegram
-from fieldscribe.targets.docs.cells import (
-    LINE_BREAK,
-    Columns,
-    by_rows,
-    cell,
-    code,
-    link,
-    paragraph,
-    source_cell,
-    table,
-    target,
-)
+from fieldscribe.model import Bus, Code, Command, Device, Message, Role, SteppedCommand, Telegram
+from fieldscribe.targets.docs.cells import Columns, Form
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.steps import run_text, steps_texts
@@ -35,32 +24,38 @@ class BusView:
     """Headings with their tables."""
 
 
-def bus_view(device: Device) -> BusView:
+def bus_view(device: Device, form: Form) -> BusView:
     """Return the bus section of a device."""
     bus, own_family = device.bus, family(device.family)
     facts_of = getattr(_bus_facts(device), "facts", lambda bus: [("Unit numbers", "{}..{}".format(*bus.units))])
     asks = next((section for section in own_family.codes if section.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
     serial = [
-        (code(setting), cell(number), cell(meaning))
+        (form.code(setting), form.cell(number), form.cell(meaning))
         for setting, codes in bus.serial.items()
         for number, meaning in codes.items()
     ]
-    responses = _linked_codes(bus.codes("responses"), "Tasks")
+    responses = _linked_codes(bus.codes("responses"), "Tasks", form)
     sections = (
-        ("" if asks is None else f"{asks.kind.capitalize()}s", _answered(bus) if answered else _functions(device)),
+        (
+            "" if asks is None else f"{asks.kind.capitalize()}s",
+            _answered(bus, form) if answered else _functions(device, form),
+        ),
         ("Responses", responses),
-        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks")),
-        ("Messages", _messages(device)),
-        ("Telegrams", _telegrams(device)),
-        ("Serial settings", by_rows(("Setting", "Code", "Meaning"), serial)),
-        ("Timing", by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()])),
-        ("Commands", _commands(device)),
-        ("Commands with steps", _stepped(device)),
+        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks", form)),
+        ("Messages", _messages(device, form)),
+        ("Telegrams", _telegrams(device, form)),
+        ("Serial settings", form.by_rows(("Setting", "Code", "Meaning"), serial)),
+        (
+            "Timing",
+            form.by_rows(("Time", "Value"), [(form.code(key), form.cell(value)) for key, value in bus.timing.items()]),
+        ),
+        ("Commands", _commands(device, form)),
+        ("Commands with steps", _stepped(device, form)),
     )
     return BusView(
-        paragraph(title_text(bus.note)) if bus.note else "",
-        by_rows(("Fact", "Value"), [(cell(label), cell(text)) for label, text in facts_of(bus)]),
+        form.paragraph(title_text(bus.note)) if bus.note else "",
+        form.by_rows(("Fact", "Value"), [(form.cell(label), form.cell(text)) for label, text in facts_of(bus)]),
         tuple((heading, table) for heading, table in sections if table),
     )
 
@@ -69,56 +64,60 @@ def _bus_facts(device: Device) -> Any:
     return family(device.family).part("bus_facts")
 
 
-_CODE: Columns[Code] = {
-    "Code": lambda listed: f"{hex_text(listed.number, 2)} ({listed.number})",
-    "Name": lambda listed: code(listed.name),
-    "Title": lambda listed: cell(title_text(listed.title)),
-}
+def _code_columns(form: Form) -> Columns[Code]:
+    return {
+        "Code": lambda listed: f"{hex_text(listed.number, 2)} ({listed.number})",
+        "Name": lambda listed: form.code(listed.name),
+        "Title": lambda listed: form.cell(title_text(listed.title)),
+    }
 
 
-def _answered(bus: Bus) -> str:
+def _answered(bus: Bus, form: Form) -> str:
     answers: Columns[Code] = {
         "Response": lambda function: _numbers(function.answers),
         "Response when refused": lambda function: _numbers(function.refusals),
     }
-    return table(bus.functions, {**_CODE, **answers})
+    return form.table(bus.functions, {**_code_columns(form), **answers})
 
 
-def _linked_codes(codes: tuple[Code, ...], head: str) -> str:
-    return table(codes, {**_CODE, head: lambda listed: _numbers(listed.answers)})
+def _linked_codes(codes: tuple[Code, ...], head: str, form: Form) -> str:
+    return form.table(codes, {**_code_columns(form), head: lambda listed: _numbers(listed.answers)})
 
 
 def _numbers(numbers: tuple[int, ...]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def _messages(device: Device) -> str:
+def _messages(device: Device, form: Form) -> str:
     """The table of messages, with a column for each byte."""
     count = max((len(message.roles) for message in device.messages), default=0)
     columns: Columns[Message] = {
-        "Name": lambda message: target("message", message.name),
-        "Title": lambda message: cell(title_text(message.title)),
-        "Direction": lambda message: cell(message.direction),
-        "Answers": lambda message: link("message", message.answers) if message.answers else "",
-        f"{device.family.upper()} id": _identifier,
+        "Name": lambda message: form.target("message", message.name),
+        "Title": lambda message: form.cell(title_text(message.title)),
+        "Direction": lambda message: form.cell(message.direction),
+        "Answers": lambda message: form.link("message", message.answers) if message.answers else "",
+        f"{device.family.upper()} id": identifier_text,
         "Bytes": lambda message: "" if message.roles else str(message.length),
         "Every": lambda message: "" if message.every is None else f"{message.every} ms",
         **{f"Byte {place}": partial(_role, place) for place in range(count)},
-        "Source": lambda message: source_cell(message.source, len(device.documents) > 1),
+        "Source": lambda message: form.source_cell(message.source, len(device.documents) > 1),
     }
-    return table(device.messages, columns)
+    return form.table(device.messages, columns)
 
 
-def _identifier(message: Message) -> str:
+def identifier_text(message: Message) -> str:
+    """Return the identifier of a message, with its bits."""
     bits = "" if message.bits is None else f", {message.bits} bits"
     return hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else "") + bits
 
 
 def _role(place: int, message: Message) -> str:
     """What a byte of a message holds; nothing if it has signals."""
-    if not message.roles:
-        return ""
-    role = message.roles[place]
+    return role_text(message.roles[place]) if message.roles else ""
+
+
+def role_text(role: Role) -> str:
+    """Return what a byte with that role holds."""
     part = "high" if role.number == 8 else "low"
     if role.kind in ("address", "raw"):
         return f"{role.kind} {part}"
@@ -130,20 +129,20 @@ def _role(place: int, message: Message) -> str:
     return hex_text(role.number, 2) if role.kind == "constant" else role.kind
 
 
-def _telegrams(device: Device) -> str:
+def _telegrams(device: Device, form: Form) -> str:
     columns: Columns[Telegram] = {
-        "Name": lambda telegram: target("telegram", telegram.name),
-        "Title": lambda telegram: cell(title_text(telegram.title)),
-        "Direction": lambda telegram: cell(telegram.direction),
+        "Name": lambda telegram: form.target("telegram", telegram.name),
+        "Title": lambda telegram: form.cell(title_text(telegram.title)),
+        "Direction": lambda telegram: form.cell(telegram.direction),
         "Words": lambda telegram: str(telegram.words),
-        "Message": lambda telegram: link("message", telegram.message) if telegram.message else "",
-        "Source": lambda telegram: source_cell(telegram.source, len(device.documents) > 1),
+        "Message": lambda telegram: form.link("message", telegram.message) if telegram.message else "",
+        "Source": lambda telegram: form.source_cell(telegram.source, len(device.documents) > 1),
     }
     carried = {message.name for message in device.messages if not message.roles}
-    return table([telegram for telegram in device.telegrams if telegram.message not in carried], columns)
+    return form.table([telegram for telegram in device.telegrams if telegram.message not in carried], columns)
 
 
-def _functions(device: Device) -> str:
+def _functions(device: Device, form: Form) -> str:
     """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
     goes_to_all = getattr(_bus_facts(device), "goes_to_all", lambda _: False)
 
@@ -154,35 +153,35 @@ def _functions(device: Device) -> str:
     most: Columns[Code] = {
         "Most items in one request": lambda function: "" if function.most is None else str(function.most)
     }
-    return table(device.bus.functions, {**_CODE, **most, "Broadcast": broadcast})
+    return form.table(device.bus.functions, {**_code_columns(form), **most, "Broadcast": broadcast})
 
 
-def _commands(device: Device) -> str:
+def _commands(device: Device, form: Form) -> str:
     columns: Columns[Command] = {
-        "Name": lambda command: target("command", command.name),
-        "Title": lambda command: cell(title_text(command.title)),
-        "Space": lambda command: cell(command.space),
+        "Name": lambda command: form.target("command", command.name),
+        "Title": lambda command: form.cell(title_text(command.title)),
+        "Space": lambda command: form.cell(command.space),
         "Wire address": lambda command: address_text(command.address),
         "Function": lambda command: hex_text(command.function, 2),
         "Value": lambda command: "any" if command.value is None else str(command.value),
         "Memory stands": lambda command: "" if command.wears is None else f"{command.wears} writes",
-        "Busy while": lambda command: cell(command.busy or ""),
-        "Note": lambda command: cell(title_text(command.note)) if command.note else "",
-        "Source": lambda command: source_cell(command.source, len(device.documents) > 1),
+        "Busy while": lambda command: form.cell(command.busy or ""),
+        "Note": lambda command: form.cell(title_text(command.note)) if command.note else "",
+        "Source": lambda command: form.source_cell(command.source, len(device.documents) > 1),
     }
-    return table(device.commands, columns)
+    return form.table(device.commands, columns)
 
 
-def _stepped(device: Device) -> str:
+def _stepped(device: Device, form: Form) -> str:
     points = {point.name: point for point in device.points}
     columns: Columns[SteppedCommand] = {
-        "Name": lambda command: target("command", command.name),
-        "Title": lambda command: cell(title_text(command.title)),
-        "Given": lambda command: cell(run_text(command)),
-        "Steps": lambda command: LINE_BREAK.join(
-            cell(f"{number}. {text}") for number, text in enumerate(steps_texts(command, points), 1)
+        "Name": lambda command: form.target("command", command.name),
+        "Title": lambda command: form.cell(title_text(command.title)),
+        "Given": lambda command: form.cell(run_text(command)),
+        "Steps": lambda command: form.line_break.join(
+            form.cell(f"{number}. {text}") for number, text in enumerate(steps_texts(command, points), 1)
         ),
-        "Note": lambda command: cell(title_text(command.note)) if command.note else "",
-        "Source": lambda command: source_cell(command.source, len(device.documents) > 1),
+        "Note": lambda command: form.cell(title_text(command.note)) if command.note else "",
+        "Source": lambda command: form.source_cell(command.source, len(device.documents) > 1),
     }
-    return table(device.stepped_commands, columns)
+    return form.table(device.stepped_commands, columns)

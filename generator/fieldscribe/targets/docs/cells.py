@@ -1,11 +1,11 @@
-"""Texts, links and sources as cells of a Markdown table."""
+"""Texts, links and sources as cells of a table: in Markdown, and what another form of the page must offer."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 from fieldscribe.model import Source
 from fieldscribe.text import markdown
@@ -36,24 +36,48 @@ _ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
-def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Container[str] = ()) -> str:
-    """Return the lines of a table of finished Markdown; empty without rows.
+class Form(NamedTuple):
+    """How a page writes what is in its tables: a text, code, a link to a thing, the target of such links, a table.
 
-    Columns where nothing stands are left out, but for those that are there always: where most rows say nothing, the
-    first that does would change the lines of all others. For the same reason nothing is padded.
+    `lay_out` gets finished rows, the heads first.
     """
-    columns = zip(heads, *rows, strict=True) if rows else ()
-    kept = [column for column in columns if column[0] in always or any(column[1:])]
-    if not kept:
-        return ""
-    kept_heads, *kept_rows = zip(*kept, strict=True)
-    lines = [" | ".join(row) for row in (kept_heads, ("---",) * len(kept), *kept_rows)]
+
+    cell: Callable[[str], str]
+    paragraph: Callable[[str], str]
+    code: Callable[[str], str]
+    link: Callable[[str, str], str]
+    narrow_link: Callable[[str, str], str]
+    target: Callable[[str, str], str]
+    narrow_target: Callable[[str, str], str]
+    source_cell: Callable[[Source, bool], str]
+    line_break: str
+    lay_out: Callable[[Sequence[Sequence[str]]], str]
+
+    def lines(self, *texts: str) -> str:
+        """Return the texts of a cell, each on its line; empty ones are left out."""
+        return self.line_break.join(filter(None, texts))
+
+    def by_rows(self, heads: Sequence[str], rows: Sequence[Sequence[str]], always: Container[str] = ()) -> str:
+        """Return a table of finished cells; empty without rows.
+
+        Columns where nothing stands are left out, but for those that are there always: where most rows say nothing,
+        the first that does would change the lines of all others.
+        """
+        columns = zip(heads, *rows, strict=True) if rows else ()
+        kept = [column for column in columns if column[0] in always or any(column[1:])]
+        return self.lay_out(list(zip(*kept, strict=True))) if kept else ""
+
+    def table(self, things: Iterable[Thing], columns: Columns[Thing], always: Container[str] = ()) -> str:
+        """Return the table with a row for each thing, as `by_rows` does."""
+        rows = [[cell_of(thing) for cell_of in columns.values()] for thing in things]
+        return self.by_rows(tuple(columns), rows, always)
+
+
+def _lay_out(rows: Sequence[Sequence[str]]) -> str:
+    """Return the lines of a table; nothing is padded, because one longer cell would change all lines."""
+    heads, *others = rows
+    lines = [" | ".join(row) for row in (heads, ("---",) * len(heads), *others)]
     return "| " + " |\n| ".join(lines) + " |\n"
-
-
-def table(things: Iterable[Thing], columns: Columns[Thing], always: Container[str] = ()) -> str:
-    """Return the table with a row for each thing, as `by_rows` does."""
-    return by_rows(tuple(columns), [[cell_of(thing) for cell_of in columns.values()] for thing in things], always)
 
 
 def cell(text: str) -> str:
@@ -136,3 +160,7 @@ def source_cell(source: Source, with_document: bool) -> str:
 def _before_line(document: str, section: str | None, page: str | None, with_document: bool) -> str:
     numbered = cell(source_text(Source(document, section, page, 0), with_document))
     return numbered.removesuffix("0")
+
+
+MARKDOWN = Form(cell, paragraph, code, link, narrow_link, target, narrow_target, source_cell, LINE_BREAK, _lay_out)
+by_rows, table = MARKDOWN.by_rows, MARKDOWN.table

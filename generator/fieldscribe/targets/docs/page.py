@@ -9,44 +9,15 @@ from typing import NamedTuple
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.model import (
-    Base,
-    Command,
-    Device,
-    Document,
-    Erratum,
-    Found,
-    Frame,
-    Identification,
-    Message,
-    Named,
-    Point,
-)
+from fieldscribe.model import Command, Device, Message, Point
 from fieldscribe.targets import heads
+from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import BusView, bus_view
-from fieldscribe.targets.docs.cells import (
-    LINE_BREAK,
-    Columns,
-    anchor,
-    by_rows,
-    cell,
-    code,
-    link,
-    narrow_link,
-    narrow_target,
-    paragraph,
-    source_cell,
-    table,
-    target,
-)
+from fieldscribe.targets.docs.cells import MARKDOWN, anchor, by_rows, cell, code, link, paragraph
 from fieldscribe.targets.docs.points import GroupView, group_views
 from fieldscribe.targets.docs.scope import DocsScope, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.sheet import wanted_text
-from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
-from fieldscribe.text import counted
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import spaced
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
@@ -104,11 +75,11 @@ def page_of(scope: DocsScope) -> PageView:
         regenerate=code(heads.command(device, "docs")),
         heading=cell(f"{device.vendor} {device.model}: {wording.title_text(device.title)}"),
         note=paragraph(wording.title_text(device.note)) if device.note else "",
-        facts=by_rows(("Fact", "Value"), _facts(device)),
-        documents=_documents(device),
-        identifications=_identifications(scope),
-        bases=_bases(device),
-        found="" if device.found is None else _found(device.found),
+        facts=by_rows(("Fact", "Value"), device_tables.facts(device, MARKDOWN)),
+        documents=device_tables.documents(device, MARKDOWN),
+        identifications=device_tables.identifications(scope, MARKDOWN),
+        bases=device_tables.bases(device, MARKDOWN),
+        found="" if device.found is None else device_tables.found(device.found, MARKDOWN),
         numberings=tuple(
             f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
             + (f" {_COMPUTED}" if key in computed else "")
@@ -117,171 +88,14 @@ def page_of(scope: DocsScope) -> PageView:
         shares_words=any(wording.shares_word(point) for point in distinct),
         has_telegrams=any(point.telegram is not None and point.place.bit is None for point in device.points),
         has_broken_words=any(is_broken(point) for point in distinct),
-        bus=bus_view(device),
+        bus=bus_view(device, MARKDOWN),
         groups=tuple(group_views(scope)),
-        codes=_codes(device),
+        codes=device_tables.codes(device, MARKDOWN),
         maps=tuple(map_views(device)),
-        frames=_frames(scope),
-        errata=_errata(device),
-        missing=_missing(device),
+        frames=device_tables.frames(scope, MARKDOWN),
+        errata=device_tables.errata(device, MARKDOWN),
+        missing=device_tables.missing(device, MARKDOWN),
     )
-
-
-def _facts(device: Device) -> list[tuple[str, str]]:
-    generated = sum(point.generated for point in device.points)
-    rows = [
-        ("Device", code(device.id)),
-        ("Version of the description", cell(device.version)),
-        ("Family", cell(device.family)),
-        ("Points", f"{len(device.points)}, {generated} of them generated"),
-        ("Errata of the manual", str(len(device.errata))),
-    ]
-    rows += [(cell(f"Variants by {axis}"), cell(", ".join(values))) for axis, values in device.variants.items()]
-    return rows
-
-
-def _documents(device: Device) -> str:
-    columns: Columns[Document] = {
-        "Document": lambda document: code(document.id),
-        "Title": lambda document: cell(document.title),
-        "Language": lambda document: cell(document.language),
-        "File": lambda document: cell(document.file or ""),
-        "SHA-256": lambda document: code(document.sha256) if document.sha256 else "",
-    }
-    return table(device.documents, columns)
-
-
-def _identifications(scope: DocsScope) -> str:
-    columns: Columns[Identification] = {
-        "Of": lambda identification: cell(str(identification.variant or "the device")),
-        "Point": lambda identification: narrow_link("point", identification.point),
-        "Holds": lambda identification: _lines(
-            *(_meaning_of(scope.by_name[identification.point], raw) for raw in identification.raws),
-            *map(code, identification.texts),
-        ),
-    }
-    return table(scope.device.identifications, columns, always=columns)
-
-
-def _bases(device: Device) -> str:
-    """The table of what addresses count from, with the numbers that a client is given."""
-    given = {each.name: each for each in device.given}
-    columns: Columns[Base] = {
-        "Base": lambda base: cell(wording.base_text(base)),
-        "Given": lambda base: _lines(
-            *(
-                cell(f"{name}: {given[name].low}..{given[name].high}, {wording.title_text(given[name].title)}")
-                for name, _ in base.terms
-            )
-        ),
-        "Groups": lambda base: ", ".join(
-            link("group", name)
-            for name in dict.fromkeys(point.group for point in device.points if point.base == base.name)
-        ),
-    }
-    return table(device.bases, columns, always=("Base", "Groups"))
-
-
-def _found(found: Found) -> str:
-    """How to find the blocks."""
-    places = ", ".join(map(wording.address_text, found.places))
-    return cell(
-        f"{wording.title_text(found.title)}: read {counted(len(found.words), 'word')} of the space {found.space} at "
-        f"{places}, until the text there is {found.marker}. Behind it stands the first block. A block starts with its "
-        f"id and its length, the number of words behind these two; then comes the next block. The id "
-        f"{hex_text(found.end)} ends the chain. Addresses in a block count from its id."
-    )
-
-
-def _frames(scope: DocsScope) -> str:
-    columns: Columns[Frame] = {
-        "Frame": lambda frame: _lines(target("frame", frame.name), cell(wording.title_text(frame.title))),
-        "Kind": lambda frame: _lines(
-            cell(f"{frame.framing} {frame.direction}"),
-            f"answers {link('frame', frame.answers)}" if frame.answers else "",
-        ),
-        "Bytes": lambda frame: _lines(
-            code(spaced(frame.printed)), "" if frame.valid else f"correct: {code(spaced(frame.corrected))}"
-        ),
-        "Meaning": lambda frame: _lines(*(_meaning(name, raw, scope.by_name) for name, raw in frame.meaning.items())),
-        "Errata": lambda frame: _lines(*(link("erratum", erratum) for erratum in frame.errata)),
-        "Source": lambda frame: source_cell(frame.source, scope.several),
-    }
-    return table(scope.device.frames, columns, always=columns)
-
-
-def _lines(*texts: str) -> str:
-    return LINE_BREAK.join(filter(None, texts))
-
-
-def _meaning(name: str, raw: int, by_name: Mapping[str, Point]) -> str:
-    return f"{code(name)} = {_meaning_of(by_name.get(name), raw)}"
-
-
-def _meaning_of(point: Point | None, raw: int) -> str:
-    meaning = wording.meaning_text(point, raw) if point else ""
-    return f"{raw} ({cell(meaning)})" if meaning else str(raw)
-
-
-def _errata(device: Device) -> str:
-    items = items_of(device)
-    columns: Columns[Erratum] = {
-        "Erratum, about": lambda erratum: _lines(
-            narrow_target("erratum", erratum.id),
-            *(narrow_link("point", item) for name in erratum.points for item in items.get(name, ())),
-            _where(erratum),
-        ),
-        "Printed": lambda erratum: cell(erratum.printed),
-        "Taken": lambda erratum: cell(erratum.taken),
-        "Why": lambda erratum: cell(erratum.why),
-        "Certainty": lambda erratum: cell(_certainty(erratum)),
-        "Source": lambda erratum: source_cell(erratum.source, len(device.documents) > 1),
-    }
-    return table(device.errata, columns, always=columns)
-
-
-def _certainty(erratum: Erratum) -> str:
-    doubts = ", ".join(text for _, text in erratum.leaves_open)
-    return f"{erratum.certainty}: the manual leaves open {doubts}" if doubts else erratum.certainty
-
-
-def _where(erratum: Erratum) -> str:
-    """The subject of an erratum without points: a frame, a function, or a place in words."""
-    match erratum.where:
-        case Named("frame", str() as name):
-            return f"frame {link('frame', name)}"
-        case Named("function", int() as number):
-            return f"function {hex_text(number, 2)}"
-    return cell(str(erratum.where))
-
-
-def _missing(device: Device) -> str:
-    columns: Columns[Point] = {
-        "Code": lambda point: cell(point.code or ""),
-        "Name": lambda point: _lines(link("point", point.item), cell(wording.title_text(point.title))),
-        "Wire address": place_text,
-        "Why": lambda point: cell(point.reason or "no reason given"),
-        "Errata": lambda point: ", ".join(link("erratum", erratum) for erratum in point.errata),
-    }
-    return table([point for point in device.points if not point.generated], columns)
-
-
-def _codes(device: Device) -> str:
-    """The table of special codes that points share, by the type, group or format that declares them."""
-    sharing: dict[str, list[Point]] = {}
-    for point in device.points:
-        if point.shape.specials_of:
-            sharing.setdefault(point.specials_of, []).append(point)
-    rows = []
-    for name, points in sharing.items():
-        sharers = f"{target('codes', name)}: {counted(len(points), 'point')} of type {points[0].shape.wire_type}"
-        for special in points[0].specials:
-            if special.shared:
-                numbers = wording.special_numbers(special, points[0].width)
-                title, remarks = wording.title_text(special.title), wording.special_remarks(special)
-                rows.append((sharers, numbers, code(special.name), cell(title), cell(remarks)))
-                sharers = ""
-    return by_rows(("Codes of", "Raw", "Name", "Title", "Remarks"), rows)
 
 
 class _Place(NamedTuple):
@@ -328,7 +142,7 @@ def _bits(message: Message, points: Iterable[Point]) -> str:
             names.setdefault(bit, []).append(link("point", by_word[field.word].item))
     rows = []
     for byte in range(message.length):
-        held = [_lines(*names.get(8 * byte + bit, ["-"])) for bit in reversed(range(8))]
+        held = [MARKDOWN.lines(*names.get(8 * byte + bit, ["-"])) for bit in reversed(range(8))]
         cells = ("=" if place and text == held[place - 1] else text for place, text in enumerate(held))
         rows.append((str(byte), *cells))
     return by_rows(("Byte", *(f"Bit {bit}" for bit in reversed(range(8)))), rows)
@@ -348,7 +162,7 @@ def _of_point(point: Point, numbers: Mapping[str, int]) -> _Place:
 
 
 def _of_command(command: Command, numbers: Mapping[str, int]) -> _Place:
-    name = f"{link('command', command.name)}{LINE_BREAK}{wanted_text(command)}"
+    name = f"{link('command', command.name)}{MARKDOWN.line_break}{wanted_text(command)}"
     wire = wording.address_text(command.address)
     return _Place((command.address, -1, 0, command.name), wire, "", numbers, ("command", "w", "", name))
 

@@ -10,7 +10,7 @@ from fieldscribe import wording
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Fact
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.docs.cells import LINE_BREAK, cell, number_cell
+from fieldscribe.targets.docs.cells import MARKDOWN, Form, cell, number_cell
 from fieldscribe.wording.rules import RenamedPoints
 
 
@@ -42,7 +42,7 @@ def _codes(points: Iterable[Point]) -> dict[str, str]:
     return {next(iter(known)): code for code, known in names.items() if len(known) == 1}
 
 
-def place_text(point: Point) -> str:
+def place_text(point: Point, form: Form = MARKDOWN) -> str:
     """Return where a point starts and how many words it has: `3100h (12544)`, then `2 words, low word first`."""
     if not point.addresses:
         return ""
@@ -52,7 +52,7 @@ def place_text(point: Point) -> str:
     if count == 1:
         return start
     order = wording.order_text(point)
-    return f"{start}{LINE_BREAK}" + (f"{count} words, {cell(order)}" if order else f"{count} addresses")
+    return form.lines(start, f"{count} words, {form.cell(order)}" if order else f"{count} addresses")
 
 
 def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:

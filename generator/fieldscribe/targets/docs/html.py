@@ -1,0 +1,145 @@
+"""The HTML page of a device: its data as one structure, and the files of the page in one."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Iterable, Mapping
+from functools import cache
+from hashlib import sha256
+
+from fieldscribe.model import Device, Erratum, Message
+from fieldscribe.resources import Render, templates_dir
+from fieldscribe.targets.docs import device_tables
+from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
+from fieldscribe.targets.docs.html_points import Points
+from fieldscribe.targets.docs.marks import MARKED
+from fieldscribe.targets.docs.scope import DocsScope
+from fieldscribe.targets.docs.tables import items_of
+from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.python.identifiers import Identifiers
+from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
+from fieldscribe.text import html_code, line
+
+_SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "point.js", "page.js")
+_STYLES = ("shared.css", "page.css")
+
+Section = tuple[str, list[tuple[str, str]]]
+"""A section of the page: what it is called, and its texts or tables with their headings."""
+
+
+def html_of(scope: DocsScope, render: Render) -> str:
+    """Return the page of a device."""
+    made, command, licence = head_lines(scope.device, "docs", line)
+    style, script = _source(_STYLES), _source(_SCRIPTS)
+    context = {
+        "head": [_comment(text) for text in (made, command, licence)],
+        "title": html_code(f"{line(scope.device.vendor)} {line(scope.device.model)}"),
+        "style": style,
+        "script": script,
+        "policy": f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; "
+        "base-uri 'none'; form-action 'none'",
+        "data": _json(page_data(scope, made)),
+    }
+    return render("docs/page/device.html.j2", context)
+
+
+def page_data(scope: DocsScope, made: str) -> dict[str, object]:
+    """Return all that the page shows of a device."""
+    device = scope.device
+    languages = _languages(device)
+    points = Points(scope, languages)
+    return {
+        "id": device.id,
+        "name": line(f"{device.vendor} {device.model}"),
+        "title": points.titles(device.title),
+        "note": points.titles(device.note),
+        "version": line(device.version),
+        "made": made,
+        "family": device.family,
+        "framings": list(device.bus.framings),
+        "languages": languages,
+        "variants": {line(axis): list(map(line, values)) for axis, values in device.variants.items()},
+        "documents": [line(document.title) for document in device.documents],
+        "groups": [
+            [line(group.name), points.titles(group.title), points.titles(group.note)] for group in device.groups
+        ],
+        "telegrams": [
+            [line(each.name), points.titles(each.title), each.direction, each.words] for each in device.telegrams
+        ],
+        "messages": [_message(message, points) for message in device.messages],
+        "errata": [_erratum(erratum, points, items_of(device)) for erratum in device.errata],
+        "sections": dict(_sections(scope)),
+        **points.data(),
+        "names": {
+            "c": device.id,
+            "python": Identifiers(device).device_class,
+            "rust": device.id,
+            "typescript": TypeScriptIdentifiers(device).device_class,
+        },
+    }
+
+
+def _languages(device: Device) -> list[str]:
+    """Return the languages of the titles, English first."""
+    return list(dict.fromkeys(["en", *(language for point in device.points for language in point.title)]))
+
+
+def _message(message: Message, points: Points) -> list[object]:
+    roles = [role_text(role) for role in message.roles]
+    return [line(message.name), points.titles(message.title), message.direction, identifier_text(message), roles]
+
+
+def _erratum(erratum: Erratum, points: Points, items: Mapping[str, list[str]]) -> dict[str, object]:
+    about = [item for name in erratum.points for item in items.get(name, ())]
+    texts = {"printed": erratum.printed, "taken": erratum.taken, "why": erratum.why, "certainty": erratum.certainty}
+    return {
+        "id": line(erratum.id),
+        "points": about,
+        "where": "" if about else line(str(erratum.where)),
+        **{key: line(text) for key, text in texts.items()},
+        "open": [line(text) for _, text in erratum.leaves_open],
+        "source": points.source(erratum.source),
+    }
+
+
+def _sections(scope: DocsScope) -> Iterable[Section]:
+    """Yield the sections of the page with what stands in each; empty tables are left out."""
+    device, form = scope.device, MARKED
+    bus = bus_view(device, form)
+    found = device_tables.found(device.found, form) if device.found is not None else ""
+    sections: dict[str, list[tuple[str, str]]] = {
+        "bus": [("", bus.note), ("Line", bus.facts), *bus.sections],
+        "frames": [("Worked frames", device_tables.frames(scope, form))],
+        "device": [
+            ("Facts", form.by_rows(("Fact", "Value"), device_tables.facts(device, form))),
+            ("Documents", device_tables.documents(device, form)),
+            ("Identification", device_tables.identifications(scope, form)),
+            ("Bases", device_tables.bases(device, form)),
+            ("Found blocks", found),
+            ("Special codes", device_tables.codes(device, form)),
+            ("Documented only", device_tables.missing(device, form)),
+        ],
+    }
+    return ((name, [part for part in parts if part[1]]) for name, parts in sections.items())
+
+
+@cache
+def _source(names: tuple[str, ...]) -> str:
+    """Return files of the page as one text."""
+    folder = templates_dir() / "docs/page"
+    return "\n".join((folder / name).read_text("utf-8").strip() for name in names) + "\n"
+
+
+def _digest(text: str) -> str:
+    """Return the digest by which a browser knows an inlined text; it stands between line breaks."""
+    return "sha256-" + b64encode(sha256(f"\n{text}".encode()).digest()).decode()
+
+
+def _json(data: object) -> str:
+    """Return JSON that cannot end the element in which it stands."""
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _comment(text: str) -> str:
+    return text.replace("--", "- -").replace(">", "")

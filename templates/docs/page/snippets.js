@@ -1,0 +1,80 @@
+/* Code that reads and writes one point, to copy: the names are those of the generated code, which come with the point. */
+
+const LANGUAGE_NAMES = { c: "C", python: "Python", rust: "Rust", typescript: "TypeScript" };
+
+/** Return the code of a point by language; empty for what is only documented. */
+function snippetsOf(device, point) {
+  const made = {};
+  if (!point.shared.generated) return made;
+  for (const [language, deviceName] of Object.entries(device.names)) {
+    const at = Object.keys(device.names).indexOf(language);
+    made[language] = SNIPPETS[language](device, point, deviceName, point.identifiers[at] || point.name).filter(Boolean).join("\n");
+  }
+  return made;
+}
+
+/** Return true for a word of a telegram, or a signal of a message: nobody asks for it by itself. */
+function isCyclic(point) {
+  return point.shared.telegram !== undefined;
+}
+
+function reads(point) {
+  return point.shared.access.includes("r");
+}
+
+function writes(point) {
+  return point.shared.access.includes("w");
+}
+
+/** Return the unit of integers in C: `10^-1 Hz`. */
+function countUnit(point) {
+  const { counts, unit = "" } = point.shared;
+  return counts > 0 ? `in 10^-${counts} ${unit}`.trim() : unit && `in ${unit}`;
+}
+
+const SNIPPETS = {
+  c(device, point, prefix, name) {
+    const what = point.shared.counts >= 0 ? "count" : "value";
+    const tail = point.shared.counts >= 0 ? "_count" : "";
+    const remark = countUnit(point) && ` /* ${countUnit(point)} */`;
+    const head = `#include "${device.id}_${device.family}.h"\n`;
+    if (isCyclic(point) || device.family === "can") {
+      const frame = isCyclic(point) ? "" : `const fieldscribe_can_point *frame = &${prefix}_${name}_frame;`;
+      return [head, frame, reads(point) && `${prefix}_${name}_decode${tail}(raw${remark && ","}`, ""].slice(0, 2);
+    }
+    return [
+      head,
+      reads(point) && `status = ${prefix}_read_${name}(&drive, &${what});${remark}`,
+      writes(point) && `status = ${prefix}_write_${name}(&drive, ${what});${remark}`,
+    ];
+  },
+  python(device, point, type, name) {
+    const remark = point.shared.unit ? `  # ${point.shared.unit}` : "";
+    const head = `from ${device.id} import ${type}\n`;
+    if (isCyclic(point)) return [head, `point = ${type}.${name}`, "value = point.decode(raw)" + remark];
+    return [
+      head,
+      reads(point) && `value = device.${name}.read()${remark}`,
+      writes(point) && `device.${name}.write(value)${remark}`,
+    ];
+  },
+  rust(device, point, crate, name) {
+    const remark = point.shared.unit ? ` // ${point.shared.unit}` : "";
+    const head = `use ${crate}::points as p;\n`;
+    if (isCyclic(point) || device.family === "can") return [head, `let value = p::${name}::decode(raw);${remark}`];
+    return [
+      head,
+      reads(point) && `let value = device.read::<p::${name}>()?;${remark}`,
+      writes(point) && `device.write::<p::${name}>(value)?;${remark}`,
+    ];
+  },
+  typescript(device, point, type, name) {
+    const remark = point.shared.unit ? ` // ${point.shared.unit}` : "";
+    const head = `import { ${type} } from "${device.id.replaceAll("_", "-")}";\n`;
+    return [
+      head,
+      reads(point) && `const value = await device.${name}.read();${remark}`,
+      writes(point) && `await device.${name}.write(value);${remark}`,
+    ];
+  },
+};
