@@ -16,7 +16,7 @@ from fieldscribe.targets.docs.scope import DocsScope, reference_heads
 from fieldscribe.targets.docs.tables import enum_of
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.rust.literals import type_name
-from fieldscribe.targets.typescript import identifiers as typescript
+from fieldscribe.targets.typescript.identifiers import attribute as constant
 from fieldscribe.text import line
 
 FIELDS = (
@@ -201,7 +201,7 @@ def _computed(device: Device) -> Mapping[str, int]:
 
 def _identifiers(point: Point) -> list[object]:
     """Return what C, Python, Rust and TypeScript call a point; empty where that is its name."""
-    names = "", attribute(point.name), type_name(point.item), typescript.attribute(point.name)
+    names = "", attribute(point.name), type_name(point.item), constant(point.name)
     return ["" if name == point.item else name for name in names]
 
 
