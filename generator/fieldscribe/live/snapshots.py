@@ -108,7 +108,10 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
                 missing.update({} if row["status"] in NOT_THERE else {row["name"]: in_words(value)})
                 continue
             handle: Any = device.point(row["name"])
-            raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]
+            try:
+                raws[handle.facts.item] = handle.read_raw() if row["raw"] is None else row["raw"]
+            except FieldscribeError as error:
+                missing[row["name"]] = in_words(error)
     variants = {axis: value for axis, value in device.variants.items() if value is not None}
     taken = datetime.now(UTC).isoformat(timespec="seconds")
     points = dict(_held(model, raws))
