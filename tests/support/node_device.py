@@ -15,8 +15,9 @@ from typing import Any
 import can
 from fieldscribe.text import camel, pascal
 
-from support.places import ROOT, TESTS
+from support.places import TESTS
 from support.toolchains import npm_package, tool
+from support.typescript_packages import SHIPPED, install
 
 DRIVER = TESTS / "targets/typescript/programs/driver.mjs"
 PEERS = ("serialport", "modbus-serial")
@@ -58,12 +59,9 @@ class NodeDevice:
         return answer["result"]
 
 
-def installed(folder: Path, packages: Path = ROOT / "generated/typescript") -> Path:
-    """Return a folder with the generated packages and their peers, as npm lays them out, and the driver."""
-    modules = folder / "node_modules"
-    modules.mkdir()
-    for package in packages.iterdir():
-        shutil.copytree(package, modules / json.loads((package / "package.json").read_text("utf-8"))["name"])
+def installed(folder: Path) -> Path:
+    """Return a folder with the shipped packages and their peers, as npm lays them out, and the driver."""
+    modules = install(folder, [path for path in SHIPPED.iterdir() if path.name != "fieldscribe-runtime"])
     for peer in PEERS:
         (modules / peer).symlink_to(npm_package(peer))
     shutil.copy(DRIVER, folder)

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe.text import camel
-from support.node_device import NodeDevice, bridged, installed, node_device
+from support.node_device import NodeDevice, NodeError, bridged, installed, node_device
 
 VARIANTS = {
     "hitachi_l200": {"voltage_class": "400V"},
