@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,7 +13,7 @@ from fieldscribe.targets import typescript
 
 from support.files import write_files
 from support.places import ROOT
-from support.toolchains import npm_package, succeed, tool
+from support.toolchains import NODE_MODULES, npm_program, succeed
 
 RUNTIME = templates_dir() / "typescript/runtime"
 SHIPPED = ROOT / "generated/typescript"
@@ -40,5 +41,20 @@ def package_name(device: Device) -> str:
 
 def compile_types(folder: Path, *options: str) -> str:
     """Check the TypeScript programs of a folder without output; return what the compiler says."""
-    compiler = [tool("node"), npm_package("typescript") / "bin/tsc"]
-    return succeed([*compiler, "--noEmit", "-p", folder, *options])
+    return succeed([*npm_program("typescript", "bin/tsc"), "--noEmit", "-p", folder, *options])
+
+
+def declarations(folder: Path) -> dict[str, str]:
+    """Return the types of the runtime by file, as the compiler reads them out of the comments, strictly checked."""
+    written = ("index", "types")  # their types are written by hand
+    for path in (RUNTIME / "fieldscribe-runtime").iterdir():
+        if (path.suffix == ".js") != (path.name.partition(".")[0] in written):
+            shutil.copy(path, folder)
+    (folder / "node_modules").symlink_to(NODE_MODULES)
+    options = {"target": "ES2020", "module": "nodenext", "lib": ["ES2021", "DOM"], "strict": True, "types": ["node"]}
+    options |= {"allowJs": True, "checkJs": True, "declaration": True, "emitDeclarationOnly": True, "outDir": "types"}
+    options |= {"noUnusedLocals": True, "noImplicitReturns": True}
+    (folder / "package.json").write_text('{"type": "module"}', "utf-8")
+    (folder / "tsconfig.json").write_text(json.dumps({"compilerOptions": options, "include": ["*.js"]}), "utf-8")
+    succeed([*npm_program("typescript", "bin/tsc"), "-p", folder])
+    return {path.name: path.read_text("utf-8") for path in sorted((folder / "types").iterdir())}

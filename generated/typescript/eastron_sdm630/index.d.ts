@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate eastron_sdm630 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Eastron SDM630-Modbus V2: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -16,5 +16,10 @@ export interface EastronSdm630Options {
 /** Eastron SDM630-Modbus V2 on a line. */
 export declare class EastronSdm630 extends ModbusDevice {
   constructor(line: Line, options: EastronSdm630Options);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "measurements" | "settings" | "maintenance" | "order_of_registers" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "eastron_sdm630">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface EastronSdm630 extends Handles<typeof points> {}

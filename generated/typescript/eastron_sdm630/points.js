@@ -26,399 +26,399 @@ import {
   SystemType,
 } from "./enums.js";
 
-export const phase1Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+export const phase1Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_voltage", at: inputRegister(0x0000, 0x0001), group: "measurements", references: { reference: 30001 },
   unit: "V", uncertain: true,
-});
-export const phase2Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_voltage", at: inputRegister(0x0002, 0x0003), group: "measurements", references: { reference: 30003 },
   unit: "V", uncertain: true,
-});
-export const phase3Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_voltage", at: inputRegister(0x0004, 0x0005), group: "measurements", references: { reference: 30005 },
   unit: "V", uncertain: true,
-});
-export const phase1Current = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_current", at: inputRegister(0x0006, 0x0007), group: "measurements", references: { reference: 30007 },
   unit: "A",
-});
-export const phase2Current = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current", at: inputRegister(0x0008, 0x0009), group: "measurements", references: { reference: 30009 },
   unit: "A", uncertain: true,
-});
-export const phase3Current = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current", at: inputRegister(0x000a, 0x000b), group: "measurements", references: { reference: 30011 },
   unit: "A", uncertain: true,
-});
-export const phase1ActivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_active_power", at: inputRegister(0x000c, 0x000d), group: "measurements", references: { reference: 30013 },
   unit: "W", uncertain: true,
-});
-export const phase2ActivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_active_power", at: inputRegister(0x000e, 0x000f), group: "measurements", references: { reference: 30015 },
   unit: "W", uncertain: true,
-});
-export const phase3ActivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_active_power", at: inputRegister(0x0010, 0x0011), group: "measurements", references: { reference: 30017 },
   unit: "W", uncertain: true,
-});
-export const phase1ApparentPower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_apparent_power", at: inputRegister(0x0012, 0x0013), group: "measurements", references: { reference: 30019 },
   unit: "VA", uncertain: true,
-});
-export const phase2ApparentPower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_apparent_power", at: inputRegister(0x0014, 0x0015), group: "measurements", references: { reference: 30021 },
   unit: "VA", uncertain: true,
-});
-export const phase3ApparentPower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_apparent_power", at: inputRegister(0x0016, 0x0017), group: "measurements", references: { reference: 30023 },
   unit: "VA", uncertain: true,
-});
-export const phase1ReactivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_reactive_power", at: inputRegister(0x0018, 0x0019), group: "measurements", references: { reference: 30025 },
   unit: "var", uncertain: true,
-});
-export const phase2ReactivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_reactive_power", at: inputRegister(0x001a, 0x001b), group: "measurements", references: { reference: 30027 },
   unit: "var", uncertain: true,
-});
-export const phase3ReactivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_reactive_power", at: inputRegister(0x001c, 0x001d), group: "measurements", references: { reference: 30029 },
   unit: "var", uncertain: true,
-});
-export const phase1PowerFactor = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_power_factor", at: inputRegister(0x001e, 0x001f), group: "measurements", references: { reference: 30031 },
   uncertain: true,
-});
-export const phase2PowerFactor = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_power_factor", at: inputRegister(0x0020, 0x0021), group: "measurements", references: { reference: 30033 },
   uncertain: true,
-});
-export const phase3PowerFactor = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_power_factor", at: inputRegister(0x0022, 0x0023), group: "measurements", references: { reference: 30035 },
   uncertain: true,
-});
-export const phase1PhaseAngle = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_phase_angle", at: inputRegister(0x0024, 0x0025), group: "measurements", references: { reference: 30037 },
   unit: "°", uncertain: true,
-});
-export const phase2PhaseAngle = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_phase_angle", at: inputRegister(0x0026, 0x0027), group: "measurements", references: { reference: 30039 },
   unit: "°", uncertain: true,
-});
-export const phase3PhaseAngle = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_phase_angle", at: inputRegister(0x0028, 0x0029), group: "measurements", references: { reference: 30041 },
   unit: "°", uncertain: true,
-});
-export const averageVoltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageVoltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_voltage", at: inputRegister(0x002a, 0x002b), group: "measurements", references: { reference: 30043 },
   unit: "V", uncertain: true,
-});
-export const averageCurrent = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageCurrent = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_current", at: inputRegister(0x002e, 0x002f), group: "measurements", references: { reference: 30047 },
   unit: "A",
-});
-export const sumOfCurrents = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const sumOfCurrents = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "sum_of_currents", at: inputRegister(0x0030, 0x0031), group: "measurements", references: { reference: 30049 },
   unit: "A",
-});
-export const totalActivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_active_power", at: inputRegister(0x0034, 0x0035), group: "measurements", references: { reference: 30053 },
   unit: "W",
-});
-export const totalApparentPower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_apparent_power", at: inputRegister(0x0038, 0x0039), group: "measurements", references: { reference: 30057 },
   unit: "VA",
-});
-export const totalReactivePower = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_reactive_power", at: inputRegister(0x003c, 0x003d), group: "measurements", references: { reference: 30061 },
   unit: "var",
-});
-export const totalPowerFactor = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalPowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_power_factor", at: inputRegister(0x003e, 0x003f), group: "measurements", references: { reference: 30063 },
-});
-export const totalPhaseAngle = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalPhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_phase_angle", at: inputRegister(0x0042, 0x0043), group: "measurements", references: { reference: 30067 },
   unit: "°",
-});
-export const frequency = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const frequency = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "frequency", at: inputRegister(0x0046, 0x0047), group: "measurements", references: { reference: 30071 },
   unit: "Hz",
-});
-export const importActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const importActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "import_active_energy", at: inputRegister(0x0048, 0x0049), group: "measurements", references: { reference: 30073 },
   unit: "kWh",
-});
-export const exportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const exportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "export_active_energy", at: inputRegister(0x004a, 0x004b), group: "measurements", references: { reference: 30075 },
   unit: "kWh",
-});
-export const importReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const importReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "import_reactive_energy", at: inputRegister(0x004c, 0x004d), group: "measurements", references: { reference: 30077 },
   unit: "kvarh",
-});
-export const exportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const exportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "export_reactive_energy", at: inputRegister(0x004e, 0x004f), group: "measurements", references: { reference: 30079 },
   unit: "kvarh",
-});
-export const apparentEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const apparentEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "apparent_energy", at: inputRegister(0x0050, 0x0051), group: "measurements", references: { reference: 30081 },
   unit: "kVAh",
-});
-export const charge = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const charge = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "charge", at: inputRegister(0x0052, 0x0053), group: "measurements", references: { reference: 30083 },
   unit: "Ah",
-});
-export const totalActivePowerDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalActivePowerDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_active_power_demand", at: inputRegister(0x0054, 0x0055), group: "measurements", references: { reference: 30085 },
   unit: "W",
-});
-export const maximumTotalActivePowerDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumTotalActivePowerDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_total_active_power_demand", at: inputRegister(0x0056, 0x0057), group: "measurements", references: { reference: 30087 },
   unit: "W",
-});
-export const totalApparentPowerDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalApparentPowerDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_apparent_power_demand", at: inputRegister(0x0064, 0x0065), group: "measurements", references: { reference: 30101 },
   unit: "VA",
-});
-export const maximumTotalApparentPowerDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumTotalApparentPowerDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_total_apparent_power_demand", at: inputRegister(0x0066, 0x0067), group: "measurements", references: { reference: 30103 },
   unit: "VA",
-});
-export const neutralCurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const neutralCurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "neutral_current_demand", at: inputRegister(0x0068, 0x0069), group: "measurements", references: { reference: 30105 },
   unit: "A", uncertain: true,
-});
-export const maximumNeutralCurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumNeutralCurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_neutral_current_demand", at: inputRegister(0x006a, 0x006b), group: "measurements", references: { reference: 30107 },
   unit: "A", uncertain: true,
-});
-export const line1To2Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line1To2Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_1_to_2_voltage", at: inputRegister(0x00c8, 0x00c9), group: "measurements", references: { reference: 30201 },
   unit: "V", uncertain: true,
-});
-export const line2To3Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line2To3Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_2_to_3_voltage", at: inputRegister(0x00ca, 0x00cb), group: "measurements", references: { reference: 30203 },
   unit: "V", uncertain: true,
-});
-export const line3To1Voltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line3To1Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_3_to_1_voltage", at: inputRegister(0x00cc, 0x00cd), group: "measurements", references: { reference: 30205 },
   unit: "V", uncertain: true,
-});
-export const averageLineToLineVoltage = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageLineToLineVoltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_line_to_line_voltage", at: inputRegister(0x00ce, 0x00cf), group: "measurements", references: { reference: 30207 },
   unit: "V", uncertain: true,
-});
-export const neutralCurrent = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const neutralCurrent = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "neutral_current", at: inputRegister(0x00e0, 0x00e1), group: "measurements", references: { reference: 30225 },
   unit: "A", uncertain: true,
-});
-export const phase1VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_voltage_thd", at: inputRegister(0x00ea, 0x00eb), group: "measurements", references: { reference: 30235 },
   unit: "%", uncertain: true,
-});
-export const phase2VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_voltage_thd", at: inputRegister(0x00ec, 0x00ed), group: "measurements", references: { reference: 30237 },
   unit: "%", uncertain: true,
-});
-export const phase3VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_voltage_thd", at: inputRegister(0x00ee, 0x00ef), group: "measurements", references: { reference: 30239 },
   unit: "%", uncertain: true,
-});
-export const phase1CurrentThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_current_thd", at: inputRegister(0x00f0, 0x00f1), group: "measurements", references: { reference: 30241 },
   unit: "%",
-});
-export const phase2CurrentThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current_thd", at: inputRegister(0x00f2, 0x00f3), group: "measurements", references: { reference: 30243 },
   unit: "%", uncertain: true,
-});
-export const phase3CurrentThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current_thd", at: inputRegister(0x00f4, 0x00f5), group: "measurements", references: { reference: 30245 },
   unit: "%", uncertain: true,
-});
-export const averageVoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageVoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_voltage_thd", at: inputRegister(0x00f8, 0x00f9), group: "measurements", references: { reference: 30249 },
   unit: "%", uncertain: true,
-});
-export const averageCurrentThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageCurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_current_thd", at: inputRegister(0x00fa, 0x00fb), group: "measurements", references: { reference: 30251 },
   unit: "%",
-});
-export const phase1CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_current_demand", at: inputRegister(0x0102, 0x0103), group: "measurements", references: { reference: 30259 },
   unit: "A",
-});
-export const phase2CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current_demand", at: inputRegister(0x0104, 0x0105), group: "measurements", references: { reference: 30261 },
   unit: "A", uncertain: true,
-});
-export const phase3CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current_demand", at: inputRegister(0x0106, 0x0107), group: "measurements", references: { reference: 30263 },
   unit: "A", uncertain: true,
-});
-export const maximumPhase1CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumPhase1CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_1_current_demand", at: inputRegister(0x0108, 0x0109), group: "measurements", references: { reference: 30265 },
   unit: "A",
-});
-export const maximumPhase2CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumPhase2CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_2_current_demand", at: inputRegister(0x010a, 0x010b), group: "measurements", references: { reference: 30267 },
   unit: "A", uncertain: true,
-});
-export const maximumPhase3CurrentDemand = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const maximumPhase3CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_3_current_demand", at: inputRegister(0x010c, 0x010d), group: "measurements", references: { reference: 30269 },
   unit: "A", uncertain: true,
-});
-export const line1To2VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line1To2VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_1_to_2_voltage_thd", at: inputRegister(0x014e, 0x014f), group: "measurements", references: { reference: 30335 },
   unit: "%", uncertain: true,
-});
-export const line2To3VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line2To3VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_2_to_3_voltage_thd", at: inputRegister(0x0150, 0x0151), group: "measurements", references: { reference: 30337 },
   unit: "%", uncertain: true,
-});
-export const line3To1VoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const line3To1VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_3_to_1_voltage_thd", at: inputRegister(0x0152, 0x0153), group: "measurements", references: { reference: 30339 },
   unit: "%", uncertain: true,
-});
-export const averageLineToLineVoltageThd = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const averageLineToLineVoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_line_to_line_voltage_thd", at: inputRegister(0x0154, 0x0155), group: "measurements", references: { reference: 30341 },
   unit: "%", uncertain: true,
-});
-export const totalActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_active_energy", at: inputRegister(0x0156, 0x0157), group: "measurements", references: { reference: 30343 },
   unit: "kWh",
-});
-export const totalReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const totalReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_reactive_energy", at: inputRegister(0x0158, 0x0159), group: "measurements", references: { reference: 30345 },
   unit: "kvarh",
-});
-export const phase1ImportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ImportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_import_active_energy", at: inputRegister(0x015a, 0x015b), group: "measurements", references: { reference: 30347 },
   unit: "kWh",
-});
-export const phase2ImportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ImportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_import_active_energy", at: inputRegister(0x015c, 0x015d), group: "measurements", references: { reference: 30349 },
   unit: "kWh",
-});
-export const phase3ImportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ImportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_import_active_energy", at: inputRegister(0x015e, 0x015f), group: "measurements", references: { reference: 30351 },
   unit: "kWh",
-});
-export const phase1ExportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ExportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_export_active_energy", at: inputRegister(0x0160, 0x0161), group: "measurements", references: { reference: 30353 },
   unit: "kWh",
-});
-export const phase2ExportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ExportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_export_active_energy", at: inputRegister(0x0162, 0x0163), group: "measurements", references: { reference: 30355 },
   unit: "kWh",
-});
-export const phase3ExportActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ExportActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_export_active_energy", at: inputRegister(0x0164, 0x0165), group: "measurements", references: { reference: 30357 },
   unit: "kWh",
-});
-export const phase1TotalActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1TotalActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_total_active_energy", at: inputRegister(0x0166, 0x0167), group: "measurements", references: { reference: 30359 },
   unit: "kWh",
-});
-export const phase2TotalActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2TotalActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_total_active_energy", at: inputRegister(0x0168, 0x0169), group: "measurements", references: { reference: 30361 },
   unit: "kWh",
-});
-export const phase3TotalActiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3TotalActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_total_active_energy", at: inputRegister(0x016a, 0x016b), group: "measurements", references: { reference: 30363 },
   unit: "kWh",
-});
-export const phase1ImportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ImportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_import_reactive_energy", at: inputRegister(0x016c, 0x016d), group: "measurements", references: { reference: 30365 },
   unit: "kvarh",
-});
-export const phase2ImportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ImportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_import_reactive_energy", at: inputRegister(0x016e, 0x016f), group: "measurements", references: { reference: 30367 },
   unit: "kvarh",
-});
-export const phase3ImportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ImportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_import_reactive_energy", at: inputRegister(0x0170, 0x0171), group: "measurements", references: { reference: 30369 },
   unit: "kvarh",
-});
-export const phase1ExportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1ExportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_export_reactive_energy", at: inputRegister(0x0172, 0x0173), group: "measurements", references: { reference: 30371 },
   unit: "kvarh",
-});
-export const phase2ExportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2ExportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_export_reactive_energy", at: inputRegister(0x0174, 0x0175), group: "measurements", references: { reference: 30373 },
   unit: "kvarh",
-});
-export const phase3ExportReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3ExportReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_export_reactive_energy", at: inputRegister(0x0176, 0x0177), group: "measurements", references: { reference: 30375 },
   unit: "kvarh",
-});
-export const phase1TotalReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase1TotalReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_total_reactive_energy", at: inputRegister(0x0178, 0x0179), group: "measurements", references: { reference: 30377 },
   unit: "kvarh",
-});
-export const phase2TotalReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase2TotalReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_total_reactive_energy", at: inputRegister(0x017a, 0x017b), group: "measurements", references: { reference: 30379 },
   unit: "kvarh",
-});
-export const phase3TotalReactiveEnergy = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const phase3TotalReactiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_total_reactive_energy", at: inputRegister(0x017c, 0x017d), group: "measurements", references: { reference: 30381 },
   unit: "kvarh",
-});
-export const demandTime = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const demandTime = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "demand_time", at: holding(0x0000, 0x0001), group: "settings", references: { reference: 40001 },
   unit: "min",
-});
-export const demandPeriod = /* @__PURE__ */ readWrite(floating(F32, { units: [[0, 0], [5, 5], [8, 8], [10, 10], [15, 15], [20, 20], [30, 30], [60, 60]] }), {
+}))();
+export const demandPeriod = /* @__PURE__ */ (() => readWrite(floating(F32, { units: [[0, 0], [5, 5], [8, 8], [10, 10], [15, 15], [20, 20], [30, 30], [60, 60]] }), {
   name: "demand_period", at: holding(0x0002, 0x0003), group: "settings", references: { reference: 40003 },
   unit: "min", default: 60, changes: "never",
-});
-export const systemType = /* @__PURE__ */ readWrite(named(U32, SystemType, { closed: true }), {
+}))();
+export const systemType = /* @__PURE__ */ (() => readWrite(named(U32, SystemType, { closed: true }), {
   name: "system_type", at: holding(0x000a, 0x000b), group: "settings", references: { reference: 40011 },
   changes: "never", conditions: ["password_entered"],
-});
-export const pulse1Width = /* @__PURE__ */ readWrite(floating(F32, { units: [[60, 60], [100, 100], [200, 200]] }), {
+}))();
+export const pulse1Width = /* @__PURE__ */ (() => readWrite(floating(F32, { units: [[60, 60], [100, 100], [200, 200]] }), {
   name: "pulse_1_width", at: holding(0x000c, 0x000d), group: "settings", references: { reference: 40013 },
   unit: "ms", default: 100, changes: "never",
-});
-export const passwordLock = /* @__PURE__ */ readWrite(named(U32, PasswordLock), {
+}))();
+export const passwordLock = /* @__PURE__ */ (() => readWrite(named(U32, PasswordLock), {
   name: "password_lock", at: holding(0x000e, 0x000f), group: "settings", references: { reference: 40015 },
-});
-export const networkParityAndStopBits = /* @__PURE__ */ readWrite(named(U32, NetworkParityAndStopBits, { closed: true }), {
+}))();
+export const networkParityAndStopBits = /* @__PURE__ */ (() => readWrite(named(U32, NetworkParityAndStopBits, { closed: true }), {
   name: "network_parity_and_stop_bits", at: holding(0x0012, 0x0013), group: "settings", references: { reference: 40019 },
   default: 0, changes: "never", takesEffect: "after a restart",
-});
-export const networkNode = /* @__PURE__ */ readWrite(floating(F32, { units: [[1, 247]] }), {
+}))();
+export const networkNode = /* @__PURE__ */ (() => readWrite(floating(F32, { units: [[1, 247]] }), {
   name: "network_node", at: holding(0x0014, 0x0015), group: "settings", references: { reference: 40021 },
   default: 1, changes: "never", takesEffect: "after a restart",
-});
-export const pulse1Energy = /* @__PURE__ */ readWrite(named(U32, Pulse1Energy, { closed: true }), {
+}))();
+export const pulse1Energy = /* @__PURE__ */ (() => readWrite(named(U32, Pulse1Energy, { closed: true }), {
   name: "pulse_1_energy", at: holding(0x0016, 0x0017), group: "settings", references: { reference: 40023 },
   changes: "never",
-});
-export const password = /* @__PURE__ */ readWrite(floating(F32), {
+}))();
+export const password = /* @__PURE__ */ (() => readWrite(floating(F32), {
   name: "password", at: holding(0x0018, 0x0019), group: "settings", references: { reference: 40025 },
-});
-export const networkBaudRate = /* @__PURE__ */ readWrite(named(U32, NetworkBaudRate, { closed: true }), {
+}))();
+export const networkBaudRate = /* @__PURE__ */ (() => readWrite(named(U32, NetworkBaudRate, { closed: true }), {
   name: "network_baud_rate", at: holding(0x001c, 0x001d), group: "settings", references: { reference: 40029 },
   default: 2, changes: "never",
-});
-export const pulse1EnergyType = /* @__PURE__ */ readWrite(named(U32, Pulse1EnergyType, { closed: true }), {
+}))();
+export const pulse1EnergyType = /* @__PURE__ */ (() => readWrite(named(U32, Pulse1EnergyType, { closed: true }), {
   name: "pulse_1_energy_type", at: holding(0x0056, 0x0057), group: "settings", references: { reference: 40087 },
   default: 4, changes: "never",
-});
-export const reset = /* @__PURE__ */ writeOnly(named(U16, Reset, { closed: true }), {
+}))();
+export const reset = /* @__PURE__ */ (() => writeOnly(named(U16, Reset, { closed: true }), {
   name: "reset", at: holding(0xf010), group: "maintenance", references: { reference: 461457 },
-});
-export const serialNumber = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const serialNumber = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "serial_number", at: holding(0xfc00, 0xfc01), group: "maintenance", references: { reference: 464513 },
   changes: "never",
-});
-export const registerOrder = /* @__PURE__ */ readWrite(floating(F32, { units: [[2141, 2141]] }), {
+}))();
+export const registerOrder = /* @__PURE__ */ (() => readWrite(floating(F32, { units: [[2141, 2141]] }), {
   name: "register_order", at: holding(0x0028, 0x0029), group: "order_of_registers", references: { reference: 40041 },
   changes: "never",
-});
-export const resetMaximumDemand = /* @__PURE__ */ command({ at: holding(0xf010, { function: 0x10 }), value: 0 });
+}))();
+export const resetMaximumDemand = /* @__PURE__ */ (() => command({ at: holding(0xf010, { function: 0x10 }), value: 0 }))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

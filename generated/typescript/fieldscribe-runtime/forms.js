@@ -597,53 +597,45 @@ export function withFixed(form, [mask, bits]) {
 }
 
 /** The raw number is the value. @param {WireType} wire @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function integer(wire) {
   return new IntegerForm(wire);
 }
 
 /** A coil or a single bit. @param {WireType} [wire] @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function bit(wire = BIT) {
   return new BitForm(wire);
 }
 
 /** Numbers with names. @param {WireType} wire @param {Names} names @param {{ closed?: boolean }} [facts] @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function named(wire, names, { closed = false } = {}) {
   return new NamedForm(wire, names, closed);
 }
 
 /** A word of flags. @param {WireType} wire @param {import("./words.js").WordLayout} layout @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function flags(wire, layout) {
   return new FlagsForm(wire, layout);
 }
 
 /** A quantity. @param {WireType} wire @param {LinearRule | readonly import("./rules.js").ScaleCase[]} scale
  * @param {{ decimals: number | null, encodes?: boolean, most?: number | bigint }} facts @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function scaled(wire, scale, facts) {
   return new ScaledForm(wire, scale, facts);
 }
 
 /** An IEEE 754 number. @param {WireType} wire @param {{ units?: readonly (readonly [number, number])[] }} [facts]
  * @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function floating(wire, { units = [] } = {}) {
   return new FloatingForm(wire, units);
 }
 
 /** Another form beside special codes, to which no value is encoded. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function withCodes(form, codes) {
   return new CodedForm(form, codes, false);
 }
 
 /** The same with special codes of which some may be written. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function withWritableCodes(form, codes) {
   return new CodedForm(form, codes, true);
 }

@@ -48,7 +48,9 @@ class Codec {
     this.width = bits ? bits[0] - bits[1] + 1 : form.wire.bits;
     /** How many words (or single bits) it takes. */
     this.size = bits ? 1 : Math.ceil(form.wire.bits / 16);
-    [this.least, this.greatest] = form.wire.limits(this.width);
+    const [least, greatest] = form.wire.limits(this.width);
+    this.least = least;
+    this.greatest = greatest;
   }
 
   get access() {
@@ -395,38 +397,32 @@ function specialise(point) {
 }
 
 /** A point that can only be read. @param {Form} form @param {FactsOfPoint} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function readOnly(form, facts) {
   return new ReadOnlyCodec(form, facts);
 }
 
 /** A point that can only be written. @param {Form} form @param {FactsOfPoint} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function writeOnly(form, facts) {
   return new WriteOnlyCodec(form, facts);
 }
 
 /** A point that can be read and written. @param {Form} form @param {FactsOfPoint} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function readWrite(form, facts) {
   return new ReadWriteCodec(form, facts);
 }
 
 /** A point that a write may keep in EEPROM. @param {Form} form @param {FactsOfPoint} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function stored(form, facts) {
   return Object.assign(new ReadWriteCodec(form, facts), { isStored: true });
 }
 
 /** The same that can only be written. @param {Form} form @param {FactsOfPoint} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function storedWriteOnly(form, facts) {
   return Object.assign(new WriteOnlyCodec(form, facts), { isStored: true });
 }
 
 /** Why a point has no codec, and the addresses of its words, if they can be reached. @param {string} reason
  * @param {{ at?: Place, writeAt?: Place, code?: string }} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function documented(reason, facts = {}) {
   return Object.freeze({ reason, ...facts });
 }

@@ -165,13 +165,11 @@ export class LinearRule {
 }
 
 /** A factor of a scale or limit. @param {string} point @param {Partial<Factor>} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function factor(point, facts = {}) {
   return new Factor(point, facts);
 }
 
 /** A linear rule. @param {ConstructorParameters<typeof LinearRule>[0]} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function rule(facts = {}) {
   return new LinearRule(facts);
 }
@@ -180,7 +178,6 @@ export function rule(facts = {}) {
  * @typedef {{ point: string | null, raw: number | null, rule: LinearRule }} ScaleCase */
 
 /** @param {string | null} point @param {number | null} raw @param {LinearRule} then @returns {ScaleCase} */
-/* @__NO_SIDE_EFFECTS__ */
 export function scaleCase(point, raw, then) {
   return { point, raw, rule: then };
 }
@@ -217,7 +214,6 @@ export class MovingLimit {
 }
 
 /** @param {LinearRule} from @param {ConstructorParameters<typeof MovingLimit>[1]} facts */
-/* @__NO_SIDE_EFFECTS__ */
 export function limit(from, facts) {
   return new MovingLimit(from, facts);
 }

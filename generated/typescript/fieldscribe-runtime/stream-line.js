@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: 0BSD
 /** What lines of bytes have in common: one exchange at a time, and no byte of an old reply in a new one. */
-import { FieldscribeError, LineError, NoReplyError, RequestError, shown } from "./errors.js";
+import { FieldscribeError, LineError, RequestError, shown } from "./errors.js";
 import { ReplyReader } from "./receiving.js";
 
 /** @typedef {import("./receiving.js").ReplyShape} ReplyShape */

@@ -78,7 +78,6 @@ export class WireType {
 }
 
 /** A wire type. @param {number} bits @param {{ signed?: boolean, lowByteFirst?: boolean, coding?: string }} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function wireType(bits, facts = {}) {
   return new WireType(bits, facts);
 }

@@ -98,7 +98,7 @@ export const StorageRestrictionsViewMode = /* @__PURE__ */ Object.freeze({
   LOCAL: 0,
   GLOBAL: 1,
 });
-export const Events1 = /* @__PURE__ */ wordOf(
+export const Events1 = /* @__PURE__ */ (() => wordOf(
   "Events1",
   {
     groundFault: bitFlag(0),
@@ -118,20 +118,8 @@ export const Events1 = /* @__PURE__ */ wordOf(
     memoryLoss: bitFlag(14),
     hardwareTestFailure: bitFlag(15),
   },
-);
-export const PvConnection = /* @__PURE__ */ wordOf(
-  "PvConnection",
-  { connected: bitFlag(0), available: bitFlag(1), operating: bitFlag(2), test: bitFlag(3) },
-);
-export const StorageConnection = /* @__PURE__ */ wordOf(
-  "StorageConnection",
-  { connected: bitFlag(0), available: bitFlag(1), operating: bitFlag(2), test: bitFlag(3) },
-);
-export const ActiveControls = /* @__PURE__ */ wordOf(
-  "ActiveControls",
-  { fixedPower: bitFlag(0), fixedReactivePower: bitFlag(1), fixedPowerFactor: bitFlag(2) },
-);
-export const StorageControlMode = /* @__PURE__ */ wordOf(
-  "StorageControlMode",
-  { charge: bitFlag(0), discharge: bitFlag(1) },
-);
+))();
+export const PvConnection = /* @__PURE__ */ (() => wordOf("PvConnection", { connected: bitFlag(0), available: bitFlag(1), operating: bitFlag(2), test: bitFlag(3) }))();
+export const StorageConnection = /* @__PURE__ */ (() => wordOf("StorageConnection", { connected: bitFlag(0), available: bitFlag(1), operating: bitFlag(2), test: bitFlag(3) }))();
+export const ActiveControls = /* @__PURE__ */ (() => wordOf("ActiveControls", { fixedPower: bitFlag(0), fixedReactivePower: bitFlag(1), fixedPowerFactor: bitFlag(2) }))();
+export const StorageControlMode = /* @__PURE__ */ (() => wordOf("StorageControlMode", { charge: bitFlag(0), discharge: bitFlag(1) }))();

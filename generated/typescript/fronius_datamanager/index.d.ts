@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate fronius_datamanager --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Fronius Datamanager with a three-phase inverter: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -16,5 +16,10 @@ export interface FroniusDatamanagerOptions {
 /** Fronius Datamanager with a three-phase inverter on a line. */
 export declare class FroniusDatamanager extends ModbusDevice {
   constructor(line: Line, options: FroniusDatamanagerOptions);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "common" | "inverter" | "nameplate" | "settings" | "status" | "controls" | "mppt" | "storage" | "fronius" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "fronius_datamanager">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface FroniusDatamanager extends Handles<typeof points> {}

@@ -50,849 +50,849 @@ import {
   VendorOperatingState,
 } from "./enums.js";
 
-const COMMON_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const INVERTER_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const INVERTER_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const INVERTER_U32_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] });
-const NAMEPLATE_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const NAMEPLATE_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const SETTINGS_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const SETTINGS_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const STATUS_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const STATUS_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const STATUS_U32_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] });
-const CONTROLS_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const CONTROLS_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const MPPT_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-const MPPT_U32_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] });
-const MPPT_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const STORAGE_U16_CODES = /* @__PURE__ */ codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] });
-const STORAGE_S16_CODES = /* @__PURE__ */ codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] });
-export const manufacturer = /* @__PURE__ */ readOnly(text(32, { padding: 0 }), {
+const COMMON_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const INVERTER_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const INVERTER_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const INVERTER_U32_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] }))();
+const NAMEPLATE_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const NAMEPLATE_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const SETTINGS_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const SETTINGS_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const STATUS_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const STATUS_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const STATUS_U32_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] }))();
+const CONTROLS_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const CONTROLS_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const MPPT_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+const MPPT_U32_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffffffff }, { noValue: ["not_implemented"] }))();
+const MPPT_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const STORAGE_U16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: 0xffff }, { noValue: ["not_implemented"] }))();
+const STORAGE_S16_CODES = /* @__PURE__ */ (() => codes({ not_implemented: -32768 }, { noValue: ["not_implemented"] }))();
+export const manufacturer = /* @__PURE__ */ (() => readOnly(text(32, { padding: 0 }), {
   name: "manufacturer", at: holding(0x0002, 0x0003, 0x0004, 0x0005, 0x0006, 0x0007, 0x0008, 0x0009, 0x000a, 0x000b, 0x000c, 0x000d, 0x000e, 0x000f, 0x0010, 0x0011, { base: "models_1" }), group: "common", code: "Mn", references: { register: 40005 },
   changes: "never",
-});
-export const model = /* @__PURE__ */ readOnly(text(32, { padding: 0 }), {
+}))();
+export const model = /* @__PURE__ */ (() => readOnly(text(32, { padding: 0 }), {
   name: "model", at: holding(0x0012, 0x0013, 0x0014, 0x0015, 0x0016, 0x0017, 0x0018, 0x0019, 0x001a, 0x001b, 0x001c, 0x001d, 0x001e, 0x001f, 0x0020, 0x0021, { base: "models_1" }), group: "common", code: "Md", references: { register: 40021 },
   changes: "never",
-});
-export const options = /* @__PURE__ */ readOnly(text(16, { padding: 0 }), {
+}))();
+export const options = /* @__PURE__ */ (() => readOnly(text(16, { padding: 0 }), {
   name: "options", at: holding(0x0022, 0x0023, 0x0024, 0x0025, 0x0026, 0x0027, 0x0028, 0x0029, { base: "models_1" }), group: "common", code: "Opt", references: { register: 40037 },
   changes: "never",
-});
-export const version = /* @__PURE__ */ readOnly(text(16, { padding: 0 }), {
+}))();
+export const version = /* @__PURE__ */ (() => readOnly(text(16, { padding: 0 }), {
   name: "version", at: holding(0x002a, 0x002b, 0x002c, 0x002d, 0x002e, 0x002f, 0x0030, 0x0031, { base: "models_1" }), group: "common", code: "Vr", references: { register: 40045 },
   changes: "never",
-});
-export const serialNumber = /* @__PURE__ */ readOnly(text(32, { padding: 0 }), {
+}))();
+export const serialNumber = /* @__PURE__ */ (() => readOnly(text(32, { padding: 0 }), {
   name: "serial_number", at: holding(0x0032, 0x0033, 0x0034, 0x0035, 0x0036, 0x0037, 0x0038, 0x0039, 0x003a, 0x003b, 0x003c, 0x003d, 0x003e, 0x003f, 0x0040, 0x0041, { base: "models_1" }), group: "common", code: "SN", references: { register: 40053 },
   changes: "never",
-});
-export const deviceAddress = /* @__PURE__ */ readOnly(withCodes(integer(U16), COMMON_U16_CODES), {
+}))();
+export const deviceAddress = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), COMMON_U16_CODES), {
   name: "device_address", at: holding(0x0042, { base: "models_1" }), group: "common", code: "DA", references: { register: 40069 },
   allowed: [[1, 247]], changes: "never",
-});
-export const acCurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const acCurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "ac_current", at: holding(0x0002, { base: "models_103" }), group: "inverter", code: "A", references: { register: 40072 },
   unit: "A", allowed: [[0, 65534]],
-});
-export const phaseACurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseACurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_a_current", at: holding(0x0003, { base: "models_103" }), group: "inverter", code: "AphA", references: { register: 40073 },
   unit: "A", allowed: [[0, 65534]],
-});
-export const phaseBCurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseBCurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_b_current", at: holding(0x0004, { base: "models_103" }), group: "inverter", code: "AphB", references: { register: 40074 },
   unit: "A", allowed: [[0, 65534]],
-});
-export const phaseCCurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseCCurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_c_current", at: holding(0x0005, { base: "models_103" }), group: "inverter", code: "AphC", references: { register: 40075 },
   unit: "A", allowed: [[0, 65534]],
-});
-export const acCurrentExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const acCurrentExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "ac_current_exponent", at: holding(0x0006, { base: "models_103" }), group: "inverter", code: "A_SF", references: { register: 40076 },
   allowed: [[-10, 10]],
-});
-export const phaseAToBVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseAToBVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_a_to_b_voltage", at: holding(0x0007, { base: "models_103" }), group: "inverter", code: "PPVphAB", references: { register: 40077 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const phaseBToCVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseBToCVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_b_to_c_voltage", at: holding(0x0008, { base: "models_103" }), group: "inverter", code: "PPVphBC", references: { register: 40078 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const phaseCToAVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseCToAVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_c_to_a_voltage", at: holding(0x0009, { base: "models_103" }), group: "inverter", code: "PPVphCA", references: { register: 40079 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const phaseAVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseAVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_a_voltage", at: holding(0x000a, { base: "models_103" }), group: "inverter", code: "PhVphA", references: { register: 40080 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const phaseBVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseBVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_b_voltage", at: holding(0x000b, { base: "models_103" }), group: "inverter", code: "PhVphB", references: { register: 40081 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const phaseCVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const phaseCVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("acVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "phase_c_voltage", at: holding(0x000c, { base: "models_103" }), group: "inverter", code: "PhVphC", references: { register: 40082 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const acVoltageExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const acVoltageExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "ac_voltage_exponent", at: holding(0x000d, { base: "models_103" }), group: "inverter", code: "V_SF", references: { register: 40083 },
   allowed: [[-10, 10]],
-});
-export const acPower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("acPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const acPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("acPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "ac_power", at: holding(0x000e, { base: "models_103" }), group: "inverter", code: "W", references: { register: 40084 },
   unit: "W", allowed: [[-32767, 32767]],
-});
-export const acPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const acPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "ac_power_exponent", at: holding(0x000f, { base: "models_103" }), group: "inverter", code: "W_SF", references: { register: 40085 },
   allowed: [[-10, 10]],
-});
-export const frequency = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("frequencyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const frequency = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("frequencyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "frequency", at: holding(0x0010, { base: "models_103" }), group: "inverter", code: "Hz", references: { register: 40086 },
   unit: "Hz", allowed: [[0, 65534]],
-});
-export const frequencyExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const frequencyExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "frequency_exponent", at: holding(0x0011, { base: "models_103" }), group: "inverter", code: "Hz_SF", references: { register: 40087 },
   allowed: [[-10, 10]],
-});
-export const apparentPower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("apparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const apparentPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("apparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "apparent_power", at: holding(0x0012, { base: "models_103" }), group: "inverter", code: "VA", references: { register: 40088 },
   unit: "VA", allowed: [[-32767, 32767]],
-});
-export const apparentPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const apparentPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "apparent_power_exponent", at: holding(0x0013, { base: "models_103" }), group: "inverter", code: "VA_SF", references: { register: 40089 },
   allowed: [[-10, 10]],
-});
-export const reactivePower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const reactivePower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "reactive_power", at: holding(0x0014, { base: "models_103" }), group: "inverter", code: "VAr", references: { register: 40090 },
   unit: "var", allowed: [[-32767, 32767]],
-});
-export const reactivePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const reactivePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "reactive_power_exponent", at: holding(0x0015, { base: "models_103" }), group: "inverter", code: "VAr_SF", references: { register: 40091 },
   allowed: [[-10, 10]],
-});
-export const powerFactor = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("powerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const powerFactor = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("powerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "power_factor", at: holding(0x0016, { base: "models_103" }), group: "inverter", code: "PF", references: { register: 40092 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const powerFactorExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const powerFactorExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "power_factor_exponent", at: holding(0x0017, { base: "models_103" }), group: "inverter", code: "PF_SF", references: { register: 40093 },
   allowed: [[-10, 10]],
-});
-export const lifetimeEnergy = /* @__PURE__ */ readOnly(withCodes(scaled(U32, rule({ factors: [factor("lifetimeEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), INVERTER_U32_CODES), {
+}))();
+export const lifetimeEnergy = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U32, rule({ factors: [factor("lifetimeEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), INVERTER_U32_CODES), {
   name: "lifetime_energy", at: holding(0x0018, 0x0019, { base: "models_103" }), group: "inverter", code: "WH", references: { register: 40094 },
   unit: "Wh", allowed: [[0, 4294967294]],
-});
-export const lifetimeEnergyExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const lifetimeEnergyExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "lifetime_energy_exponent", at: holding(0x001a, { base: "models_103" }), group: "inverter", code: "WH_SF", references: { register: 40096 },
   allowed: [[-10, 10]],
-});
-export const dcCurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("dcCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const dcCurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("dcCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "dc_current", at: holding(0x001b, { base: "models_103" }), group: "inverter", code: "DCA", references: { register: 40097 },
   unit: "A", allowed: [[0, 65534]],
-});
-export const dcCurrentExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const dcCurrentExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "dc_current_exponent", at: holding(0x001c, { base: "models_103" }), group: "inverter", code: "DCA_SF", references: { register: 40098 },
   allowed: [[-10, 10]],
-});
-export const dcVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("dcVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
+}))();
+export const dcVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("dcVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_U16_CODES), {
   name: "dc_voltage", at: holding(0x001d, { base: "models_103" }), group: "inverter", code: "DCV", references: { register: 40099 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const dcVoltageExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const dcVoltageExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "dc_voltage_exponent", at: holding(0x001e, { base: "models_103" }), group: "inverter", code: "DCV_SF", references: { register: 40100 },
   allowed: [[-10, 10]],
-});
-export const dcPower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("dcPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const dcPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("dcPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "dc_power", at: holding(0x001f, { base: "models_103" }), group: "inverter", code: "DCW", references: { register: 40101 },
   unit: "W", allowed: [[-32767, 32767]],
-});
-export const dcPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const dcPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "dc_power_exponent", at: holding(0x0020, { base: "models_103" }), group: "inverter", code: "DCW_SF", references: { register: 40102 },
   allowed: [[-10, 10]],
-});
-export const cabinetTemperature = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const cabinetTemperature = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "cabinet_temperature", at: holding(0x0021, { base: "models_103" }), group: "inverter", code: "TmpCab", references: { register: 40103 },
   unit: "°C", allowed: [[-32767, 32767]],
-});
-export const heatSinkTemperature = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const heatSinkTemperature = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "heat_sink_temperature", at: holding(0x0022, { base: "models_103" }), group: "inverter", code: "TmpSnk", references: { register: 40104 },
   unit: "°C", allowed: [[-32767, 32767]],
-});
-export const transformerTemperature = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const transformerTemperature = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "transformer_temperature", at: holding(0x0023, { base: "models_103" }), group: "inverter", code: "TmpTrns", references: { register: 40105 },
   unit: "°C", allowed: [[-32767, 32767]],
-});
-export const otherTemperature = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
+}))();
+export const otherTemperature = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("temperatureExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), INVERTER_S16_CODES), {
   name: "other_temperature", at: holding(0x0024, { base: "models_103" }), group: "inverter", code: "TmpOt", references: { register: 40106 },
   unit: "°C", allowed: [[-32767, 32767]],
-});
-export const temperatureExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
+}))();
+export const temperatureExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), INVERTER_S16_CODES), {
   name: "temperature_exponent", at: holding(0x0025, { base: "models_103" }), group: "inverter", code: "Tmp_SF", references: { register: 40107 },
   allowed: [[-10, 10]],
-});
-export const operatingState = /* @__PURE__ */ readOnly(withCodes(named(U16, OperatingState, { closed: true }), INVERTER_U16_CODES), {
+}))();
+export const operatingState = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, OperatingState, { closed: true }), INVERTER_U16_CODES), {
   name: "operating_state", at: holding(0x0026, { base: "models_103" }), group: "inverter", code: "St", references: { register: 40108 },
-});
-export const vendorOperatingState = /* @__PURE__ */ readOnly(withCodes(named(U16, VendorOperatingState, { closed: true }), INVERTER_U16_CODES), {
+}))();
+export const vendorOperatingState = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, VendorOperatingState, { closed: true }), INVERTER_U16_CODES), {
   name: "vendor_operating_state", at: holding(0x0027, { base: "models_103" }), group: "inverter", code: "StVnd", references: { register: 40109 },
-});
-export const events1 = /* @__PURE__ */ readOnly(withCodes(flags(U32, Events1), INVERTER_U32_CODES), {
+}))();
+export const events1 = /* @__PURE__ */ (() => readOnly(withCodes(flags(U32, Events1), INVERTER_U32_CODES), {
   name: "events_1", at: holding(0x0028, 0x0029, { base: "models_103" }), group: "inverter", code: "Evt1", references: { register: 40110 },
   allowed: [[0, 4294967294]],
-});
-export const events2 = /* @__PURE__ */ readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
+}))();
+export const events2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
   name: "events_2", at: holding(0x002a, 0x002b, { base: "models_103" }), group: "inverter", code: "Evt2", references: { register: 40112 },
   allowed: [[0, 4294967294]],
-});
-export const vendorEvents1 = /* @__PURE__ */ readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
+}))();
+export const vendorEvents1 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
   name: "vendor_events_1", at: holding(0x002c, 0x002d, { base: "models_103" }), group: "inverter", code: "EvtVnd1", references: { register: 40114 },
   allowed: [[0, 4294967294]],
-});
-export const vendorEvents2 = /* @__PURE__ */ readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
+}))();
+export const vendorEvents2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
   name: "vendor_events_2", at: holding(0x002e, 0x002f, { base: "models_103" }), group: "inverter", code: "EvtVnd2", references: { register: 40116 },
   allowed: [[0, 4294967294]],
-});
-export const vendorEvents3 = /* @__PURE__ */ readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
+}))();
+export const vendorEvents3 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
   name: "vendor_events_3", at: holding(0x0030, 0x0031, { base: "models_103" }), group: "inverter", code: "EvtVnd3", references: { register: 40118 },
   allowed: [[0, 4294967294]],
-});
-export const vendorEvents4 = /* @__PURE__ */ readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
+}))();
+export const vendorEvents4 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), INVERTER_U32_CODES), {
   name: "vendor_events_4", at: holding(0x0032, 0x0033, { base: "models_103" }), group: "inverter", code: "EvtVnd4", references: { register: 40120 },
   allowed: [[0, 4294967294]],
-});
-export const derType = /* @__PURE__ */ readOnly(withCodes(named(U16, DerType), NAMEPLATE_U16_CODES), {
+}))();
+export const derType = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, DerType), NAMEPLATE_U16_CODES), {
   name: "der_type", at: holding(0x0002, { base: "models_120" }), group: "nameplate", code: "DERTyp", references: { register: 40124 },
   allowed: [[0, 65534]], changes: "never",
-});
-export const ratedPower = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const ratedPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "rated_power", at: holding(0x0003, { base: "models_120" }), group: "nameplate", code: "WRtg", references: { register: 40125 },
   unit: "W", allowed: [[0, 65534]], changes: "never",
-});
-export const ratedPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_power_exponent", at: holding(0x0004, { base: "models_120" }), group: "nameplate", code: "WRtg_SF", references: { register: 40126 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedApparentPower = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const ratedApparentPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "rated_apparent_power", at: holding(0x0005, { base: "models_120" }), group: "nameplate", code: "VARtg", references: { register: 40127 },
   unit: "VA", allowed: [[0, 65534]], changes: "never",
-});
-export const ratedApparentPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedApparentPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_apparent_power_exponent", at: holding(0x0006, { base: "models_120" }), group: "nameplate", code: "VARtg_SF", references: { register: 40128 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedReactivePowerQ1 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedReactivePowerQ1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_reactive_power_q1", at: holding(0x0007, { base: "models_120" }), group: "nameplate", code: "VArRtgQ1", references: { register: 40129 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedReactivePowerQ2 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedReactivePowerQ2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_reactive_power_q2", at: holding(0x0008, { base: "models_120" }), group: "nameplate", code: "VArRtgQ2", references: { register: 40130 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedReactivePowerQ3 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedReactivePowerQ3 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_reactive_power_q3", at: holding(0x0009, { base: "models_120" }), group: "nameplate", code: "VArRtgQ3", references: { register: 40131 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedReactivePowerQ4 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedReactivePowerQ4 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_reactive_power_q4", at: holding(0x000a, { base: "models_120" }), group: "nameplate", code: "VArRtgQ4", references: { register: 40132 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedReactivePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedReactivePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_reactive_power_exponent", at: holding(0x000b, { base: "models_120" }), group: "nameplate", code: "VArRtg_SF", references: { register: 40133 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedCurrent = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const ratedCurrent = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "rated_current", at: holding(0x000c, { base: "models_120" }), group: "nameplate", code: "ARtg", references: { register: 40134 },
   unit: "A", allowed: [[0, 65534]], changes: "never",
-});
-export const ratedCurrentExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedCurrentExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_current_exponent", at: holding(0x000d, { base: "models_120" }), group: "nameplate", code: "ARtg_SF", references: { register: 40135 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedPowerFactorQ1 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerFactorQ1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_power_factor_q1", at: holding(0x000e, { base: "models_120" }), group: "nameplate", code: "PFRtgQ1", references: { register: 40136 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedPowerFactorQ2 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerFactorQ2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_power_factor_q2", at: holding(0x000f, { base: "models_120" }), group: "nameplate", code: "PFRtgQ2", references: { register: 40137 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedPowerFactorQ3 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerFactorQ3 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_power_factor_q3", at: holding(0x0010, { base: "models_120" }), group: "nameplate", code: "PFRtgQ3", references: { register: 40138 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedPowerFactorQ4 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerFactorQ4 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("ratedPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_S16_CODES), {
   name: "rated_power_factor_q4", at: holding(0x0011, { base: "models_120" }), group: "nameplate", code: "PFRtgQ4", references: { register: 40139 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const ratedPowerFactorExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedPowerFactorExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_power_factor_exponent", at: holding(0x0012, { base: "models_120" }), group: "nameplate", code: "PFRtg_SF", references: { register: 40140 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedEnergy = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const ratedEnergy = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "rated_energy", at: holding(0x0013, { base: "models_120" }), group: "nameplate", code: "WHRtg", references: { register: 40141 },
   unit: "Wh", allowed: [[0, 65534]], changes: "never",
-});
-export const ratedEnergyExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedEnergyExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_energy_exponent", at: holding(0x0014, { base: "models_120" }), group: "nameplate", code: "WHRtg_SF", references: { register: 40142 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const ratedCharge = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const ratedCharge = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("ratedChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "rated_charge", at: holding(0x0015, { base: "models_120" }), group: "nameplate", code: "AhrRtg", references: { register: 40143 },
   unit: "Ah", allowed: [[0, 65534]], changes: "never",
-});
-export const ratedChargeExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const ratedChargeExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "rated_charge_exponent", at: holding(0x0016, { base: "models_120" }), group: "nameplate", code: "AhrRtg_SF", references: { register: 40144 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumChargeRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargeRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const maximumChargeRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargeRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "maximum_charge_rate", at: holding(0x0017, { base: "models_120" }), group: "nameplate", code: "MaxChaRte", references: { register: 40145 },
   unit: "W", allowed: [[0, 65534]], changes: "never",
-});
-export const maximumChargeRateExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const maximumChargeRateExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "maximum_charge_rate_exponent", at: holding(0x0018, { base: "models_120" }), group: "nameplate", code: "MaxChaRte_SF", references: { register: 40146 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumDischargeRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumDischargeRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
+}))();
+export const maximumDischargeRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumDischargeRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), NAMEPLATE_U16_CODES), {
   name: "maximum_discharge_rate", at: holding(0x0019, { base: "models_120" }), group: "nameplate", code: "MaxDisChaRte", references: { register: 40147 },
   unit: "W", allowed: [[0, 65534]], changes: "never",
-});
-export const maximumDischargeRateExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
+}))();
+export const maximumDischargeRateExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), NAMEPLATE_S16_CODES), {
   name: "maximum_discharge_rate_exponent", at: holding(0x001a, { base: "models_120" }), group: "nameplate", code: "MaxDisChaRte_SF", references: { register: 40148 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumPower = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("maximumPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const maximumPower = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("maximumPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "maximum_power", at: holding(0x0002, { base: "models_121" }), group: "settings", code: "WMax", references: { register: 40152 },
   unit: "W", allowed: [[0, 65534]], changes: "never",
-});
-export const referenceVoltage = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("referenceVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const referenceVoltage = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("referenceVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "reference_voltage", at: holding(0x0003, { base: "models_121" }), group: "settings", code: "VRef", references: { register: 40153 },
   unit: "V", allowed: [[0, 65534]], changes: "never",
-});
-export const referenceVoltageOffset = /* @__PURE__ */ readWrite(withCodes(scaled(S16, rule({ factors: [factor("referenceVoltageOffsetExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const referenceVoltageOffset = /* @__PURE__ */ (() => readWrite(withCodes(scaled(S16, rule({ factors: [factor("referenceVoltageOffsetExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "reference_voltage_offset", at: holding(0x0004, { base: "models_121" }), group: "settings", code: "VRefOfs", references: { register: 40154 },
   unit: "V", allowed: [[-32767, 32767]], changes: "never",
-});
-export const maximumVoltage = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("voltageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const maximumVoltage = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("voltageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "maximum_voltage", at: holding(0x0005, { base: "models_121" }), group: "settings", code: "VMax", references: { register: 40155 },
   unit: "V", allowed: [[0, 65534]], changes: "never",
-});
-export const minimumVoltage = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("voltageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const minimumVoltage = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("voltageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "minimum_voltage", at: holding(0x0006, { base: "models_121" }), group: "settings", code: "VMin", references: { register: 40156 },
   unit: "V", allowed: [[0, 65534]], changes: "never",
-});
-export const maximumApparentPower = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("maximumApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const maximumApparentPower = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("maximumApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "maximum_apparent_power", at: holding(0x0007, { base: "models_121" }), group: "settings", code: "VAMax", references: { register: 40157 },
   unit: "VA", allowed: [[0, 65534]], changes: "never",
-});
-export const maximumReactivePowerQ1 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const maximumReactivePowerQ1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "maximum_reactive_power_q1", at: holding(0x0008, { base: "models_121" }), group: "settings", code: "VARMaxQ1", references: { register: 40158 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const maximumReactivePowerQ2 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const maximumReactivePowerQ2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "maximum_reactive_power_q2", at: holding(0x0009, { base: "models_121" }), group: "settings", code: "VARMaxQ2", references: { register: 40159 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const maximumReactivePowerQ3 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const maximumReactivePowerQ3 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "maximum_reactive_power_q3", at: holding(0x000a, { base: "models_121" }), group: "settings", code: "VARMaxQ3", references: { register: 40160 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const maximumReactivePowerQ4 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const maximumReactivePowerQ4 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("maximumReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "maximum_reactive_power_q4", at: holding(0x000b, { base: "models_121" }), group: "settings", code: "VARMaxQ4", references: { register: 40161 },
   unit: "var", allowed: [[-32767, 32767]], changes: "never",
-});
-export const powerRampRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("powerRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const powerRampRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("powerRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "power_ramp_rate", at: holding(0x000c, { base: "models_121" }), group: "settings", code: "WGra", references: { register: 40162 },
   unit: "%/min", allowed: [[0, 65534]], changes: "never",
-});
-export const minimumPowerFactorQ1 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const minimumPowerFactorQ1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "minimum_power_factor_q1", at: holding(0x000d, { base: "models_121" }), group: "settings", code: "PFMinQ1", references: { register: 40163 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const minimumPowerFactorQ2 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const minimumPowerFactorQ2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "minimum_power_factor_q2", at: holding(0x000e, { base: "models_121" }), group: "settings", code: "PFMinQ2", references: { register: 40164 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const minimumPowerFactorQ3 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const minimumPowerFactorQ3 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "minimum_power_factor_q3", at: holding(0x000f, { base: "models_121" }), group: "settings", code: "PFMinQ3", references: { register: 40165 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const minimumPowerFactorQ4 = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
+}))();
+export const minimumPowerFactorQ4 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("minimumPowerFactorExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_S16_CODES), {
   name: "minimum_power_factor_q4", at: holding(0x0010, { base: "models_121" }), group: "settings", code: "PFMinQ4", references: { register: 40166 },
   allowed: [[-32767, 32767]], changes: "never",
-});
-export const reactivePowerAction = /* @__PURE__ */ readOnly(withCodes(named(U16, ReactivePowerAction, { closed: true }), SETTINGS_U16_CODES), {
+}))();
+export const reactivePowerAction = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, ReactivePowerAction, { closed: true }), SETTINGS_U16_CODES), {
   name: "reactive_power_action", at: holding(0x0011, { base: "models_121" }), group: "settings", code: "VArAct", references: { register: 40167 },
   changes: "never",
-});
-export const apparentPowerMethod = /* @__PURE__ */ readOnly(withCodes(named(U16, ApparentPowerMethod, { closed: true }), SETTINGS_U16_CODES), {
+}))();
+export const apparentPowerMethod = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, ApparentPowerMethod, { closed: true }), SETTINGS_U16_CODES), {
   name: "apparent_power_method", at: holding(0x0012, { base: "models_121" }), group: "settings", code: "ClcTotVA", references: { register: 40168 },
   changes: "never",
-});
-export const maximumRampRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const maximumRampRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "maximum_ramp_rate", at: holding(0x0013, { base: "models_121" }), group: "settings", code: "MaxRmpRte", references: { register: 40169 },
   unit: "%", allowed: [[0, 65534]], changes: "never",
-});
-export const nominalFrequency = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("nominalFrequencyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
+}))();
+export const nominalFrequency = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("nominalFrequencyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), SETTINGS_U16_CODES), {
   name: "nominal_frequency", at: holding(0x0014, { base: "models_121" }), group: "settings", code: "ECPNomHz", references: { register: 40170 },
   unit: "Hz", allowed: [[0, 65534]], changes: "never",
-});
-export const connectedPhase = /* @__PURE__ */ readOnly(withCodes(named(U16, ConnectedPhase, { closed: true }), SETTINGS_U16_CODES), {
+}))();
+export const connectedPhase = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, ConnectedPhase, { closed: true }), SETTINGS_U16_CODES), {
   name: "connected_phase", at: holding(0x0015, { base: "models_121" }), group: "settings", code: "ConnPh", references: { register: 40171 },
   changes: "never",
-});
-export const maximumPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const maximumPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "maximum_power_exponent", at: holding(0x0016, { base: "models_121" }), group: "settings", code: "WMax_SF", references: { register: 40172 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const referenceVoltageExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const referenceVoltageExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "reference_voltage_exponent", at: holding(0x0017, { base: "models_121" }), group: "settings", code: "VRef_SF", references: { register: 40173 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const referenceVoltageOffsetExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const referenceVoltageOffsetExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "reference_voltage_offset_exponent", at: holding(0x0018, { base: "models_121" }), group: "settings", code: "VRefOfs_SF", references: { register: 40174 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const voltageLimitsExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const voltageLimitsExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "voltage_limits_exponent", at: holding(0x0019, { base: "models_121" }), group: "settings", code: "VMinMax_SF", references: { register: 40175 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumApparentPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const maximumApparentPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "maximum_apparent_power_exponent", at: holding(0x001a, { base: "models_121" }), group: "settings", code: "VAMax_SF", references: { register: 40176 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumReactivePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const maximumReactivePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "maximum_reactive_power_exponent", at: holding(0x001b, { base: "models_121" }), group: "settings", code: "VARMax_SF", references: { register: 40177 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const powerRampRateExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const powerRampRateExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "power_ramp_rate_exponent", at: holding(0x001c, { base: "models_121" }), group: "settings", code: "WGra_SF", references: { register: 40178 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const minimumPowerFactorExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const minimumPowerFactorExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "minimum_power_factor_exponent", at: holding(0x001d, { base: "models_121" }), group: "settings", code: "PFMin_SF", references: { register: 40179 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const maximumRampRateExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const maximumRampRateExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "maximum_ramp_rate_exponent", at: holding(0x001e, { base: "models_121" }), group: "settings", code: "MaxRmpRte_SF", references: { register: 40180 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const nominalFrequencyExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
+}))();
+export const nominalFrequencyExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), SETTINGS_S16_CODES), {
   name: "nominal_frequency_exponent", at: holding(0x001f, { base: "models_121" }), group: "settings", code: "ECPNomHz_SF", references: { register: 40181 },
   allowed: [[-10, 10]], changes: "never",
-});
-export const pvConnection = /* @__PURE__ */ readOnly(withCodes(flags(U16, PvConnection), STATUS_U16_CODES), {
+}))();
+export const pvConnection = /* @__PURE__ */ (() => readOnly(withCodes(flags(U16, PvConnection), STATUS_U16_CODES), {
   name: "pv_connection", at: holding(0x0002, { base: "models_122" }), group: "status", code: "PVConn", references: { register: 40184 },
   allowed: [[0, 65534]],
-});
-export const storageConnection = /* @__PURE__ */ readOnly(withCodes(flags(U16, StorageConnection), STATUS_U16_CODES), {
+}))();
+export const storageConnection = /* @__PURE__ */ (() => readOnly(withCodes(flags(U16, StorageConnection), STATUS_U16_CODES), {
   name: "storage_connection", at: holding(0x0003, { base: "models_122" }), group: "status", code: "StorConn", references: { register: 40185 },
   allowed: [[0, 65534]],
-});
-export const gridConnection = /* @__PURE__ */ readOnly(withCodes(named(U16, GridConnection, { closed: true }), STATUS_U16_CODES), {
+}))();
+export const gridConnection = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, GridConnection, { closed: true }), STATUS_U16_CODES), {
   name: "grid_connection", at: holding(0x0004, { base: "models_122" }), group: "status", code: "ECPConn", references: { register: 40186 },
-});
-export const activeEnergy = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const activeEnergy = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "active_energy", at: holding(0x0005, 0x0006, 0x0007, 0x0008, { base: "models_122" }), group: "status", code: "ActWh", references: { register: 40187 },
   unit: "Wh",
-});
-export const apparentEnergy = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const apparentEnergy = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "apparent_energy", at: holding(0x0009, 0x000a, 0x000b, 0x000c, { base: "models_122" }), group: "status", code: "ActVAh", references: { register: 40191 },
   unit: "VAh",
-});
-export const reactiveEnergyQ1 = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const reactiveEnergyQ1 = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "reactive_energy_q1", at: holding(0x000d, 0x000e, 0x000f, 0x0010, { base: "models_122" }), group: "status", code: "ActVArhQ1", references: { register: 40195 },
   unit: "varh",
-});
-export const reactiveEnergyQ2 = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const reactiveEnergyQ2 = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "reactive_energy_q2", at: holding(0x0011, 0x0012, 0x0013, 0x0014, { base: "models_122" }), group: "status", code: "ActVArhQ2", references: { register: 40199 },
   unit: "varh",
-});
-export const reactiveEnergyQ3 = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const reactiveEnergyQ3 = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "reactive_energy_q3", at: holding(0x0015, 0x0016, 0x0017, 0x0018, { base: "models_122" }), group: "status", code: "ActVArhQ3", references: { register: 40203 },
   unit: "varh",
-});
-export const reactiveEnergyQ4 = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const reactiveEnergyQ4 = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "reactive_energy_q4", at: holding(0x0019, 0x001a, 0x001b, 0x001c, { base: "models_122" }), group: "status", code: "ActVArhQ4", references: { register: 40207 },
   unit: "varh",
-});
-export const availableReactivePower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("availableReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_S16_CODES), {
+}))();
+export const availableReactivePower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("availableReactivePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_S16_CODES), {
   name: "available_reactive_power", at: holding(0x001d, { base: "models_122" }), group: "status", code: "VArAval", references: { register: 40211 },
   unit: "var", allowed: [[-32767, 32767]],
-});
-export const availableReactivePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
+}))();
+export const availableReactivePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
   name: "available_reactive_power_exponent", at: holding(0x001e, { base: "models_122" }), group: "status", code: "VArAval_SF", references: { register: 40212 },
   allowed: [[-10, 10]],
-});
-export const availablePower = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("availablePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_U16_CODES), {
+}))();
+export const availablePower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("availablePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_U16_CODES), {
   name: "available_power", at: holding(0x001f, { base: "models_122" }), group: "status", code: "WAval", references: { register: 40213 },
   unit: "W", allowed: [[0, 65534]],
-});
-export const availablePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
+}))();
+export const availablePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
   name: "available_power_exponent", at: holding(0x0020, { base: "models_122" }), group: "status", code: "WAval_SF", references: { register: 40214 },
   allowed: [[-10, 10]],
-});
-export const limitsReached = /* @__PURE__ */ readOnly(withCodes(integer(U32), STATUS_U32_CODES), {
+}))();
+export const limitsReached = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), STATUS_U32_CODES), {
   name: "limits_reached", at: holding(0x0021, 0x0022, { base: "models_122" }), group: "status", code: "StSetLimMsk", references: { register: 40215 },
   allowed: [[0, 4294967294]],
-});
-export const activeControls = /* @__PURE__ */ readOnly(withCodes(flags(U32, ActiveControls), STATUS_U32_CODES), {
+}))();
+export const activeControls = /* @__PURE__ */ (() => readOnly(withCodes(flags(U32, ActiveControls), STATUS_U32_CODES), {
   name: "active_controls", at: holding(0x0023, 0x0024, { base: "models_122" }), group: "status", code: "StActCtl", references: { register: 40217 },
   allowed: [[0, 4294967294]],
-});
-export const timeSource = /* @__PURE__ */ readOnly(text(8, { padding: 0 }), {
+}))();
+export const timeSource = /* @__PURE__ */ (() => readOnly(text(8, { padding: 0 }), {
   name: "time_source", at: holding(0x0025, 0x0026, 0x0027, 0x0028, { base: "models_122" }), group: "status", code: "TmSrc", references: { register: 40219 },
-});
-export const time_ = /* @__PURE__ */ readOnly(withCodes(time(integer(U32), "2000-01-01"), STATUS_U32_CODES), {
+}))();
+export const time_ = /* @__PURE__ */ (() => readOnly(withCodes(time(integer(U32), "2000-01-01"), STATUS_U32_CODES), {
   name: "time", at: holding(0x0029, 0x002a, { base: "models_122" }), group: "status", code: "Tms", references: { register: 40223 },
   allowed: [[0, 4294967294]],
-});
-export const rideThroughStatus = /* @__PURE__ */ readOnly(withCodes(integer(U16), STATUS_U16_CODES), {
+}))();
+export const rideThroughStatus = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), STATUS_U16_CODES), {
   name: "ride_through_status", at: holding(0x002b, { base: "models_122" }), group: "status", code: "RtSt", references: { register: 40225 },
   allowed: [[0, 65534]],
-});
-export const isolationResistance = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("isolationResistanceExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_U16_CODES), {
+}))();
+export const isolationResistance = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("isolationResistanceExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STATUS_U16_CODES), {
   name: "isolation_resistance", at: holding(0x002c, { base: "models_122" }), group: "status", code: "Ris", references: { register: 40226 },
   unit: "ohm", allowed: [[0, 65534]],
-});
-export const isolationResistanceExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
+}))();
+export const isolationResistanceExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STATUS_S16_CODES), {
   name: "isolation_resistance_exponent", at: holding(0x002d, { base: "models_122" }), group: "status", code: "Ris_SF", references: { register: 40227 },
   allowed: [[-10, 10]],
-});
-export const connectionWindow = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const connectionWindow = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "connection_window", at: holding(0x0002, { base: "models_123" }), group: "controls", code: "Conn_WinTms", references: { register: 40230 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const connectionTimeout = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const connectionTimeout = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "connection_timeout", at: holding(0x0003, { base: "models_123" }), group: "controls", code: "Conn_RvrtTms", references: { register: 40231 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const connection = /* @__PURE__ */ readWrite(withCodes(named(U16, Connection, { closed: true }), CONTROLS_U16_CODES), {
+}))();
+export const connection = /* @__PURE__ */ (() => readWrite(withCodes(named(U16, Connection, { closed: true }), CONTROLS_U16_CODES), {
   name: "connection", at: holding(0x0004, { base: "models_123" }), group: "controls", code: "Conn", references: { register: 40232 },
-});
-export const powerLimit = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("powerLimitExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_U16_CODES), {
+}))();
+export const powerLimit = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("powerLimitExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_U16_CODES), {
   name: "power_limit", at: holding(0x0005, { base: "models_123" }), group: "controls", code: "WMaxLimPct", references: { register: 40233 },
   unit: "%", allowed: [[0, 65534]],
-});
-export const powerLimitWindow = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerLimitWindow = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_limit_window", at: holding(0x0006, { base: "models_123" }), group: "controls", code: "WMaxLimPct_WinTms", references: { register: 40234 },
   unit: "s", allowed: [[0, 300]],
-});
-export const powerLimitTimeout = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerLimitTimeout = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_limit_timeout", at: holding(0x0007, { base: "models_123" }), group: "controls", code: "WMaxLimPct_RvrtTms", references: { register: 40235 },
   unit: "s", allowed: [[0, 28800]],
-});
-export const powerLimitRampTime = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerLimitRampTime = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_limit_ramp_time", at: holding(0x0008, { base: "models_123" }), group: "controls", code: "WMaxLimPct_RmpTms", references: { register: 40236 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const powerLimitEnabled = /* @__PURE__ */ readWrite(withCodes(named(U16, PowerLimitEnabled, { closed: true }), CONTROLS_U16_CODES), {
+}))();
+export const powerLimitEnabled = /* @__PURE__ */ (() => readWrite(withCodes(named(U16, PowerLimitEnabled, { closed: true }), CONTROLS_U16_CODES), {
   name: "power_limit_enabled", at: holding(0x0009, { base: "models_123" }), group: "controls", code: "WMaxLim_Ena", references: { register: 40237 },
-});
-export const powerFactorSetpoint = /* @__PURE__ */ readWrite(withCodes(scaled(S16, rule({ factors: [factor("powerFactorSetpointExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
+}))();
+export const powerFactorSetpoint = /* @__PURE__ */ (() => readWrite(withCodes(scaled(S16, rule({ factors: [factor("powerFactorSetpointExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
   name: "power_factor_setpoint", at: holding(0x000a, { base: "models_123" }), group: "controls", code: "OutPFSet", references: { register: 40238 },
   allowed: [[-32767, 32767]],
-});
-export const powerFactorWindow = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerFactorWindow = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_factor_window", at: holding(0x000b, { base: "models_123" }), group: "controls", code: "OutPFSet_WinTms", references: { register: 40239 },
   unit: "s", allowed: [[0, 300]],
-});
-export const powerFactorTimeout = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerFactorTimeout = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_factor_timeout", at: holding(0x000c, { base: "models_123" }), group: "controls", code: "OutPFSet_RvrtTms", references: { register: 40240 },
   unit: "s", allowed: [[0, 28800]],
-});
-export const powerFactorRampTime = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const powerFactorRampTime = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "power_factor_ramp_time", at: holding(0x000d, { base: "models_123" }), group: "controls", code: "OutPFSet_RmpTms", references: { register: 40241 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const powerFactorEnabled = /* @__PURE__ */ readWrite(withCodes(named(U16, PowerFactorEnabled, { closed: true }), CONTROLS_U16_CODES), {
+}))();
+export const powerFactorEnabled = /* @__PURE__ */ (() => readWrite(withCodes(named(U16, PowerFactorEnabled, { closed: true }), CONTROLS_U16_CODES), {
   name: "power_factor_enabled", at: holding(0x000e, { base: "models_123" }), group: "controls", code: "OutPFSet_Ena", references: { register: 40242 },
-});
-export const reactivePowerOfMaximumPower = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
+}))();
+export const reactivePowerOfMaximumPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
   name: "reactive_power_of_maximum_power", at: holding(0x000f, { base: "models_123" }), group: "controls", code: "VArWMaxPct", references: { register: 40243 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const reactivePowerOfMaximum = /* @__PURE__ */ readWrite(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
+}))();
+export const reactivePowerOfMaximum = /* @__PURE__ */ (() => readWrite(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
   name: "reactive_power_of_maximum", at: holding(0x0010, { base: "models_123" }), group: "controls", code: "VArMaxPct", references: { register: 40244 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const reactivePowerOfAvailable = /* @__PURE__ */ readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
+}))();
+export const reactivePowerOfAvailable = /* @__PURE__ */ (() => readOnly(withCodes(scaled(S16, rule({ factors: [factor("reactivePowerPercentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), CONTROLS_S16_CODES), {
   name: "reactive_power_of_available", at: holding(0x0011, { base: "models_123" }), group: "controls", code: "VArAvalPct", references: { register: 40245 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const reactivePowerWindow = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const reactivePowerWindow = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "reactive_power_window", at: holding(0x0012, { base: "models_123" }), group: "controls", code: "VArPct_WinTms", references: { register: 40246 },
   unit: "s", allowed: [[0, 300]],
-});
-export const reactivePowerTimeout = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const reactivePowerTimeout = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "reactive_power_timeout", at: holding(0x0013, { base: "models_123" }), group: "controls", code: "VArPct_RvrtTms", references: { register: 40247 },
   unit: "s", allowed: [[0, 28800]],
-});
-export const reactivePowerRampTime = /* @__PURE__ */ readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
+}))();
+export const reactivePowerRampTime = /* @__PURE__ */ (() => readWrite(withCodes(integer(U16), CONTROLS_U16_CODES), {
   name: "reactive_power_ramp_time", at: holding(0x0014, { base: "models_123" }), group: "controls", code: "VArPct_RmpTms", references: { register: 40248 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const reactivePowerMode = /* @__PURE__ */ readOnly(withCodes(named(U16, ReactivePowerMode), CONTROLS_U16_CODES), {
+}))();
+export const reactivePowerMode = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, ReactivePowerMode), CONTROLS_U16_CODES), {
   name: "reactive_power_mode", at: holding(0x0015, { base: "models_123" }), group: "controls", code: "VArPct_Mod", references: { register: 40249 },
   allowed: [[0, 65534]],
-});
-export const reactivePowerEnabled = /* @__PURE__ */ readWrite(withCodes(named(U16, ReactivePowerEnabled, { closed: true }), CONTROLS_U16_CODES), {
+}))();
+export const reactivePowerEnabled = /* @__PURE__ */ (() => readWrite(withCodes(named(U16, ReactivePowerEnabled, { closed: true }), CONTROLS_U16_CODES), {
   name: "reactive_power_enabled", at: holding(0x0016, { base: "models_123" }), group: "controls", code: "VArPct_Ena", references: { register: 40250 },
-});
-export const powerLimitExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
+}))();
+export const powerLimitExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
   name: "power_limit_exponent", at: holding(0x0017, { base: "models_123" }), group: "controls", code: "WMaxLimPct_SF", references: { register: 40251 },
   allowed: [[-10, 10]],
-});
-export const powerFactorSetpointExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
+}))();
+export const powerFactorSetpointExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
   name: "power_factor_setpoint_exponent", at: holding(0x0018, { base: "models_123" }), group: "controls", code: "OutPFSet_SF", references: { register: 40252 },
   allowed: [[-10, 10]],
-});
-export const reactivePowerPercentExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
+}))();
+export const reactivePowerPercentExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), CONTROLS_S16_CODES), {
   name: "reactive_power_percent_exponent", at: holding(0x0019, { base: "models_123" }), group: "controls", code: "VArPct_SF", references: { register: 40253 },
   allowed: [[-10, 10]],
-});
-export const moduleCurrentExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const moduleCurrentExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_current_exponent", at: holding(0x0002, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40256 },
   allowed: [[-10, 10]],
-});
-export const moduleVoltageExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const moduleVoltageExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_voltage_exponent", at: holding(0x0003, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40257 },
   allowed: [[-10, 10]],
-});
-export const modulePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const modulePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_power_exponent", at: holding(0x0004, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40258 },
   allowed: [[-10, 10]],
-});
-export const moduleEnergyExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const moduleEnergyExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_energy_exponent", at: holding(0x0005, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40259 },
   allowed: [[-10, 10]],
-});
-export const moduleGlobalEvents = /* @__PURE__ */ readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
+}))();
+export const moduleGlobalEvents = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
   name: "module_global_events", at: holding(0x0006, 0x0007, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40260 },
   allowed: [[0, 4294967294]],
-});
-export const modules = /* @__PURE__ */ readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
+}))();
+export const modules = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
   name: "modules", at: holding(0x0008, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40262 },
   allowed: [[0, 65534]],
-});
-export const timestampPeriod = /* @__PURE__ */ readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
+}))();
+export const timestampPeriod = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
   name: "timestamp_period", at: holding(0x0009, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40263 },
   allowed: [[0, 65534]],
-});
-export const moduleInputIndex1 = /* @__PURE__ */ readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
+}))();
+export const moduleInputIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
   name: "module_input_index_1", at: holding(0x000a, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40264 },
   allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleInputIndex2 = /* @__PURE__ */ readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
+}))();
+export const moduleInputIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), MPPT_U16_CODES), {
   name: "module_input_index_2", at: holding(0x001e, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40284 },
   allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleNameIndex1 = /* @__PURE__ */ readOnly(text(16, { padding: 0 }), {
+}))();
+export const moduleNameIndex1 = /* @__PURE__ */ (() => readOnly(text(16, { padding: 0 }), {
   name: "module_name_index_1", at: holding(0x000b, 0x000c, 0x000d, 0x000e, 0x000f, 0x0010, 0x0011, 0x0012, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40265 },
   uncertain: true,
-});
-export const moduleNameIndex2 = /* @__PURE__ */ readOnly(text(16, { padding: 0 }), {
+}))();
+export const moduleNameIndex2 = /* @__PURE__ */ (() => readOnly(text(16, { padding: 0 }), {
   name: "module_name_index_2", at: holding(0x001f, 0x0020, 0x0021, 0x0022, 0x0023, 0x0024, 0x0025, 0x0026, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40285 },
   uncertain: true,
-});
-export const moduleCurrentIndex1 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const moduleCurrentIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_current_index_1", at: holding(0x0013, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40273 },
   unit: "A", allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleCurrentIndex2 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const moduleCurrentIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleCurrentExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_current_index_2", at: holding(0x0027, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40293 },
   unit: "A", allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleVoltageIndex1 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const moduleVoltageIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_voltage_index_1", at: holding(0x0014, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40274 },
   unit: "V", allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleVoltageIndex2 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const moduleVoltageIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("moduleVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_voltage_index_2", at: holding(0x0028, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40294 },
   unit: "V", allowed: [[0, 65534]], uncertain: true,
-});
-export const modulePowerIndex1 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("modulePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const modulePowerIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("modulePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_power_index_1", at: holding(0x0015, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40275 },
   unit: "W", allowed: [[0, 65534]], uncertain: true,
-});
-export const modulePowerIndex2 = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("modulePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
+}))();
+export const modulePowerIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("modulePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), MPPT_U16_CODES), {
   name: "module_power_index_2", at: holding(0x0029, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40295 },
   unit: "W", allowed: [[0, 65534]], uncertain: true,
-});
-export const moduleEnergyIndex1 = /* @__PURE__ */ readOnly(scaled(U32, rule({ factors: [factor("moduleEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), {
+}))();
+export const moduleEnergyIndex1 = /* @__PURE__ */ (() => readOnly(scaled(U32, rule({ factors: [factor("moduleEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), {
   name: "module_energy_index_1", at: holding(0x0016, 0x0017, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40276 },
   unit: "Wh", uncertain: true,
-});
-export const moduleEnergyIndex2 = /* @__PURE__ */ readOnly(scaled(U32, rule({ factors: [factor("moduleEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), {
+}))();
+export const moduleEnergyIndex2 = /* @__PURE__ */ (() => readOnly(scaled(U32, rule({ factors: [factor("moduleEnergyExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null, encodes: false }), {
   name: "module_energy_index_2", at: holding(0x002a, 0x002b, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40296 },
   unit: "Wh", uncertain: true,
-});
-export const moduleTimestampIndex1 = /* @__PURE__ */ readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
+}))();
+export const moduleTimestampIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
   name: "module_timestamp_index_1", at: holding(0x0018, 0x0019, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40278 },
   unit: "s", allowed: [[0, 4294967294]], uncertain: true,
-});
-export const moduleTimestampIndex2 = /* @__PURE__ */ readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
+}))();
+export const moduleTimestampIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
   name: "module_timestamp_index_2", at: holding(0x002c, 0x002d, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40298 },
   unit: "s", allowed: [[0, 4294967294]], uncertain: true,
-});
-export const moduleTemperatureIndex1 = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const moduleTemperatureIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_temperature_index_1", at: holding(0x001a, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40280 },
   unit: "°C", allowed: [[-32767, 32767]], uncertain: true,
-});
-export const moduleTemperatureIndex2 = /* @__PURE__ */ readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
+}))();
+export const moduleTemperatureIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), MPPT_S16_CODES), {
   name: "module_temperature_index_2", at: holding(0x002e, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40300 },
   unit: "°C", allowed: [[-32767, 32767]], uncertain: true,
-});
-export const moduleOperatingStateIndex1 = /* @__PURE__ */ readOnly(withCodes(named(U16, OperatingState, { closed: true }), MPPT_U16_CODES), {
+}))();
+export const moduleOperatingStateIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, OperatingState, { closed: true }), MPPT_U16_CODES), {
   name: "module_operating_state_index_1", at: holding(0x001b, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40281 },
   uncertain: true,
-});
-export const moduleOperatingStateIndex2 = /* @__PURE__ */ readOnly(withCodes(named(U16, OperatingState, { closed: true }), MPPT_U16_CODES), {
+}))();
+export const moduleOperatingStateIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, OperatingState, { closed: true }), MPPT_U16_CODES), {
   name: "module_operating_state_index_2", at: holding(0x002f, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40301 },
   uncertain: true,
-});
-export const moduleEventsIndex1 = /* @__PURE__ */ readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
+}))();
+export const moduleEventsIndex1 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
   name: "module_events_index_1", at: holding(0x001c, 0x001d, { index: 1, base: "models_160" }), group: "mppt", references: { register: 40282 },
   allowed: [[0, 4294967294]], uncertain: true,
-});
-export const moduleEventsIndex2 = /* @__PURE__ */ readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
+}))();
+export const moduleEventsIndex2 = /* @__PURE__ */ (() => readOnly(withCodes(integer(U32), MPPT_U32_CODES), {
   name: "module_events_index_2", at: holding(0x0030, 0x0031, { index: 2, base: "models_160" }), group: "mppt", references: { register: 40302 },
   allowed: [[0, 4294967294]], uncertain: true,
-});
-export const maximumChargePower = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const maximumChargePower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargePowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "maximum_charge_power", at: holding(0x0002, { base: "models_124" }), group: "storage", code: "WchaMax", references: { register: 40306 },
   unit: "W", allowed: [[0, 65534]],
-});
-export const chargeRampRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("chargeRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const chargeRampRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("chargeRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "charge_ramp_rate", at: holding(0x0003, { base: "models_124" }), group: "storage", code: "WchaGra", references: { register: 40307 },
   unit: "%/s", allowed: [[0, 65534]],
-});
-export const dischargeRampRate = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("chargeRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const dischargeRampRate = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("chargeRampRateExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "discharge_ramp_rate", at: holding(0x0004, { base: "models_124" }), group: "storage", code: "WdisChaGra", references: { register: 40308 },
   unit: "%/s", allowed: [[0, 65534]],
-});
-export const storageControlMode = /* @__PURE__ */ readWrite(withCodes(flags(U16, StorageControlMode), STORAGE_U16_CODES), {
+}))();
+export const storageControlMode = /* @__PURE__ */ (() => readWrite(withCodes(flags(U16, StorageControlMode), STORAGE_U16_CODES), {
   name: "storage_control_mode", at: holding(0x0005, { base: "models_124" }), group: "storage", code: "StorCtl_Mod", references: { register: 40309 },
   allowed: [[0, 3]],
-});
-export const maximumChargeApparentPower = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargeApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const maximumChargeApparentPower = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("maximumChargeApparentPowerExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "maximum_charge_apparent_power", at: holding(0x0006, { base: "models_124" }), group: "storage", code: "VAChaMax", references: { register: 40310 },
   unit: "VA", allowed: [[0, 65534]],
-});
-export const minimumReserve = /* @__PURE__ */ readWrite(withCodes(scaled(U16, rule({ factors: [factor("minimumReserveExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const minimumReserve = /* @__PURE__ */ (() => readWrite(withCodes(scaled(U16, rule({ factors: [factor("minimumReserveExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "minimum_reserve", at: holding(0x0007, { base: "models_124" }), group: "storage", code: "MinRsvPct", references: { register: 40311 },
   unit: "%", allowed: [[0, 65534]],
-});
-export const stateOfCharge = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("stateOfChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const stateOfCharge = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("stateOfChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "state_of_charge", at: holding(0x0008, { base: "models_124" }), group: "storage", code: "ChaState", references: { register: 40312 },
   unit: "%", allowed: [[0, 65534]],
-});
-export const availableCharge = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("availableChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const availableCharge = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("availableChargeExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "available_charge", at: holding(0x0009, { base: "models_124" }), group: "storage", code: "StorAval", references: { register: 40313 },
   unit: "Ah", allowed: [[0, 65534]],
-});
-export const batteryVoltage = /* @__PURE__ */ readOnly(withCodes(scaled(U16, rule({ factors: [factor("batteryVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
+}))();
+export const batteryVoltage = /* @__PURE__ */ (() => readOnly(withCodes(scaled(U16, rule({ factors: [factor("batteryVoltageExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_U16_CODES), {
   name: "battery_voltage", at: holding(0x000a, { base: "models_124" }), group: "storage", code: "InBatV", references: { register: 40314 },
   unit: "V", allowed: [[0, 65534]],
-});
-export const chargeState = /* @__PURE__ */ readOnly(withCodes(named(U16, ChargeState, { closed: true }), STORAGE_U16_CODES), {
+}))();
+export const chargeState = /* @__PURE__ */ (() => readOnly(withCodes(named(U16, ChargeState, { closed: true }), STORAGE_U16_CODES), {
   name: "charge_state", at: holding(0x000b, { base: "models_124" }), group: "storage", code: "ChaSt", references: { register: 40315 },
-});
-export const dischargeLimit = /* @__PURE__ */ readWrite(withCodes(scaled(S16, rule({ factors: [factor("storageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_S16_CODES), {
+}))();
+export const dischargeLimit = /* @__PURE__ */ (() => readWrite(withCodes(scaled(S16, rule({ factors: [factor("storageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_S16_CODES), {
   name: "discharge_limit", at: holding(0x000c, { base: "models_124" }), group: "storage", code: "OutWRte", references: { register: 40316 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const chargeLimit = /* @__PURE__ */ readWrite(withCodes(scaled(S16, rule({ factors: [factor("storageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_S16_CODES), {
+}))();
+export const chargeLimit = /* @__PURE__ */ (() => readWrite(withCodes(scaled(S16, rule({ factors: [factor("storageLimitsExponent", { power: -1, tenTo: [-10, 10], codes: [[-32768, -32768]] })] }), { decimals: null }), STORAGE_S16_CODES), {
   name: "charge_limit", at: holding(0x000d, { base: "models_124" }), group: "storage", code: "InWRte", references: { register: 40317 },
   unit: "%", allowed: [[-32767, 32767]],
-});
-export const storageWindow = /* @__PURE__ */ readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
+}))();
+export const storageWindow = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
   name: "storage_window", at: holding(0x000e, { base: "models_124" }), group: "storage", code: "InOutWRte_WinTms", references: { register: 40318 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const storageTimeout = /* @__PURE__ */ readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
+}))();
+export const storageTimeout = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
   name: "storage_timeout", at: holding(0x000f, { base: "models_124" }), group: "storage", code: "InOutWRte_RvrtTms", references: { register: 40319 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const storageRampTime = /* @__PURE__ */ readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
+}))();
+export const storageRampTime = /* @__PURE__ */ (() => readOnly(withCodes(integer(U16), STORAGE_U16_CODES), {
   name: "storage_ramp_time", at: holding(0x0010, { base: "models_124" }), group: "storage", code: "InOutWRte_RmpTms", references: { register: 40320 },
   unit: "s", allowed: [[0, 65534]],
-});
-export const gridCharging = /* @__PURE__ */ readWrite(withCodes(named(U16, GridCharging, { closed: true }), STORAGE_U16_CODES), {
+}))();
+export const gridCharging = /* @__PURE__ */ (() => readWrite(withCodes(named(U16, GridCharging, { closed: true }), STORAGE_U16_CODES), {
   name: "grid_charging", at: holding(0x0011, { base: "models_124" }), group: "storage", code: "ChaGriSet", references: { register: 40321 },
-});
-export const maximumChargePowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const maximumChargePowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "maximum_charge_power_exponent", at: holding(0x0012, { base: "models_124" }), group: "storage", code: "WchaMax_SF", references: { register: 40322 },
   allowed: [[-10, 10]],
-});
-export const chargeRampRateExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const chargeRampRateExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "charge_ramp_rate_exponent", at: holding(0x0013, { base: "models_124" }), group: "storage", code: "WchaDisChaGra_SF", references: { register: 40323 },
   allowed: [[-10, 10]],
-});
-export const maximumChargeApparentPowerExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const maximumChargeApparentPowerExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "maximum_charge_apparent_power_exponent", at: holding(0x0014, { base: "models_124" }), group: "storage", code: "VAChaMax_SF", references: { register: 40324 },
   allowed: [[-10, 10]],
-});
-export const minimumReserveExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const minimumReserveExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "minimum_reserve_exponent", at: holding(0x0015, { base: "models_124" }), group: "storage", code: "MinRsvPct_SF", references: { register: 40325 },
   allowed: [[-10, 10]],
-});
-export const stateOfChargeExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const stateOfChargeExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "state_of_charge_exponent", at: holding(0x0016, { base: "models_124" }), group: "storage", code: "ChaState_SF", references: { register: 40326 },
   allowed: [[-10, 10]],
-});
-export const availableChargeExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const availableChargeExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "available_charge_exponent", at: holding(0x0017, { base: "models_124" }), group: "storage", code: "StorAval_SF", references: { register: 40327 },
   allowed: [[-10, 10]],
-});
-export const batteryVoltageExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const batteryVoltageExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "battery_voltage_exponent", at: holding(0x0018, { base: "models_124" }), group: "storage", code: "InBatV_SF", references: { register: 40328 },
   allowed: [[-10, 10]],
-});
-export const storageLimitsExponent = /* @__PURE__ */ readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
+}))();
+export const storageLimitsExponent = /* @__PURE__ */ (() => readOnly(withCodes(integer(S16), STORAGE_S16_CODES), {
   name: "storage_limits_exponent", at: holding(0x0019, { base: "models_124" }), group: "storage", code: "InOutWRte_SF", references: { register: 40329 },
   allowed: [[-10, 10]],
-});
-export const deleteData = /* @__PURE__ */ readWrite(named(U16, DeleteData, { closed: true }), {
+}))();
+export const deleteData = /* @__PURE__ */ (() => readWrite(named(U16, DeleteData, { closed: true }), {
   name: "delete_data", at: holding(0x00d3), group: "fronius", code: "F_Delete_Data", references: { register: 212 },
-});
-export const storeData = /* @__PURE__ */ readWrite(named(U16, StoreData, { closed: true }), {
+}))();
+export const storeData = /* @__PURE__ */ (() => readWrite(named(U16, StoreData, { closed: true }), {
   name: "store_data", at: holding(0x00d4), group: "fronius", code: "F_Store_Data", references: { register: 213 },
-});
-export const activeStateCode = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const activeStateCode = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "active_state_code", at: holding(0x00d5), group: "fronius", code: "F_Active_State_Code", references: { register: 214 },
-});
-export const resetAllEventFlags = /* @__PURE__ */ readWrite(named(U16, ResetAllEventFlags, { closed: true }), {
+}))();
+export const resetAllEventFlags = /* @__PURE__ */ (() => readWrite(named(U16, ResetAllEventFlags, { closed: true }), {
   name: "reset_all_event_flags", at: holding(0x00d6), group: "fronius", code: "F_Reset_All_Event_Flags", references: { register: 215 },
-});
-export const modelType = /* @__PURE__ */ readWrite(named(U16, ModelType, { closed: true }), {
+}))();
+export const modelType = /* @__PURE__ */ (() => readWrite(named(U16, ModelType, { closed: true }), {
   name: "model_type", at: holding(0x00d7), group: "fronius", code: "F_ModelType", references: { register: 216 },
-});
-export const storageRestrictionsViewMode = /* @__PURE__ */ readWrite(named(U16, StorageRestrictionsViewMode, { closed: true }), {
+}))();
+export const storageRestrictionsViewMode = /* @__PURE__ */ (() => readWrite(named(U16, StorageRestrictionsViewMode, { closed: true }), {
   name: "storage_restrictions_view_mode", at: holding(0x00d8), group: "fronius", code: "F_Storage_Restrictions_View_Mode", references: { register: 217 },
   default: 0,
-});
-export const sitePower = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const sitePower = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "site_power", at: holding(0x01f3, 0x01f4), group: "fronius", code: "F_Site_Power", references: { register: 500 },
   unit: "W",
-});
-export const siteEnergyOfDay = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const siteEnergyOfDay = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "site_energy_of_day", at: holding(0x01f5, 0x01f6, 0x01f7, 0x01f8), group: "fronius", code: "F_Site_Energy_Day", references: { register: 502 },
   unit: "Wh",
-});
-export const siteEnergyOfYear = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const siteEnergyOfYear = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "site_energy_of_year", at: holding(0x01f9, 0x01fa, 0x01fb, 0x01fc), group: "fronius", code: "F_Site_Energy_Year", references: { register: 506 },
   unit: "Wh",
-});
-export const siteEnergyTotal = /* @__PURE__ */ readOnly(integer(U64), {
+}))();
+export const siteEnergyTotal = /* @__PURE__ */ (() => readOnly(integer(U64), {
   name: "site_energy_total", at: holding(0x01fd, 0x01fe, 0x01ff, 0x0200), group: "fronius", code: "F_Site_Energy_Total", references: { register: 510 },
   unit: "Wh",
-});
-export const useIntegers = /* @__PURE__ */ steppedCommand(
+}))();
+export const useIntegers = /* @__PURE__ */ (() => steppedCommand(
   step("F_ModelType = integer_and_scale_factor", holding(0x00d7, { function: 0x06 }), [2]),
   step("F_ModelType = confirm", holding(0x00d7, { function: 0x06 }), [6]),
-);
+))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

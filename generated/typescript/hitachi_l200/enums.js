@@ -269,11 +269,8 @@ export const MotorPoles = /* @__PURE__ */ Object.freeze({
   POLES_6: 6,
   POLES_8: 8,
 });
-export const DigitalInputs = /* @__PURE__ */ wordOf(
+export const DigitalInputs = /* @__PURE__ */ (() => wordOf(
   "DigitalInputs",
   { input1: bitFlag(0), input2: bitFlag(1), input3: bitFlag(2), input4: bitFlag(3), input5: bitFlag(4) },
-);
-export const DigitalOutputs = /* @__PURE__ */ wordOf(
-  "DigitalOutputs",
-  { output11: bitFlag(0), output12: bitFlag(1), relayAl: bitFlag(2) },
-);
+))();
+export const DigitalOutputs = /* @__PURE__ */ (() => wordOf("DigitalOutputs", { output11: bitFlag(0), output12: bitFlag(1), relayAl: bitFlag(2) }))();

@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate hitachi_l200 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Hitachi L200: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -17,5 +17,10 @@ export interface HitachiL200Options {
 /** Hitachi L200 on a line. */
 export declare class HitachiL200 extends ModbusDevice {
   constructor(line: Line, options: HitachiL200Options);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "coils" | "status" | "monitor_d" | "basic_f" | "standard_a" | "fine_tuning_b" | "control_c" | "motor_h" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "hitachi_l200">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface HitachiL200 extends Handles<typeof points> {}

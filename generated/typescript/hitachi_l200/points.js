@@ -80,921 +80,921 @@ import {
   VfCharacteristic,
 } from "./enums.js";
 
-export const runCommand = /* @__PURE__ */ readWrite(named(BIT, RunCommand, { closed: true }), {
+export const runCommand = /* @__PURE__ */ (() => readWrite(named(BIT, RunCommand, { closed: true }), {
   name: "run_command", at: coil(0x0000), group: "coils", references: { modicon: 1 },
-});
-export const directionCommand = /* @__PURE__ */ readWrite(named(BIT, DirectionCommand, { closed: true }), {
+}))();
+export const directionCommand = /* @__PURE__ */ (() => readWrite(named(BIT, DirectionCommand, { closed: true }), {
   name: "direction_command", at: coil(0x0001), group: "coils", references: { modicon: 2 },
-});
-export const externalTrip = /* @__PURE__ */ readWrite(named(BIT, ExternalTrip, { closed: true }), {
+}))();
+export const externalTrip = /* @__PURE__ */ (() => readWrite(named(BIT, ExternalTrip, { closed: true }), {
   name: "external_trip", at: coil(0x0002), group: "coils", references: { modicon: 3 },
-});
-export const tripReset = /* @__PURE__ */ readWrite(named(BIT, TripReset, { closed: true }), {
+}))();
+export const tripReset = /* @__PURE__ */ (() => readWrite(named(BIT, TripReset, { closed: true }), {
   name: "trip_reset", at: coil(0x0003), group: "coils", references: { modicon: 4 },
-});
-export const digitalInput1 = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const digitalInput1 = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "digital_input_1", at: coil(0x0006), group: "coils", references: { modicon: 7 },
-});
-export const digitalInput2 = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const digitalInput2 = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "digital_input_2", at: coil(0x0007), group: "coils", references: { modicon: 8 },
-});
-export const digitalInput3 = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const digitalInput3 = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "digital_input_3", at: coil(0x0008), group: "coils", references: { modicon: 9 },
-});
-export const digitalInput4 = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const digitalInput4 = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "digital_input_4", at: coil(0x0009), group: "coils", references: { modicon: 10 },
-});
-export const digitalInput5 = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const digitalInput5 = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "digital_input_5", at: coil(0x000a), group: "coils", references: { modicon: 11 },
-});
-export const running = /* @__PURE__ */ readOnly(named(BIT, Running, { closed: true }), {
+}))();
+export const running = /* @__PURE__ */ (() => readOnly(named(BIT, Running, { closed: true }), {
   name: "running", at: coil(0x000d), group: "coils", references: { modicon: 14 },
-});
-export const directionStatus = /* @__PURE__ */ readOnly(named(BIT, DirectionStatus, { closed: true }), {
+}))();
+export const directionStatus = /* @__PURE__ */ (() => readOnly(named(BIT, DirectionStatus, { closed: true }), {
   name: "direction_status", at: coil(0x000e), group: "coils", references: { modicon: 15 },
-});
-export const ready = /* @__PURE__ */ readOnly(named(BIT, Ready, { closed: true }), {
+}))();
+export const ready = /* @__PURE__ */ (() => readOnly(named(BIT, Ready, { closed: true }), {
   name: "ready", at: coil(0x000f), group: "coils", references: { modicon: 16 },
-});
-export const alarm = /* @__PURE__ */ readOnly(named(BIT, Alarm, { closed: true }), {
+}))();
+export const alarm = /* @__PURE__ */ (() => readOnly(named(BIT, Alarm, { closed: true }), {
   name: "alarm", at: coil(0x0013), group: "coils", references: { modicon: 20 },
-});
-export const pidDeviation = /* @__PURE__ */ readOnly(named(BIT, OffOn, { closed: true }), {
+}))();
+export const pidDeviation = /* @__PURE__ */ (() => readOnly(named(BIT, OffOn, { closed: true }), {
   name: "pid_deviation", at: coil(0x0014), group: "coils", references: { modicon: 21 },
-});
-export const overload = /* @__PURE__ */ readOnly(named(BIT, OffOn, { closed: true }), {
+}))();
+export const overload = /* @__PURE__ */ (() => readOnly(named(BIT, OffOn, { closed: true }), {
   name: "overload", at: coil(0x0015), group: "coils", references: { modicon: 22 },
-});
-export const frequencyArrivalInAcceleration = /* @__PURE__ */ readOnly(named(BIT, OffOn, { closed: true }), {
+}))();
+export const frequencyArrivalInAcceleration = /* @__PURE__ */ (() => readOnly(named(BIT, OffOn, { closed: true }), {
   name: "frequency_arrival_in_acceleration", at: coil(0x0016), group: "coils", references: { modicon: 23 },
-});
-export const frequencyArrivalAtConstantSpeed = /* @__PURE__ */ readOnly(named(BIT, OffOn, { closed: true }), {
+}))();
+export const frequencyArrivalAtConstantSpeed = /* @__PURE__ */ (() => readOnly(named(BIT, OffOn, { closed: true }), {
   name: "frequency_arrival_at_constant_speed", at: coil(0x0017), group: "coils", references: { modicon: 24 },
-});
-export const runMode = /* @__PURE__ */ readOnly(named(BIT, OffOn, { closed: true }), {
+}))();
+export const runMode = /* @__PURE__ */ (() => readOnly(named(BIT, OffOn, { closed: true }), {
   name: "run_mode", at: coil(0x0018), group: "coils", references: { modicon: 25 },
-});
-export const dataWrite = /* @__PURE__ */ readOnly(named(BIT, DataWrite, { closed: true }), {
+}))();
+export const dataWrite = /* @__PURE__ */ (() => readOnly(named(BIT, DataWrite, { closed: true }), {
   name: "data_write", at: coil(0x0019), group: "coils", references: { modicon: 26 },
-});
-export const crcError = /* @__PURE__ */ readOnly(named(BIT, ErrorFlag, { closed: true }), {
+}))();
+export const crcError = /* @__PURE__ */ (() => readOnly(named(BIT, ErrorFlag, { closed: true }), {
   name: "crc_error", at: coil(0x001a), group: "coils", references: { modicon: 27 },
-});
-export const overrunError = /* @__PURE__ */ readOnly(named(BIT, ErrorFlag, { closed: true }), {
+}))();
+export const overrunError = /* @__PURE__ */ (() => readOnly(named(BIT, ErrorFlag, { closed: true }), {
   name: "overrun_error", at: coil(0x001b), group: "coils", references: { modicon: 28 },
-});
-export const framingError = /* @__PURE__ */ readOnly(named(BIT, ErrorFlag, { closed: true }), {
+}))();
+export const framingError = /* @__PURE__ */ (() => readOnly(named(BIT, ErrorFlag, { closed: true }), {
   name: "framing_error", at: coil(0x001c), group: "coils", references: { modicon: 29 },
-});
-export const parityError = /* @__PURE__ */ readOnly(named(BIT, ErrorFlag, { closed: true }), {
+}))();
+export const parityError = /* @__PURE__ */ (() => readOnly(named(BIT, ErrorFlag, { closed: true }), {
   name: "parity_error", at: coil(0x001d), group: "coils", references: { modicon: 30 },
-});
-export const checksumError = /* @__PURE__ */ readOnly(named(BIT, ErrorFlag, { closed: true }), {
+}))();
+export const checksumError = /* @__PURE__ */ (() => readOnly(named(BIT, ErrorFlag, { closed: true }), {
   name: "checksum_error", at: coil(0x001e), group: "coils", references: { modicon: 31 },
-});
-export const networkFrequencySetpoint = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const networkFrequencySetpoint = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "network_frequency_setpoint", at: holding(0x0001), group: "status", references: { modicon: 2, reference: 400002 },
   unit: "Hz", allowed: [[0, 4000]],
-});
-export const inverterStatus = /* @__PURE__ */ readWrite(named(U16, InverterStatus, { closed: true }), {
+}))();
+export const inverterStatus = /* @__PURE__ */ (() => readWrite(named(U16, InverterStatus, { closed: true }), {
   name: "inverter_status", at: holding(0x0002), group: "status", references: { modicon: 3, reference: 400003 },
-});
-export const networkProcessValue = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const networkProcessValue = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "network_process_value", at: holding(0x0004), group: "status", references: { modicon: 5, reference: 400005 },
   unit: "%", allowed: [[0, 1000]],
-});
-export const outputFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const outputFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "output_frequency", at: holding(0x1001), group: "monitor_d", code: "d001", references: { modicon: 4098, reference: 404098 },
   unit: "Hz", allowed: [[0, 4000]],
-});
-export const motorCurrent = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const motorCurrent = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "motor_current", at: holding(0x1002), group: "monitor_d", code: "d002", references: { modicon: 4099, reference: 404099 },
   unit: "%", allowed: [[0, 2000]],
-});
-export const rotationDirection = /* @__PURE__ */ readOnly(named(U16, RotationDirection, { closed: true }), {
+}))();
+export const rotationDirection = /* @__PURE__ */ (() => readOnly(named(U16, RotationDirection, { closed: true }), {
   name: "rotation_direction", at: holding(0x1003), group: "monitor_d", code: "d003", references: { modicon: 4100, reference: 404100 },
-});
-export const scaledProcessValue = /* @__PURE__ */ readOnly(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const scaledProcessValue = /* @__PURE__ */ (() => readOnly(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "scaled_process_value", at: holding(0x1004, 0x1005), group: "monitor_d", code: "d004", references: { modicon: 4101, reference: 404101 },
   unit: "%", allowed: [[0, 999900]],
-});
-export const digitalInputs = /* @__PURE__ */ readOnly(flags(U16, DigitalInputs), {
+}))();
+export const digitalInputs = /* @__PURE__ */ (() => readOnly(flags(U16, DigitalInputs), {
   name: "digital_inputs", at: holding(0x1006), group: "monitor_d", code: "d005", references: { modicon: 4103, reference: 404103 },
   allowed: [[0, 31]],
-});
-export const digitalOutputs = /* @__PURE__ */ readOnly(flags(U16, DigitalOutputs), {
+}))();
+export const digitalOutputs = /* @__PURE__ */ (() => readOnly(flags(U16, DigitalOutputs), {
   name: "digital_outputs", at: holding(0x1007), group: "monitor_d", code: "d006", references: { modicon: 4104, reference: 404104 },
   allowed: [[0, 7]],
-});
-export const outputVoltage = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const outputVoltage = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "output_voltage", at: holding(0x100b), group: "monitor_d", code: "d013", references: { modicon: 4108, reference: 404108 },
   unit: "%", allowed: [[0, 20000]],
-});
-export const runTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const runTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "run_time", at: holding(0x100d, 0x100e), group: "monitor_d", code: "d016", references: { modicon: 4110, reference: 404110 },
   unit: "h", allowed: [[0, 999999]],
-});
-export const powerOnTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const powerOnTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "power_on_time", at: holding(0x100f, 0x1010), group: "monitor_d", code: "d017", references: { modicon: 4112, reference: 404112 },
   unit: "h", allowed: [[0, 999999]],
-});
-export const tripCount = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const tripCount = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "trip_count", at: holding(0x0010), group: "monitor_d", code: "d080", references: { modicon: 17, reference: 400017 },
-});
-export const trip1Error = /* @__PURE__ */ readOnly(named(U16, TripCode), {
+}))();
+export const trip1Error = /* @__PURE__ */ (() => readOnly(named(U16, TripCode), {
   name: "trip_1_error", at: holding(0x0011), group: "monitor_d", code: "d081", references: { modicon: 18, reference: 400018 },
-});
-export const trip1OutputFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip1OutputFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_1_output_frequency", at: holding(0x0013), group: "monitor_d", code: "d081", references: { modicon: 20, reference: 400020 },
   unit: "Hz",
-});
-export const trip1MotorCurrent = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip1MotorCurrent = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_1_motor_current", at: holding(0x0015), group: "monitor_d", code: "d081", references: { modicon: 22, reference: 400022 },
   unit: "%",
-});
-export const trip1DcBusVoltage = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip1DcBusVoltage = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_1_dc_bus_voltage", at: holding(0x0016), group: "monitor_d", code: "d081", references: { modicon: 23, reference: 400023 },
   unit: "V",
-});
-export const trip1RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip1RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_1_run_time", at: holding(0x0017, 0x0018), group: "monitor_d", code: "d081", references: { modicon: 24, reference: 400024 },
   unit: "h",
-});
-export const trip1PowerOnTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip1PowerOnTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_1_power_on_time", at: holding(0x0019, 0x001a), group: "monitor_d", code: "d081", references: { modicon: 26, reference: 400026 },
   unit: "h",
-});
-export const trip2Error = /* @__PURE__ */ readOnly(named(U16, TripCode), {
+}))();
+export const trip2Error = /* @__PURE__ */ (() => readOnly(named(U16, TripCode), {
   name: "trip_2_error", at: holding(0x001b), group: "monitor_d", code: "d082", references: { modicon: 28, reference: 400028 },
-});
-export const trip2OutputFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip2OutputFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_2_output_frequency", at: holding(0x001d), group: "monitor_d", code: "d082", references: { modicon: 30, reference: 400030 },
   unit: "Hz",
-});
-export const trip2MotorCurrent = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip2MotorCurrent = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_2_motor_current", at: holding(0x001f), group: "monitor_d", code: "d082", references: { modicon: 32, reference: 400032 },
   unit: "%",
-});
-export const trip2DcBusVoltage = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip2DcBusVoltage = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_2_dc_bus_voltage", at: holding(0x0020), group: "monitor_d", code: "d082", references: { modicon: 33, reference: 400033 },
   unit: "V",
-});
-export const trip2RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip2RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_2_run_time", at: holding(0x0021, 0x0022), group: "monitor_d", code: "d082", references: { modicon: 34, reference: 400034 },
   unit: "h",
-});
-export const trip2PowerOnTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip2PowerOnTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_2_power_on_time", at: holding(0x0023, 0x0024), group: "monitor_d", code: "d082", references: { modicon: 36, reference: 400036 },
   unit: "h",
-});
-export const trip3Error = /* @__PURE__ */ readOnly(named(U16, TripCode), {
+}))();
+export const trip3Error = /* @__PURE__ */ (() => readOnly(named(U16, TripCode), {
   name: "trip_3_error", at: holding(0x0025), group: "monitor_d", code: "d083", references: { modicon: 38, reference: 400038 },
-});
-export const trip3OutputFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip3OutputFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_3_output_frequency", at: holding(0x0027), group: "monitor_d", code: "d083", references: { modicon: 40, reference: 400040 },
   unit: "Hz",
-});
-export const trip3MotorCurrent = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip3MotorCurrent = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_3_motor_current", at: holding(0x0029), group: "monitor_d", code: "d083", references: { modicon: 42, reference: 400042 },
   unit: "%",
-});
-export const trip3DcBusVoltage = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const trip3DcBusVoltage = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "trip_3_dc_bus_voltage", at: holding(0x002a), group: "monitor_d", code: "d083", references: { modicon: 43, reference: 400043 },
   unit: "V",
-});
-export const trip3RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip3RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_3_run_time", at: holding(0x002b, 0x002c), group: "monitor_d", code: "d083", references: { modicon: 44, reference: 400044 },
   unit: "h",
-});
-export const trip3PowerOnTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const trip3PowerOnTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "trip_3_power_on_time", at: holding(0x002d, 0x002e), group: "monitor_d", code: "d083", references: { modicon: 46, reference: 400046 },
   unit: "h",
-});
-export const accelerationTime = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const accelerationTime = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "acceleration_time", at: holding(0x1013, 0x1014), group: "basic_f", code: "F002", references: { modicon: 4116, reference: 404116 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const accelerationTimeSet2 = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const accelerationTimeSet2 = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "acceleration_time_set_2", at: holding(0x1500, 0x1501), group: "basic_f", code: "F202", references: { modicon: 5377, reference: 405377 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const decelerationTime = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const decelerationTime = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "deceleration_time", at: holding(0x1015, 0x1016), group: "basic_f", code: "F003", references: { modicon: 4118, reference: 404118 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const decelerationTimeSet2 = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const decelerationTimeSet2 = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "deceleration_time_set_2", at: holding(0x1502, 0x1503), group: "basic_f", code: "F203", references: { modicon: 5379, reference: 405379 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const motorDirection = /* @__PURE__ */ readWrite(named(U16, MotorDirection, { closed: true }), {
+}))();
+export const motorDirection = /* @__PURE__ */ (() => readWrite(named(U16, MotorDirection, { closed: true }), {
   name: "motor_direction", at: holding(0x1017), group: "basic_f", code: "F004", references: { modicon: 4120, reference: 404120 },
   keeps: "enter",
-});
-export const frequencySource = /* @__PURE__ */ readWrite(named(U16, FrequencySource, { closed: true }), {
+}))();
+export const frequencySource = /* @__PURE__ */ (() => readWrite(named(U16, FrequencySource, { closed: true }), {
   name: "frequency_source", at: holding(0x1018), group: "standard_a", code: "A001", references: { modicon: 4121, reference: 404121 },
   keeps: "enter",
-});
-export const frequencySourceSet2 = /* @__PURE__ */ readWrite(named(U16, FrequencySource, { closed: true }), {
+}))();
+export const frequencySourceSet2 = /* @__PURE__ */ (() => readWrite(named(U16, FrequencySource, { closed: true }), {
   name: "frequency_source_set_2", at: holding(0x1509), group: "standard_a", code: "A201", references: { modicon: 5386, reference: 405386 },
   keeps: "enter",
-});
-export const runSource = /* @__PURE__ */ readWrite(named(U16, RunSource, { closed: true }), {
+}))();
+export const runSource = /* @__PURE__ */ (() => readWrite(named(U16, RunSource, { closed: true }), {
   name: "run_source", at: holding(0x1019), group: "standard_a", code: "A002", references: { modicon: 4122, reference: 404122 },
   keeps: "enter",
-});
-export const runSourceSet2 = /* @__PURE__ */ readWrite(named(U16, RunSource, { closed: true }), {
+}))();
+export const runSourceSet2 = /* @__PURE__ */ (() => readWrite(named(U16, RunSource, { closed: true }), {
   name: "run_source_set_2", at: holding(0x150a), group: "standard_a", code: "A202", references: { modicon: 5387, reference: 405387 },
   keeps: "enter",
-});
-export const motorRatedFrequency = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const motorRatedFrequency = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "motor_rated_frequency", at: holding(0x101a), group: "standard_a", code: "A003", references: { modicon: 4123, reference: 404123 },
   unit: "Hz", allowed: [[30, limit(rule({ factors: [factor("maximumFrequency")] }), { least: 30, greatest: 400, unless: {} })]], keeps: "enter",
-});
-export const motorRatedFrequencySet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const motorRatedFrequencySet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "motor_rated_frequency_set_2", at: holding(0x150b), group: "standard_a", code: "A203", references: { modicon: 5388, reference: 405388 },
   unit: "Hz", allowed: [[30, limit(rule({ factors: [factor("maximumFrequencySet2")] }), { least: 30, greatest: 400, unless: {} })]], keeps: "enter",
-});
-export const maximumFrequency = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const maximumFrequency = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "maximum_frequency", at: holding(0x101b), group: "standard_a", code: "A004", references: { modicon: 4124, reference: 404124 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("motorRatedFrequency")] }), { least: 30, greatest: 400, unless: {} }), 400]], keeps: "enter",
-});
-export const maximumFrequencySet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const maximumFrequencySet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "maximum_frequency_set_2", at: holding(0x150c), group: "standard_a", code: "A204", references: { modicon: 5389, reference: 405389 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("motorRatedFrequencySet2")] }), { least: 30, greatest: 400, unless: {} }), 400]], keeps: "enter",
-});
-export const atTerminalSelection = /* @__PURE__ */ readWrite(named(U16, AtTerminalSelection, { closed: true }), {
+}))();
+export const atTerminalSelection = /* @__PURE__ */ (() => readWrite(named(U16, AtTerminalSelection, { closed: true }), {
   name: "at_terminal_selection", at: holding(0x101c), group: "standard_a", code: "A005", references: { modicon: 4125, reference: 404125 },
   keeps: "enter",
-});
-export const inputOMinimumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOMinimumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_o_minimum_frequency", at: holding(0x101f), group: "standard_a", code: "A011", references: { modicon: 4128, reference: 404128 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const inputOMaximumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOMaximumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_o_maximum_frequency", at: holding(0x1021), group: "standard_a", code: "A012", references: { modicon: 4130, reference: 404130 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const inputOMinimumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const inputOMinimumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "input_o_minimum_setpoint", at: holding(0x1022), group: "standard_a", code: "A013", references: { modicon: 4131, reference: 404131 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const inputOMaximumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const inputOMaximumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "input_o_maximum_setpoint", at: holding(0x1023), group: "standard_a", code: "A014", references: { modicon: 4132, reference: 404132 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const inputOStartCondition = /* @__PURE__ */ readWrite(named(U16, InputOStartCondition, { closed: true }), {
+}))();
+export const inputOStartCondition = /* @__PURE__ */ (() => readWrite(named(U16, InputOStartCondition, { closed: true }), {
   name: "input_o_start_condition", at: holding(0x1024), group: "standard_a", code: "A015", references: { modicon: 4133, reference: 404133 },
   keeps: "enter",
-});
-export const analogInputFilter = /* @__PURE__ */ readWrite(named(U16, AnalogInputFilter), {
+}))();
+export const analogInputFilter = /* @__PURE__ */ (() => readWrite(named(U16, AnalogInputFilter), {
   name: "analog_input_filter", at: holding(0x1025), group: "standard_a", code: "A016", references: { modicon: 4134, reference: 404134 },
   allowed: [[1, 17]], keeps: "enter",
-});
-export const baseFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const baseFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "base_frequency", at: holding(0x1028), group: "standard_a", code: "A020", references: { modicon: 4137, reference: 404137 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const baseFrequencySet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const baseFrequencySet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "base_frequency_set_2", at: holding(0x150e), group: "standard_a", code: "A220", references: { modicon: 5391, reference: 405391 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency1 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency1 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_1", at: holding(0x102a), group: "standard_a", code: "A021", references: { modicon: 4139, reference: 404139 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_2", at: holding(0x102c), group: "standard_a", code: "A022", references: { modicon: 4141, reference: 404141 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency3 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency3 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_3", at: holding(0x102e), group: "standard_a", code: "A023", references: { modicon: 4143, reference: 404143 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency4 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency4 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_4", at: holding(0x1030), group: "standard_a", code: "A024", references: { modicon: 4145, reference: 404145 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency5 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency5 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_5", at: holding(0x1032), group: "standard_a", code: "A025", references: { modicon: 4147, reference: 404147 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency6 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency6 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_6", at: holding(0x1034), group: "standard_a", code: "A026", references: { modicon: 4149, reference: 404149 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency7 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency7 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_7", at: holding(0x1036), group: "standard_a", code: "A027", references: { modicon: 4151, reference: 404151 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency8 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency8 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_8", at: holding(0x1038), group: "standard_a", code: "A028", references: { modicon: 4153, reference: 404153 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency9 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency9 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_9", at: holding(0x103a), group: "standard_a", code: "A029", references: { modicon: 4155, reference: 404155 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency10 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency10 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_10", at: holding(0x103c), group: "standard_a", code: "A030", references: { modicon: 4157, reference: 404157 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency11 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency11 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_11", at: holding(0x103e), group: "standard_a", code: "A031", references: { modicon: 4159, reference: 404159 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency12 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency12 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_12", at: holding(0x1040), group: "standard_a", code: "A032", references: { modicon: 4161, reference: 404161 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency13 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency13 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_13", at: holding(0x1042), group: "standard_a", code: "A033", references: { modicon: 4163, reference: 404163 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency14 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency14 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_14", at: holding(0x1044), group: "standard_a", code: "A034", references: { modicon: 4165, reference: 404165 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const fixedFrequency15 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const fixedFrequency15 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "fixed_frequency_15", at: holding(0x1046), group: "standard_a", code: "A035", references: { modicon: 4167, reference: 404167 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const jogFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const jogFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "jog_frequency", at: holding(0x1047), group: "standard_a", code: "A038", references: { modicon: 4168, reference: 404168 },
   unit: "Hz", allowed: [[0, 999]], keeps: "enter",
-});
-export const jogStopMode = /* @__PURE__ */ readWrite(named(U16, JogStopMode, { closed: true }), {
+}))();
+export const jogStopMode = /* @__PURE__ */ (() => readWrite(named(U16, JogStopMode, { closed: true }), {
   name: "jog_stop_mode", at: holding(0x1048), group: "standard_a", code: "A039", references: { modicon: 4169, reference: 404169 },
   keeps: "enter",
-});
-export const boostMode = /* @__PURE__ */ readWrite(named(U16, BoostMode, { closed: true }), {
+}))();
+export const boostMode = /* @__PURE__ */ (() => readWrite(named(U16, BoostMode, { closed: true }), {
   name: "boost_mode", at: holding(0x1049), group: "standard_a", code: "A041", references: { modicon: 4170, reference: 404170 },
   keeps: "enter",
-});
-export const boostModeSet2 = /* @__PURE__ */ readWrite(named(U16, BoostMode, { closed: true }), {
+}))();
+export const boostModeSet2 = /* @__PURE__ */ (() => readWrite(named(U16, BoostMode, { closed: true }), {
   name: "boost_mode_set_2", at: holding(0x150f), group: "standard_a", code: "A241", references: { modicon: 5392, reference: 405392 },
   keeps: "enter",
-});
-export const manualBoost = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const manualBoost = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "manual_boost", at: holding(0x104a), group: "standard_a", code: "A042", references: { modicon: 4171, reference: 404171 },
   unit: "%", allowed: [[0, 200]], keeps: "enter",
-});
-export const manualBoostSet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const manualBoostSet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "manual_boost_set_2", at: holding(0x1510), group: "standard_a", code: "A242", references: { modicon: 5393, reference: 405393 },
   unit: "%", allowed: [[0, 200]], keeps: "enter",
-});
-export const manualBoostFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const manualBoostFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "manual_boost_frequency", at: holding(0x104b), group: "standard_a", code: "A043", references: { modicon: 4172, reference: 404172 },
   unit: "%", allowed: [[0, 500]], keeps: "enter",
-});
-export const manualBoostFrequencySet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const manualBoostFrequencySet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "manual_boost_frequency_set_2", at: holding(0x1511), group: "standard_a", code: "A243", references: { modicon: 5394, reference: 405394 },
   unit: "%", allowed: [[0, 500]], keeps: "enter",
-});
-export const vfCharacteristic = /* @__PURE__ */ readWrite(named(U16, VfCharacteristic, { closed: true }), {
+}))();
+export const vfCharacteristic = /* @__PURE__ */ (() => readWrite(named(U16, VfCharacteristic, { closed: true }), {
   name: "vf_characteristic", at: holding(0x104c), group: "standard_a", code: "A044", references: { modicon: 4173, reference: 404173 },
   keeps: "enter",
-});
-export const vfCharacteristicSet2 = /* @__PURE__ */ readWrite(named(U16, VfCharacteristic, { closed: true }), {
+}))();
+export const vfCharacteristicSet2 = /* @__PURE__ */ (() => readWrite(named(U16, VfCharacteristic, { closed: true }), {
   name: "vf_characteristic_set_2", at: holding(0x1512), group: "standard_a", code: "A244", references: { modicon: 5395, reference: 405395 },
   keeps: "enter",
-});
-export const outputVoltageSetting = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const outputVoltageSetting = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "output_voltage_setting", at: holding(0x104d), group: "standard_a", code: "A045", references: { modicon: 4174, reference: 404174 },
   unit: "%", allowed: [[20, 100]], keeps: "enter",
-});
-export const outputVoltageSettingSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const outputVoltageSettingSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "output_voltage_setting_set_2", at: holding(0x1513), group: "standard_a", code: "A245", references: { modicon: 5396, reference: 405396 },
   unit: "%", allowed: [[20, 100]], keeps: "enter",
-});
-export const dcBrakeEnable = /* @__PURE__ */ readWrite(named(U16, InactiveActive, { closed: true }), {
+}))();
+export const dcBrakeEnable = /* @__PURE__ */ (() => readWrite(named(U16, InactiveActive, { closed: true }), {
   name: "dc_brake_enable", at: holding(0x1050), group: "standard_a", code: "A051", references: { modicon: 4177, reference: 404177 },
   keeps: "enter",
-});
-export const dcBrakeFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const dcBrakeFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "dc_brake_frequency", at: holding(0x1051), group: "standard_a", code: "A052", references: { modicon: 4178, reference: 404178 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("startFrequency")] }), { least: 5, greatest: 99, unless: {} }), 600]], keeps: "enter",
-});
-export const dcBrakeDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const dcBrakeDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "dc_brake_delay", at: holding(0x1052), group: "standard_a", code: "A053", references: { modicon: 4179, reference: 404179 },
   unit: "s", allowed: [[0, 50]], keeps: "enter",
-});
-export const dcBrakeTorque = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const dcBrakeTorque = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "dc_brake_torque", at: holding(0x1053), group: "standard_a", code: "A054", references: { modicon: 4180, reference: 404180 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const dcBrakeTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const dcBrakeTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "dc_brake_time", at: holding(0x1054), group: "standard_a", code: "A055", references: { modicon: 4181, reference: 404181 },
   unit: "s", allowed: [[0, 600]], keeps: "enter",
-});
-export const dcBrakeTrigger = /* @__PURE__ */ readWrite(named(U16, DcBrakeTrigger, { closed: true }), {
+}))();
+export const dcBrakeTrigger = /* @__PURE__ */ (() => readWrite(named(U16, DcBrakeTrigger, { closed: true }), {
   name: "dc_brake_trigger", at: holding(0x1055), group: "standard_a", code: "A056", references: { modicon: 4182, reference: 404182 },
   keeps: "enter",
-});
-export const upperFrequencyLimit = /* @__PURE__ */ readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
+}))();
+export const upperFrequencyLimit = /* @__PURE__ */ (() => readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
   name: "upper_frequency_limit", at: holding(0x1059), group: "standard_a", code: "A061", references: { modicon: 4186, reference: 404186 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("lowerFrequencyLimit")] }), { least: 0, greatest: 4000, unless: { lowerFrequencyLimit: [[0, 0]] } }), limit(rule({ num: 10, factors: [factor("maximumFrequency")] }), { least: 300, greatest: 4000, unless: {} })]], keeps: "enter",
-});
-export const upperFrequencyLimitSet2 = /* @__PURE__ */ readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
+}))();
+export const upperFrequencyLimitSet2 = /* @__PURE__ */ (() => readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
   name: "upper_frequency_limit_set_2", at: holding(0x1516), group: "standard_a", code: "A261", references: { modicon: 5399, reference: 405399 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("lowerFrequencyLimitSet2")] }), { least: 0, greatest: 4000, unless: { lowerFrequencyLimitSet2: [[0, 0]] } }), limit(rule({ num: 10, factors: [factor("maximumFrequencySet2")] }), { least: 300, greatest: 4000, unless: {} })]], keeps: "enter",
-});
-export const lowerFrequencyLimit = /* @__PURE__ */ readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
+}))();
+export const lowerFrequencyLimit = /* @__PURE__ */ (() => readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
   name: "lower_frequency_limit", at: holding(0x105a), group: "standard_a", code: "A062", references: { modicon: 4187, reference: 404187 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("startFrequency")] }), { least: 5, greatest: 99, unless: {} }), limit(rule({ factors: [factor("upperFrequencyLimit")] }), { least: 0, greatest: 4000, unless: { upperFrequencyLimit: [[0, 0]] } })]], keeps: "enter",
-});
-export const lowerFrequencyLimitSet2 = /* @__PURE__ */ readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
+}))();
+export const lowerFrequencyLimitSet2 = /* @__PURE__ */ (() => readWrite(withWritableCodes(scaled(U16, rule({ num: 10 }), { decimals: 1 }), codes({ inactive: 0 }, { writable: ["inactive"] })), {
   name: "lower_frequency_limit_set_2", at: holding(0x1517), group: "standard_a", code: "A262", references: { modicon: 5400, reference: 405400 },
   unit: "Hz", allowed: [[limit(rule({ factors: [factor("startFrequency")] }), { least: 5, greatest: 99, unless: {} }), limit(rule({ factors: [factor("upperFrequencyLimitSet2")] }), { least: 0, greatest: 4000, unless: { upperFrequencyLimitSet2: [[0, 0]] } })]], keeps: "enter",
-});
-export const jumpFrequency1 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency1 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_1", at: holding(0x105c), group: "standard_a", code: "A063", references: { modicon: 4189, reference: 404189 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const jumpFrequency1Width = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency1Width = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_1_width", at: holding(0x105d), group: "standard_a", code: "A064", references: { modicon: 4190, reference: 404190 },
   unit: "Hz", allowed: [[0, 100]], keeps: "enter",
-});
-export const jumpFrequency2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_2", at: holding(0x105f), group: "standard_a", code: "A065", references: { modicon: 4192, reference: 404192 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const jumpFrequency2Width = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency2Width = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_2_width", at: holding(0x1060), group: "standard_a", code: "A066", references: { modicon: 4193, reference: 404193 },
   unit: "Hz", allowed: [[0, 100]], keeps: "enter",
-});
-export const jumpFrequency3 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency3 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_3", at: holding(0x1062), group: "standard_a", code: "A067", references: { modicon: 4195, reference: 404195 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const jumpFrequency3Width = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const jumpFrequency3Width = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "jump_frequency_3_width", at: holding(0x1063), group: "standard_a", code: "A068", references: { modicon: 4196, reference: 404196 },
   unit: "Hz", allowed: [[0, 100]], keeps: "enter",
-});
-export const pidEnable = /* @__PURE__ */ readWrite(named(U16, InactiveActive, { closed: true }), {
+}))();
+export const pidEnable = /* @__PURE__ */ (() => readWrite(named(U16, InactiveActive, { closed: true }), {
   name: "pid_enable", at: holding(0x1067), group: "standard_a", code: "A071", references: { modicon: 4200, reference: 404200 },
   keeps: "enter",
-});
-export const pidProportionalGain = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidProportionalGain = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_proportional_gain", at: holding(0x1068), group: "standard_a", code: "A072", references: { modicon: 4201, reference: 404201 },
   allowed: [[2, 50]], keeps: "enter",
-});
-export const pidIntegralTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidIntegralTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_integral_time", at: holding(0x1069), group: "standard_a", code: "A073", references: { modicon: 4202, reference: 404202 },
   unit: "s", allowed: [[0, 1500]], keeps: "enter",
-});
-export const pidDerivativeTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidDerivativeTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_derivative_time", at: holding(0x106a), group: "standard_a", code: "A074", references: { modicon: 4203, reference: 404203 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const pidDisplayFactor = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const pidDisplayFactor = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "pid_display_factor", at: holding(0x106b), group: "standard_a", code: "A075", references: { modicon: 4204, reference: 404204 },
   allowed: [[1, 9999]], keeps: "enter",
-});
-export const pidProcessValueSource = /* @__PURE__ */ readWrite(named(U16, PidProcessValueSource), {
+}))();
+export const pidProcessValueSource = /* @__PURE__ */ (() => readWrite(named(U16, PidProcessValueSource), {
   name: "pid_process_value_source", at: holding(0x106c), group: "standard_a", code: "A076", references: { modicon: 4205, reference: 404205 },
   allowed: [[0, 3], [10, 10]], keeps: "enter",
-});
-export const pidInversion = /* @__PURE__ */ readWrite(named(U16, PidInversion, { closed: true }), {
+}))();
+export const pidInversion = /* @__PURE__ */ (() => readWrite(named(U16, PidInversion, { closed: true }), {
   name: "pid_inversion", at: holding(0x106d), group: "standard_a", code: "A077", references: { modicon: 4206, reference: 404206 },
   keeps: "enter",
-});
-export const pidOutputLimit = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidOutputLimit = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_output_limit", at: holding(0x106e), group: "standard_a", code: "A078", references: { modicon: 4207, reference: 404207 },
   unit: "%", allowed: [[0, 1000]], keeps: "enter",
-});
-export const avrMode = /* @__PURE__ */ readWrite(named(U16, AvrMode, { closed: true }), {
+}))();
+export const avrMode = /* @__PURE__ */ (() => readWrite(named(U16, AvrMode, { closed: true }), {
   name: "avr_mode", at: holding(0x106f), group: "standard_a", code: "A081", references: { modicon: 4208, reference: 404208 },
   keeps: "enter",
-});
-export const motorVoltage = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const motorVoltage = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "motor_voltage", at: holding(0x1070), group: "standard_a", code: "A082", references: { modicon: 4209, reference: 404209 },
   allowed: [[0, 5]], keeps: "enter",
-});
-export const accelerationTime2 = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const accelerationTime2 = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "acceleration_time_2", at: holding(0x1073, 0x1074), group: "standard_a", code: "A092", references: { modicon: 4212, reference: 404212 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const decelerationTime2 = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const decelerationTime2 = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "deceleration_time_2", at: holding(0x1075, 0x1076), group: "standard_a", code: "A093", references: { modicon: 4214, reference: 404214 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const decelerationTime2Set2 = /* @__PURE__ */ readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const decelerationTime2Set2 = /* @__PURE__ */ (() => readWrite(scaled(U32, rule({ num: 100 }), { decimals: 2 }), {
   name: "deceleration_time_2_set_2", at: holding(0x1519, 0x151a), group: "standard_a", code: "A293", references: { modicon: 5402, reference: 405402 },
   unit: "s", allowed: [[1, 300000]], keeps: "enter",
-});
-export const ramp2Selection = /* @__PURE__ */ readWrite(named(U16, Ramp2Selection, { closed: true }), {
+}))();
+export const ramp2Selection = /* @__PURE__ */ (() => readWrite(named(U16, Ramp2Selection, { closed: true }), {
   name: "ramp_2_selection", at: holding(0x1077), group: "standard_a", code: "A094", references: { modicon: 4216, reference: 404216 },
   keeps: "enter",
-});
-export const ramp2SelectionSet2 = /* @__PURE__ */ readWrite(named(U16, Ramp2Selection, { closed: true }), {
+}))();
+export const ramp2SelectionSet2 = /* @__PURE__ */ (() => readWrite(named(U16, Ramp2Selection, { closed: true }), {
   name: "ramp_2_selection_set_2", at: holding(0x151b), group: "standard_a", code: "A294", references: { modicon: 5404, reference: 405404 },
   keeps: "enter",
-});
-export const accelerationChangeFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const accelerationChangeFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "acceleration_change_frequency", at: holding(0x1079), group: "standard_a", code: "A095", references: { modicon: 4218, reference: 404218 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const accelerationChangeFrequencySet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const accelerationChangeFrequencySet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "acceleration_change_frequency_set_2", at: holding(0x151d), group: "standard_a", code: "A295", references: { modicon: 5406, reference: 405406 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const decelerationChangeFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const decelerationChangeFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "deceleration_change_frequency", at: holding(0x107b), group: "standard_a", code: "A096", references: { modicon: 4220, reference: 404220 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const decelerationChangeFrequencySet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const decelerationChangeFrequencySet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "deceleration_change_frequency_set_2", at: holding(0x151f), group: "standard_a", code: "A296", references: { modicon: 5408, reference: 405408 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const accelerationCurve = /* @__PURE__ */ readWrite(named(U16, RampCurve, { closed: true }), {
+}))();
+export const accelerationCurve = /* @__PURE__ */ (() => readWrite(named(U16, RampCurve, { closed: true }), {
   name: "acceleration_curve", at: holding(0x107c), group: "standard_a", code: "A097", references: { modicon: 4221, reference: 404221 },
   keeps: "enter",
-});
-export const decelerationCurve = /* @__PURE__ */ readWrite(named(U16, RampCurve, { closed: true }), {
+}))();
+export const decelerationCurve = /* @__PURE__ */ (() => readWrite(named(U16, RampCurve, { closed: true }), {
   name: "deceleration_curve", at: holding(0x107d), group: "standard_a", code: "A098", references: { modicon: 4222, reference: 404222 },
   keeps: "enter",
-});
-export const inputOiMinimumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOiMinimumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_oi_minimum_frequency", at: holding(0x107f), group: "standard_a", code: "A101", references: { modicon: 4224, reference: 404224 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const inputOiMaximumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOiMaximumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_oi_maximum_frequency", at: holding(0x1081), group: "standard_a", code: "A102", references: { modicon: 4226, reference: 404226 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const inputOiMinimumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const inputOiMinimumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "input_oi_minimum_setpoint", at: holding(0x1082), group: "standard_a", code: "A103", references: { modicon: 4227, reference: 404227 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const inputOiMaximumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const inputOiMaximumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "input_oi_maximum_setpoint", at: holding(0x1083), group: "standard_a", code: "A104", references: { modicon: 4228, reference: 404228 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const inputOiStartCondition = /* @__PURE__ */ readWrite(named(U16, InputOiStartCondition, { closed: true }), {
+}))();
+export const inputOiStartCondition = /* @__PURE__ */ (() => readWrite(named(U16, InputOiStartCondition, { closed: true }), {
   name: "input_oi_start_condition", at: holding(0x1084), group: "standard_a", code: "A105", references: { modicon: 4229, reference: 404229 },
   keeps: "enter",
-});
-export const calculationInputA = /* @__PURE__ */ readWrite(named(U16, CalculationInput, { closed: true }), {
+}))();
+export const calculationInputA = /* @__PURE__ */ (() => readWrite(named(U16, CalculationInput, { closed: true }), {
   name: "calculation_input_a", at: holding(0x108d), group: "standard_a", code: "A141", references: { modicon: 4238, reference: 404238 },
   keeps: "enter",
-});
-export const calculationInputB = /* @__PURE__ */ readWrite(named(U16, CalculationInput, { closed: true }), {
+}))();
+export const calculationInputB = /* @__PURE__ */ (() => readWrite(named(U16, CalculationInput, { closed: true }), {
   name: "calculation_input_b", at: holding(0x108e), group: "standard_a", code: "A142", references: { modicon: 4239, reference: 404239 },
   keeps: "enter",
-});
-export const calculationOperator = /* @__PURE__ */ readWrite(named(U16, CalculationOperator, { closed: true }), {
+}))();
+export const calculationOperator = /* @__PURE__ */ (() => readWrite(named(U16, CalculationOperator, { closed: true }), {
   name: "calculation_operator", at: holding(0x108f), group: "standard_a", code: "A143", references: { modicon: 4240, reference: 404240 },
   keeps: "enter",
-});
-export const frequencyOffset = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const frequencyOffset = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "frequency_offset", at: holding(0x1090), group: "standard_a", code: "A145", references: { modicon: 4241, reference: 404241 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const frequencyOffsetSign = /* @__PURE__ */ readWrite(named(U16, FrequencyOffsetSign, { closed: true }), {
+}))();
+export const frequencyOffsetSign = /* @__PURE__ */ (() => readWrite(named(U16, FrequencyOffsetSign, { closed: true }), {
   name: "frequency_offset_sign", at: holding(0x1092), group: "standard_a", code: "A146", references: { modicon: 4243, reference: 404243 },
   keeps: "enter",
-});
-export const potentiometerMinimumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const potentiometerMinimumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "potentiometer_minimum_frequency", at: holding(0x1094), group: "standard_a", code: "A151", references: { modicon: 4245, reference: 404245 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const potentiometerMaximumFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const potentiometerMaximumFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "potentiometer_maximum_frequency", at: holding(0x1096), group: "standard_a", code: "A152", references: { modicon: 4247, reference: 404247 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const potentiometerMinimumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const potentiometerMinimumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "potentiometer_minimum_setpoint", at: holding(0x1097), group: "standard_a", code: "A153", references: { modicon: 4248, reference: 404248 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const potentiometerMaximumSetpoint = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const potentiometerMaximumSetpoint = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "potentiometer_maximum_setpoint", at: holding(0x1098), group: "standard_a", code: "A154", references: { modicon: 4249, reference: 404249 },
   unit: "%", allowed: [[0, 100]], keeps: "enter",
-});
-export const potentiometerStartCondition = /* @__PURE__ */ readWrite(named(U16, PotentiometerStartCondition, { closed: true }), {
+}))();
+export const potentiometerStartCondition = /* @__PURE__ */ (() => readWrite(named(U16, PotentiometerStartCondition, { closed: true }), {
   name: "potentiometer_start_condition", at: holding(0x1099), group: "standard_a", code: "A155", references: { modicon: 4250, reference: 404250 },
   keeps: "enter",
-});
-export const restartMode = /* @__PURE__ */ readWrite(named(U16, RestartMode, { closed: true }), {
+}))();
+export const restartMode = /* @__PURE__ */ (() => readWrite(named(U16, RestartMode, { closed: true }), {
   name: "restart_mode", at: holding(0x10a4), group: "fine_tuning_b", code: "b001", references: { modicon: 4261, reference: 404261 },
   keeps: "enter",
-});
-export const allowedPowerFailureTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const allowedPowerFailureTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "allowed_power_failure_time", at: holding(0x10a5), group: "fine_tuning_b", code: "b002", references: { modicon: 4262, reference: 404262 },
   unit: "s", allowed: [[3, 250]], keeps: "enter",
-});
-export const restartDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const restartDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "restart_delay", at: holding(0x10a6), group: "fine_tuning_b", code: "b003", references: { modicon: 4263, reference: 404263 },
   unit: "s", allowed: [[3, 1000]], keeps: "enter",
-});
-export const powerFailureTripAtStandstill = /* @__PURE__ */ readWrite(named(U16, PowerFailureTripAtStandstill, { closed: true }), {
+}))();
+export const powerFailureTripAtStandstill = /* @__PURE__ */ (() => readWrite(named(U16, PowerFailureTripAtStandstill, { closed: true }), {
   name: "power_failure_trip_at_standstill", at: holding(0x10a7), group: "fine_tuning_b", code: "b004", references: { modicon: 4264, reference: 404264 },
   keeps: "enter",
-});
-export const powerFailureRestarts = /* @__PURE__ */ readWrite(named(U16, PowerFailureRestarts, { closed: true }), {
+}))();
+export const powerFailureRestarts = /* @__PURE__ */ (() => readWrite(named(U16, PowerFailureRestarts, { closed: true }), {
   name: "power_failure_restarts", at: holding(0x10a8), group: "fine_tuning_b", code: "b005", references: { modicon: 4265, reference: 404265 },
   keeps: "enter",
-});
-export const motorProtectionLevel = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const motorProtectionLevel = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "motor_protection_level", at: holding(0x10ac), group: "fine_tuning_b", code: "b012", references: { modicon: 4269, reference: 404269 },
   unit: "%", allowed: [[2000, 12000]], keeps: "enter",
-});
-export const motorProtectionLevelSet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const motorProtectionLevelSet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "motor_protection_level_set_2", at: holding(0x1525), group: "fine_tuning_b", code: "b212", references: { modicon: 5414, reference: 405414 },
   unit: "%", allowed: [[2000, 12000]], keeps: "enter",
-});
-export const motorProtectionCharacteristic = /* @__PURE__ */ readWrite(named(U16, MotorProtectionCharacteristic, { closed: true }), {
+}))();
+export const motorProtectionCharacteristic = /* @__PURE__ */ (() => readWrite(named(U16, MotorProtectionCharacteristic, { closed: true }), {
   name: "motor_protection_characteristic", at: holding(0x10ad), group: "fine_tuning_b", code: "b013", references: { modicon: 4270, reference: 404270 },
   keeps: "enter",
-});
-export const motorProtectionCharacteristicSet2 = /* @__PURE__ */ readWrite(named(U16, MotorProtectionCharacteristic, { closed: true }), {
+}))();
+export const motorProtectionCharacteristicSet2 = /* @__PURE__ */ (() => readWrite(named(U16, MotorProtectionCharacteristic, { closed: true }), {
   name: "motor_protection_characteristic_set_2", at: holding(0x1526), group: "fine_tuning_b", code: "b213", references: { modicon: 5415, reference: 405415 },
   keeps: "enter",
-});
-export const currentLimitMode = /* @__PURE__ */ readWrite(named(U16, CurrentLimitMode, { closed: true }), {
+}))();
+export const currentLimitMode = /* @__PURE__ */ (() => readWrite(named(U16, CurrentLimitMode, { closed: true }), {
   name: "current_limit_mode", at: holding(0x10b4), group: "fine_tuning_b", code: "b021", references: { modicon: 4277, reference: 404277 },
   keeps: "enter",
-});
-export const currentLimitModeSet2 = /* @__PURE__ */ readWrite(named(U16, CurrentLimitMode, { closed: true }), {
+}))();
+export const currentLimitModeSet2 = /* @__PURE__ */ (() => readWrite(named(U16, CurrentLimitMode, { closed: true }), {
   name: "current_limit_mode_set_2", at: holding(0x1527), group: "fine_tuning_b", code: "b221", references: { modicon: 5416, reference: 405416 },
   keeps: "enter",
-});
-export const currentLimitLevel = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const currentLimitLevel = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "current_limit_level", at: holding(0x10b5), group: "fine_tuning_b", code: "b022", references: { modicon: 4278, reference: 404278 },
   unit: "%", allowed: [[1000, 15000]], keeps: "enter",
-});
-export const currentLimitLevelSet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const currentLimitLevelSet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "current_limit_level_set_2", at: holding(0x1528), group: "fine_tuning_b", code: "b222", references: { modicon: 5417, reference: 405417 },
   unit: "%", allowed: [[1000, 15000]], keeps: "enter",
-});
-export const currentLimitTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const currentLimitTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "current_limit_time", at: holding(0x10b6), group: "fine_tuning_b", code: "b023", references: { modicon: 4279, reference: 404279 },
   unit: "s", allowed: [[1, 300]], keeps: "enter",
-});
-export const currentLimitTimeSet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const currentLimitTimeSet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "current_limit_time_set_2", at: holding(0x1529), group: "fine_tuning_b", code: "b223", references: { modicon: 5418, reference: 405418 },
   unit: "s", allowed: [[1, 300]], keeps: "enter",
-});
-export const currentLimitSource = /* @__PURE__ */ readWrite(named(U16, CurrentLimitSource, { closed: true }), {
+}))();
+export const currentLimitSource = /* @__PURE__ */ (() => readWrite(named(U16, CurrentLimitSource, { closed: true }), {
   name: "current_limit_source", at: holding(0x10ba), group: "fine_tuning_b", code: "b028", references: { modicon: 4283, reference: 404283 },
   keeps: "enter",
-});
-export const currentLimitSourceSet2 = /* @__PURE__ */ readWrite(named(U16, CurrentLimitSource, { closed: true }), {
+}))();
+export const currentLimitSourceSet2 = /* @__PURE__ */ (() => readWrite(named(U16, CurrentLimitSource, { closed: true }), {
   name: "current_limit_source_set_2", at: holding(0x152a), group: "fine_tuning_b", code: "b228", references: { modicon: 5419, reference: 405419 },
   keeps: "enter",
-});
-export const parameterLock = /* @__PURE__ */ readWrite(named(U16, ParameterLock, { closed: true }), {
+}))();
+export const parameterLock = /* @__PURE__ */ (() => readWrite(named(U16, ParameterLock, { closed: true }), {
   name: "parameter_lock", at: holding(0x10bb), group: "fine_tuning_b", code: "b031", references: { modicon: 4284, reference: 404284 },
   keeps: "enter",
-});
-export const analogOutputGain = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const analogOutputGain = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "analog_output_gain", at: holding(0x10ce), group: "fine_tuning_b", code: "b080", references: { modicon: 4303, reference: 404303 },
   allowed: [[0, 255]], keeps: "enter",
-});
-export const startFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const startFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "start_frequency", at: holding(0x10d0), group: "fine_tuning_b", code: "b082", references: { modicon: 4305, reference: 404305 },
   unit: "Hz", allowed: [[5, 99]], keeps: "enter",
-});
-export const carrierFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const carrierFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "carrier_frequency", at: holding(0x10d1), group: "fine_tuning_b", code: "b083", references: { modicon: 4306, reference: 404306 },
   unit: "kHz", allowed: [[20, 140]], keeps: "enter",
-});
-export const initializationMode = /* @__PURE__ */ readWrite(named(U16, InitializationMode, { closed: true }), {
+}))();
+export const initializationMode = /* @__PURE__ */ (() => readWrite(named(U16, InitializationMode, { closed: true }), {
   name: "initialization_mode", at: holding(0x10d2), group: "fine_tuning_b", code: "b084", references: { modicon: 4307, reference: 404307 },
   keeps: "enter",
-});
-export const frequencyDisplayFactor = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const frequencyDisplayFactor = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "frequency_display_factor", at: holding(0x10d4), group: "fine_tuning_b", code: "b086", references: { modicon: 4309, reference: 404309 },
   allowed: [[1, 999]], keeps: "enter",
-});
-export const stopKeyLock = /* @__PURE__ */ readWrite(named(U16, StopKeyLock, { closed: true }), {
+}))();
+export const stopKeyLock = /* @__PURE__ */ (() => readWrite(named(U16, StopKeyLock, { closed: true }), {
   name: "stop_key_lock", at: holding(0x10d5), group: "fine_tuning_b", code: "b087", references: { modicon: 4310, reference: 404310 },
   keeps: "enter",
-});
-export const coastRestartMode = /* @__PURE__ */ readWrite(named(U16, CoastRestartMode, { closed: true }), {
+}))();
+export const coastRestartMode = /* @__PURE__ */ (() => readWrite(named(U16, CoastRestartMode, { closed: true }), {
   name: "coast_restart_mode", at: holding(0x10d6), group: "fine_tuning_b", code: "b088", references: { modicon: 4311, reference: 404311 },
   keeps: "enter",
-});
-export const networkDisplay = /* @__PURE__ */ readWrite(named(U16, NetworkDisplay, { closed: true }), {
+}))();
+export const networkDisplay = /* @__PURE__ */ (() => readWrite(named(U16, NetworkDisplay, { closed: true }), {
   name: "network_display", at: holding(0x10d7), group: "fine_tuning_b", code: "b089", references: { modicon: 4312, reference: 404312 },
   keeps: "enter",
-});
-export const stopMode = /* @__PURE__ */ readWrite(named(U16, StopMode, { closed: true }), {
+}))();
+export const stopMode = /* @__PURE__ */ (() => readWrite(named(U16, StopMode, { closed: true }), {
   name: "stop_mode", at: holding(0x10d9), group: "fine_tuning_b", code: "b091", references: { modicon: 4314, reference: 404314 },
   keeps: "enter",
-});
-export const overvoltageDecelerationEnable = /* @__PURE__ */ readWrite(named(U16, InactiveActive, { closed: true }), {
+}))();
+export const overvoltageDecelerationEnable = /* @__PURE__ */ (() => readWrite(named(U16, InactiveActive, { closed: true }), {
   name: "overvoltage_deceleration_enable", at: holding(0x10f4), group: "fine_tuning_b", code: "b130", references: { modicon: 4341, reference: 404341 },
   keeps: "enter",
-});
-export const overvoltageDecelerationLevel200v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const overvoltageDecelerationLevel200v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "overvoltage_deceleration_level", item: "overvoltage_deceleration_level_200v", at: holding(0x10f5), group: "fine_tuning_b", code: "b131", references: { modicon: 4342, reference: 404342 },
   unit: "V", allowed: [[330, 390]], keeps: "enter", variant: ["voltage_class", "200V"],
-});
-export const overvoltageDecelerationLevel400v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const overvoltageDecelerationLevel400v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "overvoltage_deceleration_level", item: "overvoltage_deceleration_level_400v", at: holding(0x10f5), group: "fine_tuning_b", code: "b131", references: { modicon: 4342, reference: 404342 },
   unit: "V", allowed: [[660, 780]], keeps: "enter", variant: ["voltage_class", "400V"],
-});
-export const digitalInput1Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput1Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_1_function", at: holding(0x1102), group: "control_c", code: "C001", references: { modicon: 4355, reference: 404355 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput1FunctionSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput1FunctionSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_1_function_set_2", at: holding(0x1530), group: "control_c", code: "C201", references: { modicon: 5425, reference: 405425 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput2Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput2Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_2_function", at: holding(0x1103), group: "control_c", code: "C002", references: { modicon: 4356, reference: 404356 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput2FunctionSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput2FunctionSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_2_function_set_2", at: holding(0x1531), group: "control_c", code: "C202", references: { modicon: 5426, reference: 405426 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput3Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput3Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_3_function", at: holding(0x1104), group: "control_c", code: "C003", references: { modicon: 4357, reference: 404357 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput3FunctionSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput3FunctionSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_3_function_set_2", at: holding(0x1532), group: "control_c", code: "C203", references: { modicon: 5427, reference: 405427 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput4Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput4Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_4_function", at: holding(0x1105), group: "control_c", code: "C004", references: { modicon: 4358, reference: 404358 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput4FunctionSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput4FunctionSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_4_function_set_2", at: holding(0x1533), group: "control_c", code: "C204", references: { modicon: 5428, reference: 405428 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput5Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput5Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_5_function", at: holding(0x1106), group: "control_c", code: "C005", references: { modicon: 4359, reference: 404359 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput5FunctionSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalInput5FunctionSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_input_5_function_set_2", at: holding(0x1534), group: "control_c", code: "C205", references: { modicon: 5429, reference: 405429 },
   allowed: [[0, 9], [11, 13], [15, 16], [18, 24], [27, 29], [31, 31], [50, 53], [255, 255]], keeps: "enter",
-});
-export const digitalInput1Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalInput1Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_input_1_contact", at: holding(0x110a), group: "control_c", code: "C011", references: { modicon: 4363, reference: 404363 },
   keeps: "enter",
-});
-export const digitalInput2Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalInput2Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_input_2_contact", at: holding(0x110b), group: "control_c", code: "C012", references: { modicon: 4364, reference: 404364 },
   keeps: "enter",
-});
-export const digitalInput3Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalInput3Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_input_3_contact", at: holding(0x110c), group: "control_c", code: "C013", references: { modicon: 4365, reference: 404365 },
   keeps: "enter",
-});
-export const digitalInput4Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalInput4Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_input_4_contact", at: holding(0x110d), group: "control_c", code: "C014", references: { modicon: 4366, reference: 404366 },
   keeps: "enter",
-});
-export const digitalInput5Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalInput5Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_input_5_contact", at: holding(0x110e), group: "control_c", code: "C015", references: { modicon: 4367, reference: 404367 },
   keeps: "enter",
-});
-export const digitalOutput11Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalOutput11Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_output_11_function", at: holding(0x1113), group: "control_c", code: "C021", references: { modicon: 4372, reference: 404372 },
   allowed: [[0, 10]], keeps: "enter",
-});
-export const digitalOutput12Function = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const digitalOutput12Function = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "digital_output_12_function", at: holding(0x1114), group: "control_c", code: "C022", references: { modicon: 4373, reference: 404373 },
   allowed: [[0, 10]], keeps: "enter",
-});
-export const relayOutputFunction = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const relayOutputFunction = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "relay_output_function", at: holding(0x1118), group: "control_c", code: "C026", references: { modicon: 4377, reference: 404377 },
   allowed: [[0, 10]], keeps: "enter",
-});
-export const analogOutputSource = /* @__PURE__ */ readWrite(named(U16, AnalogOutputSource, { closed: true }), {
+}))();
+export const analogOutputSource = /* @__PURE__ */ (() => readWrite(named(U16, AnalogOutputSource, { closed: true }), {
   name: "analog_output_source", at: holding(0x111a), group: "control_c", code: "C028", references: { modicon: 4379, reference: 404379 },
   keeps: "enter",
-});
-export const digitalOutput11Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalOutput11Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_output_11_contact", at: holding(0x111c), group: "control_c", code: "C031", references: { modicon: 4381, reference: 404381 },
   keeps: "enter",
-});
-export const digitalOutput12Contact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const digitalOutput12Contact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "digital_output_12_contact", at: holding(0x111d), group: "control_c", code: "C032", references: { modicon: 4382, reference: 404382 },
   keeps: "enter",
-});
-export const relayOutputContact = /* @__PURE__ */ readWrite(named(U16, Contact, { closed: true }), {
+}))();
+export const relayOutputContact = /* @__PURE__ */ (() => readWrite(named(U16, Contact, { closed: true }), {
   name: "relay_output_contact", at: holding(0x1121), group: "control_c", code: "C036", references: { modicon: 4386, reference: 404386 },
   keeps: "enter",
-});
-export const overloadAlarmLevel = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const overloadAlarmLevel = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "overload_alarm_level", at: holding(0x1123), group: "control_c", code: "C041", references: { modicon: 4388, reference: 404388 },
   unit: "%", allowed: [[0, 20000]], keeps: "enter",
-});
-export const overloadAlarmLevelSet2 = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const overloadAlarmLevelSet2 = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "overload_alarm_level_set_2", at: holding(0x1538), group: "control_c", code: "C241", references: { modicon: 5433, reference: 405433 },
   unit: "%", allowed: [[0, 20000]], keeps: "enter",
-});
-export const arrivalFrequencyAcceleration = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const arrivalFrequencyAcceleration = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "arrival_frequency_acceleration", at: holding(0x1125), group: "control_c", code: "C042", references: { modicon: 4390, reference: 404390 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const arrivalFrequencyDeceleration = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const arrivalFrequencyDeceleration = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "arrival_frequency_deceleration", at: holding(0x1127), group: "control_c", code: "C043", references: { modicon: 4392, reference: 404392 },
   unit: "Hz", allowed: [[0, 4000]], keeps: "enter",
-});
-export const pidDeviationLevel = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidDeviationLevel = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_deviation_level", at: holding(0x1128), group: "control_c", code: "C044", references: { modicon: 4393, reference: 404393 },
   unit: "%", allowed: [[0, 1000]], keeps: "enter",
-});
-export const pidProcessValueUpperLimit = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidProcessValueUpperLimit = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_process_value_upper_limit", at: holding(0x112d), group: "control_c", code: "C052", references: { modicon: 4398, reference: 404398 },
   unit: "%", allowed: [[0, 1000]], keeps: "enter",
-});
-export const pidProcessValueLowerLimit = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const pidProcessValueLowerLimit = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "pid_process_value_lower_limit", at: holding(0x112e), group: "control_c", code: "C053", references: { modicon: 4399, reference: 404399 },
   unit: "%", allowed: [[0, 1000]], keeps: "enter",
-});
-export const inputOCalibration = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOCalibration = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_o_calibration", at: holding(0x1140), group: "control_c", code: "C081", references: { modicon: 4417, reference: 404417 },
   unit: "%", allowed: [[0, 2000]], keeps: "enter",
-});
-export const inputOiCalibration = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const inputOiCalibration = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "input_oi_calibration", at: holding(0x1141), group: "control_c", code: "C082", references: { modicon: 4418, reference: 404418 },
   unit: "%", allowed: [[0, 2000]], keeps: "enter",
-});
-export const thermistorInputCalibration = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const thermistorInputCalibration = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "thermistor_input_calibration", at: holding(0x1143), group: "control_c", code: "C085", references: { modicon: 4420, reference: 404420 },
   unit: "%", allowed: [[0, 2000]], keeps: "enter",
-});
-export const analogOutputOffset = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const analogOutputOffset = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "analog_output_offset", at: holding(0x1144), group: "control_c", code: "C086", references: { modicon: 4421, reference: 404421 },
   unit: "V", allowed: [[0, 100]], keeps: "enter",
-});
-export const motorPotentiometerMemory = /* @__PURE__ */ readWrite(named(U16, MotorPotentiometerMemory, { closed: true }), {
+}))();
+export const motorPotentiometerMemory = /* @__PURE__ */ (() => readWrite(named(U16, MotorPotentiometerMemory, { closed: true }), {
   name: "motor_potentiometer_memory", at: holding(0x1148), group: "control_c", code: "C101", references: { modicon: 4425, reference: 404425 },
   keeps: "enter",
-});
-export const resetMode = /* @__PURE__ */ readWrite(named(U16, ResetMode, { closed: true }), {
+}))();
+export const resetMode = /* @__PURE__ */ (() => readWrite(named(U16, ResetMode, { closed: true }), {
   name: "reset_mode", at: holding(0x1149), group: "control_c", code: "C102", references: { modicon: 4426, reference: 404426 },
   keeps: "enter",
-});
-export const logicInputA = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const logicInputA = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "logic_input_a", at: holding(0x114f), group: "control_c", code: "C141", references: { modicon: 4432, reference: 404432 },
   allowed: [[0, 10]], keeps: "enter",
-});
-export const logicInputB = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const logicInputB = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "logic_input_b", at: holding(0x1150), group: "control_c", code: "C142", references: { modicon: 4433, reference: 404433 },
   allowed: [[0, 10]], keeps: "enter",
-});
-export const logicOperator = /* @__PURE__ */ readWrite(named(U16, LogicOperator, { closed: true }), {
+}))();
+export const logicOperator = /* @__PURE__ */ (() => readWrite(named(U16, LogicOperator, { closed: true }), {
   name: "logic_operator", at: holding(0x1151), group: "control_c", code: "C143", references: { modicon: 4434, reference: 404434 },
   keeps: "enter",
-});
-export const digitalOutput11OnDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const digitalOutput11OnDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "digital_output_11_on_delay", at: holding(0x1152), group: "control_c", code: "C144", references: { modicon: 4435, reference: 404435 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const digitalOutput11OffDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const digitalOutput11OffDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "digital_output_11_off_delay", at: holding(0x1153), group: "control_c", code: "C145", references: { modicon: 4436, reference: 404436 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const digitalOutput12OnDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const digitalOutput12OnDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "digital_output_12_on_delay", at: holding(0x1154), group: "control_c", code: "C146", references: { modicon: 4437, reference: 404437 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const digitalOutput12OffDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const digitalOutput12OffDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "digital_output_12_off_delay", at: holding(0x1155), group: "control_c", code: "C147", references: { modicon: 4438, reference: 404438 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const relayOutputOnDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const relayOutputOnDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "relay_output_on_delay", at: holding(0x1156), group: "control_c", code: "C148", references: { modicon: 4439, reference: 404439 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const relayOutputOffDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const relayOutputOffDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "relay_output_off_delay", at: holding(0x1157), group: "control_c", code: "C149", references: { modicon: 4440, reference: 404440 },
   unit: "s", allowed: [[0, 1000]], keeps: "enter",
-});
-export const motorPower = /* @__PURE__ */ readWrite(named(U16, MotorPower, { closed: true }), {
+}))();
+export const motorPower = /* @__PURE__ */ (() => readWrite(named(U16, MotorPower, { closed: true }), {
   name: "motor_power", at: holding(0x1164), group: "motor_h", code: "H003", references: { modicon: 4453, reference: 404453 },
   keeps: "enter",
-});
-export const motorPowerSet2 = /* @__PURE__ */ readWrite(named(U16, MotorPower, { closed: true }), {
+}))();
+export const motorPowerSet2 = /* @__PURE__ */ (() => readWrite(named(U16, MotorPower, { closed: true }), {
   name: "motor_power_set_2", at: holding(0x153f), group: "motor_h", code: "H203", references: { modicon: 5440, reference: 405440 },
   keeps: "enter",
-});
-export const motorPoles = /* @__PURE__ */ readWrite(named(U16, MotorPoles, { closed: true }), {
+}))();
+export const motorPoles = /* @__PURE__ */ (() => readWrite(named(U16, MotorPoles, { closed: true }), {
   name: "motor_poles", at: holding(0x1165), group: "motor_h", code: "H004", references: { modicon: 4454, reference: 404454 },
   keeps: "enter",
-});
-export const motorPolesSet2 = /* @__PURE__ */ readWrite(named(U16, MotorPoles, { closed: true }), {
+}))();
+export const motorPolesSet2 = /* @__PURE__ */ (() => readWrite(named(U16, MotorPoles, { closed: true }), {
   name: "motor_poles_set_2", at: holding(0x1540), group: "motor_h", code: "H204", references: { modicon: 5441, reference: 405441 },
   keeps: "enter",
-});
-export const stabilizationConstant = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const stabilizationConstant = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "stabilization_constant", at: holding(0x1167), group: "motor_h", code: "H006", references: { modicon: 4456, reference: 404456 },
   allowed: [[0, 255]], keeps: "enter",
-});
-export const stabilizationConstantSet2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const stabilizationConstantSet2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "stabilization_constant_set_2", at: holding(0x1542), group: "motor_h", code: "H206", references: { modicon: 5443, reference: 405443 },
   allowed: [[0, 255]], keeps: "enter",
-});
-export const enter = /* @__PURE__ */ command({ at: holding(0x0900, { function: 0x06 }) });
+}))();
+export const enter = /* @__PURE__ */ (() => command({ at: holding(0x0900, { function: 0x06 }) }))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

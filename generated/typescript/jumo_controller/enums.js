@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: 0BSD
 /** JUMO Controller with MOD-Bus: names for numbers, and words of flags. */
 import { bitField, bitFlag, wordOf } from "fieldscribe-runtime";
-export const ProgramStatus = /* @__PURE__ */ wordOf(
+export const ProgramStatus = /* @__PURE__ */ (() => wordOf(
   "ProgramStatus",
   {
     programHold: bitFlag(1),
@@ -12,8 +12,8 @@ export const ProgramStatus = /* @__PURE__ */ wordOf(
     programEndSignal: bitFlag(6),
     toleranceBandSignal: bitFlag(7),
   },
-);
-export const BinaryOutputs = /* @__PURE__ */ wordOf(
+))();
+export const BinaryOutputs = /* @__PURE__ */ (() => wordOf(
   "BinaryOutputs",
   {
     binaryOutput1: bitFlag(0),
@@ -27,8 +27,8 @@ export const BinaryOutputs = /* @__PURE__ */ wordOf(
     binaryOutput9: bitFlag(8),
     binaryOutput10: bitFlag(9),
   },
-);
-export const BinaryInputs = /* @__PURE__ */ wordOf(
+))();
+export const BinaryInputs = /* @__PURE__ */ (() => wordOf(
   "BinaryInputs",
   {
     binaryInput1: bitFlag(0),
@@ -40,8 +40,8 @@ export const BinaryInputs = /* @__PURE__ */ wordOf(
     binaryInput8: bitFlag(6),
     binaryInput7: bitFlag(7),
   },
-);
-export const ControlContacts = /* @__PURE__ */ wordOf(
+))();
+export const ControlContacts = /* @__PURE__ */ (() => wordOf(
   "ControlContacts",
   {
     controlContact1: bitFlag(0),
@@ -49,8 +49,8 @@ export const ControlContacts = /* @__PURE__ */ wordOf(
     controlContact3: bitFlag(2),
     controlContact4: bitFlag(3),
   },
-);
-export const BinarySignals = /* @__PURE__ */ wordOf(
+))();
+export const BinarySignals = /* @__PURE__ */ (() => wordOf(
   "BinarySignals",
   {
     controlContact1: bitFlag(0),
@@ -60,8 +60,8 @@ export const BinarySignals = /* @__PURE__ */ wordOf(
     timer1: bitFlag(4),
     timer2: bitFlag(5),
   },
-);
-export const BinaryOutputControl = /* @__PURE__ */ wordOf(
+))();
+export const BinaryOutputControl = /* @__PURE__ */ (() => wordOf(
   "BinaryOutputControl",
   {
     output1: bitFlag(0),
@@ -76,12 +76,12 @@ export const BinaryOutputControl = /* @__PURE__ */ wordOf(
     output10: bitFlag(9),
   },
   { constant: 0x8000 },
-);
-export const ProgramControllerCommands = /* @__PURE__ */ wordOf(
+))();
+export const ProgramControllerCommands = /* @__PURE__ */ (() => wordOf(
   "ProgramControllerCommands",
   { holdProgram: bitFlag(1), abortProgram: bitFlag(2), startProgram: bitFlag(3), changeSection: bitFlag(8) },
-);
-export const ControllerCommands = /* @__PURE__ */ wordOf(
+))();
+export const ControllerCommands = /* @__PURE__ */ (() => wordOf(
   "ControllerCommands",
   {
     holdRamp: bitFlag(1),
@@ -92,12 +92,12 @@ export const ControllerCommands = /* @__PURE__ */ wordOf(
     startSelfOptimisation: bitFlag(7),
     abortSelfOptimisation: bitFlag(13),
   },
-);
-export const OperationCommands = /* @__PURE__ */ wordOf(
+))();
+export const OperationCommands = /* @__PURE__ */ (() => wordOf(
   "OperationCommands",
   { displaysOff: bitFlag(4), acknowledgeLimitComparators: bitFlag(5), textDisplay: bitFlag(6) },
-);
-export const TimerCommands = /* @__PURE__ */ wordOf(
+))();
+export const TimerCommands = /* @__PURE__ */ (() => wordOf(
   "TimerCommands",
   { holdTimer1: bitFlag(1), abortTimer1: bitFlag(2), startTimer1: bitFlag(3), holdTimer2: bitFlag(9) },
-);
+))();

@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate jumo_controller --target typescript
 // SPDX-License-Identifier: 0BSD
 /** JUMO Controller with MOD-Bus: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -16,5 +16,10 @@ export interface JumoControllerOptions {
 /** JUMO Controller with MOD-Bus on a line. */
 export declare class JumoController extends ModbusDevice {
   constructor(line: Line, options: JumoControllerOptions);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "process_data" | "examples" | "command_words" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "jumo_controller">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface JumoController extends Handles<typeof points> {}

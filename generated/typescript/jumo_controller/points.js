@@ -27,84 +27,84 @@ import {
   TimerCommands,
 } from "./enums.js";
 
-export const programStatus = /* @__PURE__ */ readOnly(flags(U16, ProgramStatus), {
+export const programStatus = /* @__PURE__ */ (() => readOnly(flags(U16, ProgramStatus), {
   name: "program_status", at: holding(0x001f), group: "process_data",
-});
-export const controllerStatus = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const controllerStatus = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "controller_status", at: holding(0x0020), group: "process_data",
-});
-export const binaryOutputs = /* @__PURE__ */ readOnly(flags(U16, BinaryOutputs), {
+}))();
+export const binaryOutputs = /* @__PURE__ */ (() => readOnly(flags(U16, BinaryOutputs), {
   name: "binary_outputs", at: holding(0x0021), group: "process_data",
-});
-export const binaryInputs = /* @__PURE__ */ readOnly(flags(U16, BinaryInputs), {
+}))();
+export const binaryInputs = /* @__PURE__ */ (() => readOnly(flags(U16, BinaryInputs), {
   name: "binary_inputs", at: holding(0x0023), group: "process_data",
-});
-export const controlContacts = /* @__PURE__ */ readOnly(flags(U16, ControlContacts), {
+}))();
+export const controlContacts = /* @__PURE__ */ (() => readOnly(flags(U16, ControlContacts), {
   name: "control_contacts", at: holding(0x0025), group: "process_data",
-});
-export const binarySignals = /* @__PURE__ */ readOnly(flags(U16, BinarySignals), {
+}))();
+export const binarySignals = /* @__PURE__ */ (() => readOnly(flags(U16, BinarySignals), {
   name: "binary_signals", at: holding(0x0026), group: "process_data",
-});
-export const binaryOutputControl = /* @__PURE__ */ readWrite(flags(U16, BinaryOutputControl), {
+}))();
+export const binaryOutputControl = /* @__PURE__ */ (() => readWrite(flags(U16, BinaryOutputControl), {
   name: "binary_output_control", at: holding(0x0027), group: "process_data",
   fixed: [0x8000, 0x8000], changes: "rarely",
-});
-export const programRunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const programRunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "program_run_time", at: holding(0x005b, 0x005c), group: "process_data",
   unit: "s",
-});
-export const programRemainingTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const programRemainingTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "program_remaining_time", at: holding(0x005d, 0x005e), group: "process_data",
   unit: "s",
-});
-export const sectionRunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const sectionRunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "section_run_time", at: holding(0x0061, 0x0062), group: "process_data",
-});
-export const sectionRemainingTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const sectionRemainingTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "section_remaining_time", at: holding(0x0063, 0x0064), group: "process_data",
-});
-export const timer1RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const timer1RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "timer_1_run_time", at: holding(0x0067, 0x0068), group: "process_data",
-});
-export const timer2RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const timer2RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "timer_2_run_time", at: holding(0x0069, 0x006a), group: "process_data",
-});
-export const timer3RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const timer3RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "timer_3_run_time", at: holding(0x006b, 0x006c), group: "process_data",
-});
-export const timer4RunTime = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const timer4RunTime = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "timer_4_run_time", at: holding(0x006d, 0x006e), group: "process_data",
-});
-export const setpoint1 = /* @__PURE__ */ readWrite(floating(F32), {
+}))();
+export const setpoint1 = /* @__PURE__ */ (() => readWrite(floating(F32), {
   name: "setpoint_1", at: holding(0x3101, 0x3100), group: "examples",
   keeps: "yes",
-});
-export const setpoint2 = /* @__PURE__ */ readWrite(floating(F32), {
+}))();
+export const setpoint2 = /* @__PURE__ */ (() => readWrite(floating(F32), {
   name: "setpoint_2", at: holding(0x3103, 0x3102), group: "examples",
   keeps: "yes",
-});
-export const proportionalBand1Set2 = /* @__PURE__ */ readWrite(floating(F32), {
+}))();
+export const proportionalBand1Set2 = /* @__PURE__ */ (() => readWrite(floating(F32), {
   name: "proportional_band_1_set_2", at: holding(0x3015, 0x3014), group: "examples", code: "Pb1",
   keeps: "yes",
-});
-export const value0077 = /* @__PURE__ */ writeOnly(floating(F32), {
+}))();
+export const value0077 = /* @__PURE__ */ (() => writeOnly(floating(F32), {
   name: "value_0077", at: holding(0x0078, 0x0077), group: "examples",
-});
-export const value00ce = /* @__PURE__ */ readOnly(floating(F32), {
+}))();
+export const value00ce = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "value_00ce", at: holding(0x00cf, 0x00ce), group: "examples",
-});
-export const programControllerCommands = /* @__PURE__ */ readWrite(flags(U16, ProgramControllerCommands), {
+}))();
+export const programControllerCommands = /* @__PURE__ */ (() => readWrite(flags(U16, ProgramControllerCommands), {
   name: "program_controller_commands", at: holding(0x006f), group: "command_words",
-});
-export const controllerCommands = /* @__PURE__ */ readWrite(flags(U16, ControllerCommands), {
+}))();
+export const controllerCommands = /* @__PURE__ */ (() => readWrite(flags(U16, ControllerCommands), {
   name: "controller_commands", at: holding(0x0070), group: "command_words",
-});
-export const operationCommands = /* @__PURE__ */ readWrite(flags(U16, OperationCommands), {
+}))();
+export const operationCommands = /* @__PURE__ */ (() => readWrite(flags(U16, OperationCommands), {
   name: "operation_commands", at: holding(0x0071), group: "command_words",
-});
-export const timerCommands = /* @__PURE__ */ readWrite(flags(U16, TimerCommands), {
+}))();
+export const timerCommands = /* @__PURE__ */ (() => readWrite(flags(U16, TimerCommands), {
   name: "timer_commands", at: holding(0x0072), group: "command_words",
-});
+}))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

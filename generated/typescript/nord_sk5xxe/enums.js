@@ -15,7 +15,7 @@ export const StatusWordParameterSet = /* @__PURE__ */ Object.freeze({
   SET_3: 2,
   SET_4: 3,
 });
-export const ControlWord = /* @__PURE__ */ wordOf(
+export const ControlWord = /* @__PURE__ */ (() => wordOf(
   "ControlWord",
   {
     readyToRun: bitFlag(0),
@@ -34,8 +34,8 @@ export const ControlWord = /* @__PURE__ */ wordOf(
     reserved: bitFlag(13),
     parameterSet: bitField(14, 2, ControlWordParameterSet),
   },
-);
-export const StatusWord = /* @__PURE__ */ wordOf(
+))();
+export const StatusWord = /* @__PURE__ */ (() => wordOf(
   "StatusWord",
   {
     readyToSwitchOn: bitFlag(0),
@@ -54,4 +54,4 @@ export const StatusWord = /* @__PURE__ */ wordOf(
     function481_10: bitFlag(13),
     parameterSet: bitField(14, 2, StatusWordParameterSet),
   },
-);
+))();

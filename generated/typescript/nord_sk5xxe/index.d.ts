@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate nord_sk5xxe --target typescript
 // SPDX-License-Identifier: 0BSD
 /** NORD SK 5xxE: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -16,5 +16,10 @@ export interface NordSk5xxeOptions {
 /** NORD SK 5xxE on a line. */
 export declare class NordSk5xxe extends ModbusDevice {
   constructor(line: Line, options: NordSk5xxeOptions);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "process_data" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "nord_sk5xxe">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface NordSk5xxe extends Handles<typeof points> {}

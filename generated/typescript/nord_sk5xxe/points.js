@@ -16,44 +16,44 @@ import {
   StatusWord,
 } from "./enums.js";
 
-export const controlWord = /* @__PURE__ */ readWrite(flags(U16, ControlWord), {
+export const controlWord = /* @__PURE__ */ (() => readWrite(flags(U16, ControlWord), {
   name: "control_word", at: holding(0x0c80, { index: 1 }), group: "process_data", code: "P050[1]",
-});
-export const setpoint1 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const setpoint1 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "setpoint_1", at: holding(0x0c81, { index: 2 }), group: "process_data", code: "P050[2]",
-});
-export const setpoint2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const setpoint2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "setpoint_2", at: holding(0x0c82, { index: 3 }), group: "process_data", code: "P050[3]",
-});
-export const setpoint3 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const setpoint3 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "setpoint_3", at: holding(0x0c83, { index: 4 }), group: "process_data", code: "P050[4]",
-});
-export const setpoint4 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const setpoint4 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "setpoint_4", at: holding(0x0c84, { index: 5 }), group: "process_data", code: "P050[5]",
-});
-export const setpoint5 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const setpoint5 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "setpoint_5", at: holding(0x0c85, { index: 6 }), group: "process_data", code: "P050[6]",
-});
-export const statusWord = /* @__PURE__ */ readOnly(flags(U16, StatusWord), {
+}))();
+export const statusWord = /* @__PURE__ */ (() => readOnly(flags(U16, StatusWord), {
   name: "status_word", at: holding(0x0cc0, { index: 1 }), group: "process_data", code: "P051[1]",
-});
-export const actualValue1 = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const actualValue1 = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "actual_value_1", at: holding(0x0cc1, { index: 2 }), group: "process_data", code: "P051[2]",
-});
-export const actualValue2 = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const actualValue2 = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "actual_value_2", at: holding(0x0cc2, { index: 3 }), group: "process_data", code: "P051[3]",
-});
-export const actualValue3 = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const actualValue3 = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "actual_value_3", at: holding(0x0cc3, { index: 4 }), group: "process_data", code: "P051[4]",
-});
-export const actualValue4 = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const actualValue4 = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "actual_value_4", at: holding(0x0cc4, { index: 5 }), group: "process_data", code: "P051[5]",
-});
-export const actualValue5 = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const actualValue5 = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "actual_value_5", at: holding(0x0cc5, { index: 6 }), group: "process_data", code: "P051[6]",
-});
-export const makeReadyToSwitchOn = /* @__PURE__ */ command({ at: holding(0x0c80, { function: 0x06 }), value: 1150 });
-export const switchOn = /* @__PURE__ */ command({ at: holding(0x0c80, { function: 0x06 }), value: 1151 });
+}))();
+export const makeReadyToSwitchOn = /* @__PURE__ */ (() => command({ at: holding(0x0c80, { function: 0x06 }), value: 1150 }))();
+export const switchOn = /* @__PURE__ */ (() => command({ at: holding(0x0c80, { function: 0x06 }), value: 1151 }))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

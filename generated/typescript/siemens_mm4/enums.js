@@ -28,7 +28,7 @@ export const UssPkwLength = /* @__PURE__ */ Object.freeze({
   WORDS_4: 4,
   VARIABLE: 127,
 });
-export const InverterStatusWord = /* @__PURE__ */ wordOf(
+export const InverterStatusWord = /* @__PURE__ */ (() => wordOf(
   "InverterStatusWord",
   {
     readyToSwitchOn: bitFlag(0),
@@ -48,52 +48,19 @@ export const InverterStatusWord = /* @__PURE__ */ wordOf(
     clockwise: bitFlag(14),
     inverterOverload: bitFlag(15, { active: 0 }),
   },
-);
-export const P0731Source = /* @__PURE__ */ wordOf(
-  "P0731Source",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const JogTimeSelectionSource = /* @__PURE__ */ wordOf(
-  "JogTimeSelectionSource",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const DcBrakingSource = /* @__PURE__ */ wordOf(
-  "DcBrakingSource",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs232AnswerSourceIndex0 = /* @__PURE__ */ wordOf(
-  "UssRs232AnswerSourceIndex0",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs232AnswerSourceIndex1 = /* @__PURE__ */ wordOf(
-  "UssRs232AnswerSourceIndex1",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs232AnswerSourceIndex2 = /* @__PURE__ */ wordOf(
-  "UssRs232AnswerSourceIndex2",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs232AnswerSourceIndex3 = /* @__PURE__ */ wordOf(
-  "UssRs232AnswerSourceIndex3",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs485AnswerSourceIndex0 = /* @__PURE__ */ wordOf(
-  "UssRs485AnswerSourceIndex0",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs485AnswerSourceIndex1 = /* @__PURE__ */ wordOf(
-  "UssRs485AnswerSourceIndex1",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs485AnswerSourceIndex2 = /* @__PURE__ */ wordOf(
-  "UssRs485AnswerSourceIndex2",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const UssRs485AnswerSourceIndex3 = /* @__PURE__ */ wordOf(
-  "UssRs485AnswerSourceIndex3",
-  { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) },
-);
-export const ControlWord = /* @__PURE__ */ wordOf(
+))();
+export const P0731Source = /* @__PURE__ */ (() => wordOf("P0731Source", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const JogTimeSelectionSource = /* @__PURE__ */ (() => wordOf("JogTimeSelectionSource", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const DcBrakingSource = /* @__PURE__ */ (() => wordOf("DcBrakingSource", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs232AnswerSourceIndex0 = /* @__PURE__ */ (() => wordOf("UssRs232AnswerSourceIndex0", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs232AnswerSourceIndex1 = /* @__PURE__ */ (() => wordOf("UssRs232AnswerSourceIndex1", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs232AnswerSourceIndex2 = /* @__PURE__ */ (() => wordOf("UssRs232AnswerSourceIndex2", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs232AnswerSourceIndex3 = /* @__PURE__ */ (() => wordOf("UssRs232AnswerSourceIndex3", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs485AnswerSourceIndex0 = /* @__PURE__ */ (() => wordOf("UssRs485AnswerSourceIndex0", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs485AnswerSourceIndex1 = /* @__PURE__ */ (() => wordOf("UssRs485AnswerSourceIndex1", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs485AnswerSourceIndex2 = /* @__PURE__ */ (() => wordOf("UssRs485AnswerSourceIndex2", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const UssRs485AnswerSourceIndex3 = /* @__PURE__ */ (() => wordOf("UssRs485AnswerSourceIndex3", { sourceParameter: bitField(16, 16), sourceBit: bitField(0, 16) }))();
+export const ControlWord = /* @__PURE__ */ (() => wordOf(
   "ControlWord",
   {
     on: bitFlag(0),
@@ -114,8 +81,8 @@ export const ControlWord = /* @__PURE__ */ wordOf(
     localControl: bitFlag(15),
   },
   { constant: 0x0400, closed: ["setpointsValid"] },
-);
-export const SecondControlWord = /* @__PURE__ */ wordOf(
+))();
+export const SecondControlWord = /* @__PURE__ */ (() => wordOf(
   "SecondControlWord",
   {
     fixedFrequencyBit0: bitFlag(0),
@@ -125,8 +92,8 @@ export const SecondControlWord = /* @__PURE__ */ wordOf(
     dcBrakingEnable: bitFlag(9),
     externalFault: bitFlag(13),
   },
-);
-export const StatusWord = /* @__PURE__ */ wordOf(
+))();
+export const StatusWord = /* @__PURE__ */ (() => wordOf(
   "StatusWord",
   {
     readyToSwitchOn: bitFlag(0),
@@ -146,4 +113,4 @@ export const StatusWord = /* @__PURE__ */ wordOf(
     clockwise: bitFlag(14),
     inverterOverload: bitFlag(15, { active: 0 }),
   },
-);
+))();

@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate siemens_mm4 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Siemens MICROMASTER 4: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { UssDevice } from "fieldscribe-runtime/uss";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -12,12 +12,17 @@ export * from "./points.js";
 export interface SiemensMm4Options {
   /** Its address on the bus. */
   unit: number;
-  link: UssLink;
+  link: import("fieldscribe-runtime/uss-frames").UssLink;
   model?: "mm410" | "mm420" | "mm430" | "mm440";
   interface?: "rs485" | "rs232";
 }
 /** Siemens MICROMASTER 4 on a line. */
 export declare class SiemensMm4 extends UssDevice {
   constructor(line: Line, options: SiemensMm4Options);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "parameters" | "answer" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "siemens_mm4">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface SiemensMm4 extends Handles<typeof points> {}

@@ -46,171 +46,171 @@ import {
   UssRs485AnswerSourceIndex3,
 } from "./enums.js";
 
-export const userAccessLevel = /* @__PURE__ */ stored(named(U16, UserAccessLevel), {
+export const userAccessLevel = /* @__PURE__ */ (() => stored(named(U16, UserAccessLevel), {
   name: "user_access_level", at: parameter(3), group: "parameters", code: "P0003",
   keeps: "choice",
-});
-export const inverterStatusWord = /* @__PURE__ */ readOnly(flags(U16, InverterStatusWord), {
+}))();
+export const inverterStatusWord = /* @__PURE__ */ (() => readOnly(flags(U16, InverterStatusWord), {
   name: "inverter_status_word", at: parameter(52), group: "parameters", code: "r0052",
-});
-export const commandSource = /* @__PURE__ */ stored(named(U16, CommandSource), {
+}))();
+export const commandSource = /* @__PURE__ */ (() => stored(named(U16, CommandSource), {
   name: "command_source", at: parameter(700), group: "parameters", code: "P0700",
   keeps: "choice",
-});
-export const p0731Source = /* @__PURE__ */ stored(flags(U32, P0731Source), {
+}))();
+export const p0731Source = /* @__PURE__ */ (() => stored(flags(U32, P0731Source), {
   name: "p0731_source", at: parameter(731), group: "parameters", code: "P0731",
   keeps: "choice",
-});
-export const mainSetpointSource = /* @__PURE__ */ stored(named(U16, MainSetpointSource), {
+}))();
+export const mainSetpointSource = /* @__PURE__ */ (() => stored(named(U16, MainSetpointSource), {
   name: "main_setpoint_source", at: parameter(1000), group: "parameters", code: "P1000",
   keeps: "choice",
-});
-export const maximumFrequency = /* @__PURE__ */ stored(floating(F32), {
+}))();
+export const maximumFrequency = /* @__PURE__ */ (() => stored(floating(F32), {
   name: "maximum_frequency", at: parameter(1082), group: "parameters", code: "P1082",
   unit: "Hz", conditions: ["stopped"], keeps: "choice",
-});
-export const jogTimeSelectionSource = /* @__PURE__ */ stored(flags(U32, JogTimeSelectionSource), {
+}))();
+export const jogTimeSelectionSource = /* @__PURE__ */ (() => stored(flags(U32, JogTimeSelectionSource), {
   name: "jog_time_selection_source", at: parameter(1124), group: "parameters", code: "P1124",
   keeps: "choice",
-});
-export const dcBrakingSource = /* @__PURE__ */ stored(flags(U32, DcBrakingSource), {
+}))();
+export const dcBrakingSource = /* @__PURE__ */ (() => stored(flags(U32, DcBrakingSource), {
   name: "dc_braking_source", at: parameter(1230), group: "parameters", code: "P1230",
   keeps: "choice",
-});
-export const outputPhaseSequence = /* @__PURE__ */ stored(named(U16, OutputPhaseSequence), {
+}))();
+export const outputPhaseSequence = /* @__PURE__ */ (() => stored(named(U16, OutputPhaseSequence), {
   name: "output_phase_sequence", at: parameter(1820), group: "parameters", code: "P1820",
   keeps: "choice",
-});
-export const referenceFrequency = /* @__PURE__ */ stored(floating(F32), {
+}))();
+export const referenceFrequency = /* @__PURE__ */ (() => stored(floating(F32), {
   name: "reference_frequency", at: parameter(2000), group: "parameters", code: "P2000",
   unit: "Hz", keeps: "choice",
-});
-export const ussNormalisationRs485 = /* @__PURE__ */ stored(named(U16, UssNormalisation, { closed: true }), {
+}))();
+export const ussNormalisationRs485 = /* @__PURE__ */ (() => stored(named(U16, UssNormalisation, { closed: true }), {
   name: "uss_normalisation", item: "uss_normalisation_rs485", at: parameter(2009, { index: 0 }), group: "parameters", code: "P2009",
   default: 0, conditions: ["access_level_3"], keeps: "choice", variant: ["interface", "rs485"],
-});
-export const ussNormalisationRs232 = /* @__PURE__ */ stored(named(U16, UssNormalisation, { closed: true }), {
+}))();
+export const ussNormalisationRs232 = /* @__PURE__ */ (() => stored(named(U16, UssNormalisation, { closed: true }), {
   name: "uss_normalisation", item: "uss_normalisation_rs232", at: parameter(2009, { index: 1 }), group: "parameters", code: "P2009",
   default: 0, conditions: ["access_level_3"], keeps: "choice", variant: ["interface", "rs232"],
-});
-export const ussBaudRateIndex0 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussBaudRateIndex0 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_baud_rate_index_0", at: parameter(2010, { index: 0 }), group: "parameters", code: "P2010",
   conditions: ["access_level_2"], keeps: "choice",
-});
-export const ussBaudRateIndex1 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussBaudRateIndex1 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_baud_rate_index_1", at: parameter(2010, { index: 1 }), group: "parameters", code: "P2010",
   conditions: ["access_level_2"], keeps: "choice",
-});
-export const ussSlaveAddressIndex0 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussSlaveAddressIndex0 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_slave_address_index_0", at: parameter(2011, { index: 0 }), group: "parameters", code: "P2011",
   conditions: ["access_level_2"], keeps: "choice",
-});
-export const ussSlaveAddressIndex1 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussSlaveAddressIndex1 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_slave_address_index_1", at: parameter(2011, { index: 1 }), group: "parameters", code: "P2011",
   conditions: ["access_level_2"], keeps: "choice",
-});
-export const ussPzdLengthIndex0Mm410 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex0Mm410 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_0", item: "uss_pzd_length_index_0_mm410", at: parameter(2012, { index: 0 }), group: "parameters", code: "P2012",
   allowed: [[0, 4]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm410"],
-});
-export const ussPzdLengthIndex0Mm420 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex0Mm420 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_0", item: "uss_pzd_length_index_0_mm420", at: parameter(2012, { index: 0 }), group: "parameters", code: "P2012",
   allowed: [[0, 4]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm420"],
-});
-export const ussPzdLengthIndex0Mm430 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex0Mm430 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_0", item: "uss_pzd_length_index_0_mm430", at: parameter(2012, { index: 0 }), group: "parameters", code: "P2012",
   allowed: [[0, 8]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm430"],
-});
-export const ussPzdLengthIndex0Mm440 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex0Mm440 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_0", item: "uss_pzd_length_index_0_mm440", at: parameter(2012, { index: 0 }), group: "parameters", code: "P2012",
   allowed: [[0, 8]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm440"],
-});
-export const ussPzdLengthIndex1Mm410 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex1Mm410 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_1", item: "uss_pzd_length_index_1_mm410", at: parameter(2012, { index: 1 }), group: "parameters", code: "P2012",
   allowed: [[0, 4]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm410"],
-});
-export const ussPzdLengthIndex1Mm420 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex1Mm420 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_1", item: "uss_pzd_length_index_1_mm420", at: parameter(2012, { index: 1 }), group: "parameters", code: "P2012",
   allowed: [[0, 4]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm420"],
-});
-export const ussPzdLengthIndex1Mm430 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex1Mm430 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_1", item: "uss_pzd_length_index_1_mm430", at: parameter(2012, { index: 1 }), group: "parameters", code: "P2012",
   allowed: [[0, 8]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm430"],
-});
-export const ussPzdLengthIndex1Mm440 = /* @__PURE__ */ stored(integer(U16), {
+}))();
+export const ussPzdLengthIndex1Mm440 = /* @__PURE__ */ (() => stored(integer(U16), {
   name: "uss_pzd_length_index_1", item: "uss_pzd_length_index_1_mm440", at: parameter(2012, { index: 1 }), group: "parameters", code: "P2012",
   allowed: [[0, 8]], default: 2, conditions: ["access_level_3"], keeps: "choice", variant: ["model", "mm440"],
-});
-export const ussPkwLengthIndex0 = /* @__PURE__ */ stored(named(U16, UssPkwLength, { closed: true }), {
+}))();
+export const ussPkwLengthIndex0 = /* @__PURE__ */ (() => stored(named(U16, UssPkwLength, { closed: true }), {
   name: "uss_pkw_length_index_0", at: parameter(2013, { index: 0 }), group: "parameters", code: "P2013",
   default: 127, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussPkwLengthIndex1 = /* @__PURE__ */ stored(named(U16, UssPkwLength, { closed: true }), {
+}))();
+export const ussPkwLengthIndex1 = /* @__PURE__ */ (() => stored(named(U16, UssPkwLength, { closed: true }), {
   name: "uss_pkw_length_index_1", at: parameter(2013, { index: 1 }), group: "parameters", code: "P2013",
   default: 127, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussTelegramOffTimeIndex0 = /* @__PURE__ */ stored(withWritableCodes(integer(U16), codes({ monitoring_off: 0 }, { writable: ["monitoring_off"] })), {
+}))();
+export const ussTelegramOffTimeIndex0 = /* @__PURE__ */ (() => stored(withWritableCodes(integer(U16), codes({ monitoring_off: 0 }, { writable: ["monitoring_off"] })), {
   name: "uss_telegram_off_time_index_0", at: parameter(2014, { index: 0 }), group: "parameters", code: "P2014",
   unit: "ms", allowed: [[1, 65535]], default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussTelegramOffTimeIndex1 = /* @__PURE__ */ stored(withWritableCodes(integer(U16), codes({ monitoring_off: 0 }, { writable: ["monitoring_off"] })), {
+}))();
+export const ussTelegramOffTimeIndex1 = /* @__PURE__ */ (() => stored(withWritableCodes(integer(U16), codes({ monitoring_off: 0 }, { writable: ["monitoring_off"] })), {
   name: "uss_telegram_off_time_index_1", at: parameter(2014, { index: 1 }), group: "parameters", code: "P2014",
   unit: "ms", allowed: [[1, 65535]], default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs232AnswerSourceIndex0 = /* @__PURE__ */ stored(flags(U32, UssRs232AnswerSourceIndex0), {
+}))();
+export const ussRs232AnswerSourceIndex0 = /* @__PURE__ */ (() => stored(flags(U32, UssRs232AnswerSourceIndex0), {
   name: "uss_rs232_answer_source_index_0", at: parameter(2016, { index: 0 }), group: "parameters", code: "P2016",
   default: 3407872, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs232AnswerSourceIndex1 = /* @__PURE__ */ stored(flags(U32, UssRs232AnswerSourceIndex1), {
+}))();
+export const ussRs232AnswerSourceIndex1 = /* @__PURE__ */ (() => stored(flags(U32, UssRs232AnswerSourceIndex1), {
   name: "uss_rs232_answer_source_index_1", at: parameter(2016, { index: 1 }), group: "parameters", code: "P2016",
   default: 1376256, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs232AnswerSourceIndex2 = /* @__PURE__ */ stored(flags(U32, UssRs232AnswerSourceIndex2), {
+}))();
+export const ussRs232AnswerSourceIndex2 = /* @__PURE__ */ (() => stored(flags(U32, UssRs232AnswerSourceIndex2), {
   name: "uss_rs232_answer_source_index_2", at: parameter(2016, { index: 2 }), group: "parameters", code: "P2016",
   default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs232AnswerSourceIndex3 = /* @__PURE__ */ stored(flags(U32, UssRs232AnswerSourceIndex3), {
+}))();
+export const ussRs232AnswerSourceIndex3 = /* @__PURE__ */ (() => stored(flags(U32, UssRs232AnswerSourceIndex3), {
   name: "uss_rs232_answer_source_index_3", at: parameter(2016, { index: 3 }), group: "parameters", code: "P2016",
   default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs485AnswerSourceIndex0 = /* @__PURE__ */ stored(flags(U32, UssRs485AnswerSourceIndex0), {
+}))();
+export const ussRs485AnswerSourceIndex0 = /* @__PURE__ */ (() => stored(flags(U32, UssRs485AnswerSourceIndex0), {
   name: "uss_rs485_answer_source_index_0", at: parameter(2019, { index: 0 }), group: "parameters", code: "P2019",
   default: 3407872, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs485AnswerSourceIndex1 = /* @__PURE__ */ stored(flags(U32, UssRs485AnswerSourceIndex1), {
+}))();
+export const ussRs485AnswerSourceIndex1 = /* @__PURE__ */ (() => stored(flags(U32, UssRs485AnswerSourceIndex1), {
   name: "uss_rs485_answer_source_index_1", at: parameter(2019, { index: 1 }), group: "parameters", code: "P2019",
   default: 1376256, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs485AnswerSourceIndex2 = /* @__PURE__ */ stored(flags(U32, UssRs485AnswerSourceIndex2), {
+}))();
+export const ussRs485AnswerSourceIndex2 = /* @__PURE__ */ (() => stored(flags(U32, UssRs485AnswerSourceIndex2), {
   name: "uss_rs485_answer_source_index_2", at: parameter(2019, { index: 2 }), group: "parameters", code: "P2019",
   default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const ussRs485AnswerSourceIndex3 = /* @__PURE__ */ stored(flags(U32, UssRs485AnswerSourceIndex3), {
+}))();
+export const ussRs485AnswerSourceIndex3 = /* @__PURE__ */ (() => stored(flags(U32, UssRs485AnswerSourceIndex3), {
   name: "uss_rs485_answer_source_index_3", at: parameter(2019, { index: 3 }), group: "parameters", code: "P2019",
   default: 0, conditions: ["access_level_3"], keeps: "choice",
-});
-export const controlWord = /* @__PURE__ */ writeOnly(flags(U16, ControlWord), {
+}))();
+export const controlWord = /* @__PURE__ */ (() => writeOnly(flags(U16, ControlWord), {
   name: "control_word", at: telegram("task", 0), group: "task", code: "STW", references: { pzd: 1 },
   fixed: [0x0400, 0x0400], keeps: "no",
-});
-export const mainSetpoint = /* @__PURE__ */ writeOnly(scaled(U16, [scaleCase("ussNormalisation", 0, rule({ num: 16384, factors: [factor("referenceFrequency", { power: -1, f32: true })] })), scaleCase("ussNormalisation", 1, rule({ num: 100 }))], { decimals: 5 }), {
+}))();
+export const mainSetpoint = /* @__PURE__ */ (() => writeOnly(scaled(U16, [scaleCase("ussNormalisation", 0, rule({ num: 16384, factors: [factor("referenceFrequency", { power: -1, f32: true })] })), scaleCase("ussNormalisation", 1, rule({ num: 100 }))], { decimals: 5 }), {
   name: "main_setpoint", at: telegram("task", 1), group: "task", code: "HSW", references: { pzd: 2 },
   unit: "Hz", keeps: "no",
-});
-export const secondControlWord = /* @__PURE__ */ writeOnly(flags(U16, SecondControlWord), {
+}))();
+export const secondControlWord = /* @__PURE__ */ (() => writeOnly(flags(U16, SecondControlWord), {
   name: "second_control_word", at: telegram("task", 3), group: "task", code: "STW2", references: { pzd: 4 },
   keeps: "no",
-});
-export const statusWord = /* @__PURE__ */ readOnly(flags(U16, StatusWord), {
+}))();
+export const statusWord = /* @__PURE__ */ (() => readOnly(flags(U16, StatusWord), {
   name: "status_word", at: telegram("answer", 0), group: "answer", code: "ZSW", references: { pzd: 1 },
-});
-export const mainActualValue = /* @__PURE__ */ readOnly(scaled(U16, [scaleCase("ussNormalisation", 0, rule({ num: 16384, factors: [factor("referenceFrequency", { power: -1, f32: true })] })), scaleCase("ussNormalisation", 1, rule({ num: 100 }))], { decimals: 5 }), {
+}))();
+export const mainActualValue = /* @__PURE__ */ (() => readOnly(scaled(U16, [scaleCase("ussNormalisation", 0, rule({ num: 16384, factors: [factor("referenceFrequency", { power: -1, f32: true })] })), scaleCase("ussNormalisation", 1, rule({ num: 100 }))], { decimals: 5 }), {
   name: "main_actual_value", at: telegram("answer", 1), group: "answer", code: "HIW", references: { pzd: 2 },
   unit: "Hz",
-});
-export const secondStatusWord = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const secondStatusWord = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "second_status_word", at: telegram("answer", 3), group: "answer", code: "ZSW2", references: { pzd: 4 },
-});
+}))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

@@ -191,7 +191,7 @@ export const DoubleBit = /* @__PURE__ */ Object.freeze({
   INACTIVE: 0,
   ACTIVE: 3,
 });
-export const PresentFaultClasses = /* @__PURE__ */ wordOf(
+export const PresentFaultClasses = /* @__PURE__ */ (() => wordOf(
   "PresentFaultClasses",
   {
     faultClass3: bitField(6, 2, DoubleBit),
@@ -199,8 +199,8 @@ export const PresentFaultClasses = /* @__PURE__ */ wordOf(
     faultClass1: bitField(2, 2, DoubleBit),
     faultClass0: bitField(0, 2, DoubleBit),
   },
-);
-export const ControlRegister2 = /* @__PURE__ */ wordOf(
+))();
+export const ControlRegister2 = /* @__PURE__ */ (() => wordOf(
   "ControlRegister2",
   {
     generatorBreakerEnable: bitField(14, 2, DoubleBit),
@@ -209,12 +209,9 @@ export const ControlRegister2 = /* @__PURE__ */ wordOf(
     mainsParallel: bitField(4, 2, DoubleBit),
     synchronisationOn: bitField(2, 2, DoubleBit),
   },
-);
-export const ControlRegister1 = /* @__PURE__ */ wordOf(
-  "ControlRegister1",
-  { acknowledgeF2F3: bitField(10, 2, DoubleBit), acknowledgeF1: bitField(8, 2, DoubleBit) },
-);
-export const InternalFaults8 = /* @__PURE__ */ wordOf(
+))();
+export const ControlRegister1 = /* @__PURE__ */ (() => wordOf("ControlRegister1", { acknowledgeF2F3: bitField(10, 2, DoubleBit), acknowledgeF1: bitField(8, 2, DoubleBit) }))();
+export const InternalFaults8 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults8",
   {
     generatorOverfrequencyStage2: bitFlag(15),
@@ -224,8 +221,8 @@ export const InternalFaults8 = /* @__PURE__ */ wordOf(
     reactivePowerInductive: bitFlag(11),
     reactivePowerCapacitive: bitFlag(10),
   },
-);
-export const InternalFaults6 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults6 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults6",
   {
     analogInput8WireBreak: bitFlag(7),
@@ -237,8 +234,8 @@ export const InternalFaults6 = /* @__PURE__ */ wordOf(
     analogInput2WireBreak: bitFlag(1),
     analogInput1WireBreak: bitFlag(0),
   },
-);
-export const InternalFaults1 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults1 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults1",
   {
     generatorOverfrequency1: bitField(14, 2, DoubleBit),
@@ -249,8 +246,8 @@ export const InternalFaults1 = /* @__PURE__ */ wordOf(
     overload: bitField(2, 2, DoubleBit),
     reversePower: bitField(0, 2, DoubleBit),
   },
-);
-export const InternalFaults2 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults2 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults2",
   {
     mainsOverfrequency: bitField(14, 2, DoubleBit),
@@ -261,8 +258,8 @@ export const InternalFaults2 = /* @__PURE__ */ wordOf(
     frequencyGradientFault: bitField(2, 2, DoubleBit),
     phaseShift: bitField(0, 2, DoubleBit),
   },
-);
-export const InternalFaults3 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults3 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults3",
   {
     generatorOvercurrent1: bitField(14, 2, DoubleBit),
@@ -271,8 +268,8 @@ export const InternalFaults3 = /* @__PURE__ */ wordOf(
     interfaceY1Y5Fault: bitField(4, 2, DoubleBit),
     maintenanceCall: bitField(2, 2, DoubleBit),
   },
-);
-export const InternalFaults4 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults4 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults4",
   {
     analogInput1Stage1: bitField(14, 2, DoubleBit),
@@ -284,8 +281,8 @@ export const InternalFaults4 = /* @__PURE__ */ wordOf(
     analogInput4Stage1: bitField(2, 2, DoubleBit),
     analogInput4Stage2: bitField(0, 2, DoubleBit),
   },
-);
-export const InternalFaults5 = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults5 = /* @__PURE__ */ (() => wordOf(
   "InternalFaults5",
   {
     analogInput5Stage1: bitField(14, 2, DoubleBit),
@@ -297,8 +294,8 @@ export const InternalFaults5 = /* @__PURE__ */ wordOf(
     analogInput8Stage1: bitField(2, 2, DoubleBit),
     analogInput8Stage2: bitField(0, 2, DoubleBit),
   },
-);
-export const DigitalInputFaults1To8 = /* @__PURE__ */ wordOf(
+))();
+export const DigitalInputFaults1To8 = /* @__PURE__ */ (() => wordOf(
   "DigitalInputFaults1To8",
   {
     digitalInput1: bitField(14, 2, DoubleBit),
@@ -310,8 +307,8 @@ export const DigitalInputFaults1To8 = /* @__PURE__ */ wordOf(
     digitalInput7: bitField(2, 2, DoubleBit),
     digitalInput8: bitField(0, 2, DoubleBit),
   },
-);
-export const DigitalInputFaults9To16 = /* @__PURE__ */ wordOf(
+))();
+export const DigitalInputFaults9To16 = /* @__PURE__ */ (() => wordOf(
   "DigitalInputFaults9To16",
   {
     digitalInput9: bitField(14, 2, DoubleBit),
@@ -323,116 +320,44 @@ export const DigitalInputFaults9To16 = /* @__PURE__ */ wordOf(
     digitalInput15: bitField(2, 2, DoubleBit),
     digitalInput16: bitField(0, 2, DoubleBit),
   },
-);
-export const InternalFaults7 = /* @__PURE__ */ wordOf(
-  "InternalFaults7",
-  { earthFault: bitFlag(13), overcurrentInverseTime: bitFlag(12) },
-);
-export const DigitalInputs1To4Logic = /* @__PURE__ */ wordOf(
-  "DigitalInputs1To4Logic",
-  { input1: bitFlag(3), input2: bitFlag(2), input3: bitFlag(1), input4: bitFlag(0) },
-);
-export const DigitalInputs1To4EngineDelay = /* @__PURE__ */ wordOf(
+))();
+export const InternalFaults7 = /* @__PURE__ */ (() => wordOf("InternalFaults7", { earthFault: bitFlag(13), overcurrentInverseTime: bitFlag(12) }))();
+export const DigitalInputs1To4Logic = /* @__PURE__ */ (() => wordOf("DigitalInputs1To4Logic", { input1: bitFlag(3), input2: bitFlag(2), input3: bitFlag(1), input4: bitFlag(0) }))();
+export const DigitalInputs1To4EngineDelay = /* @__PURE__ */ (() => wordOf(
   "DigitalInputs1To4EngineDelay",
   { input1: bitFlag(3), input2: bitFlag(2), input3: bitFlag(1), input4: bitFlag(0) },
-);
-export const DigitalInputs5To8Logic = /* @__PURE__ */ wordOf(
-  "DigitalInputs5To8Logic",
-  { input5: bitFlag(3), input6: bitFlag(2), input7: bitFlag(1), input8: bitFlag(0) },
-);
-export const DigitalInputs5To8EngineDelay = /* @__PURE__ */ wordOf(
+))();
+export const DigitalInputs5To8Logic = /* @__PURE__ */ (() => wordOf("DigitalInputs5To8Logic", { input5: bitFlag(3), input6: bitFlag(2), input7: bitFlag(1), input8: bitFlag(0) }))();
+export const DigitalInputs5To8EngineDelay = /* @__PURE__ */ (() => wordOf(
   "DigitalInputs5To8EngineDelay",
   { input5: bitFlag(3), input6: bitFlag(2), input7: bitFlag(1), input8: bitFlag(0) },
-);
-export const DigitalInputs9To12Logic = /* @__PURE__ */ wordOf(
+))();
+export const DigitalInputs9To12Logic = /* @__PURE__ */ (() => wordOf(
   "DigitalInputs9To12Logic",
   { input9: bitFlag(3), input10: bitFlag(2), input11: bitFlag(1), input12: bitFlag(0) },
-);
-export const DigitalInputs9To12EngineDelay = /* @__PURE__ */ wordOf(
+))();
+export const DigitalInputs9To12EngineDelay = /* @__PURE__ */ (() => wordOf(
   "DigitalInputs9To12EngineDelay",
   { input9: bitFlag(3), input10: bitFlag(2), input11: bitFlag(1), input12: bitFlag(0) },
-);
-export const Relay1Logic1 = /* @__PURE__ */ wordOf(
-  "Relay1Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay1Logic2 = /* @__PURE__ */ wordOf(
-  "Relay1Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay1Logic3 = /* @__PURE__ */ wordOf(
-  "Relay1Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay2Logic1 = /* @__PURE__ */ wordOf(
-  "Relay2Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay2Logic2 = /* @__PURE__ */ wordOf(
-  "Relay2Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay2Logic3 = /* @__PURE__ */ wordOf(
-  "Relay2Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay3Logic1 = /* @__PURE__ */ wordOf(
-  "Relay3Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay3Logic2 = /* @__PURE__ */ wordOf(
-  "Relay3Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay3Logic3 = /* @__PURE__ */ wordOf(
-  "Relay3Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay4Logic1 = /* @__PURE__ */ wordOf(
-  "Relay4Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay4Logic2 = /* @__PURE__ */ wordOf(
-  "Relay4Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay4Logic3 = /* @__PURE__ */ wordOf(
-  "Relay4Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay5Logic1 = /* @__PURE__ */ wordOf(
-  "Relay5Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay5Logic2 = /* @__PURE__ */ wordOf(
-  "Relay5Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay5Logic3 = /* @__PURE__ */ wordOf(
-  "Relay5Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay6Logic1 = /* @__PURE__ */ wordOf(
-  "Relay6Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay6Logic2 = /* @__PURE__ */ wordOf(
-  "Relay6Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay6Logic3 = /* @__PURE__ */ wordOf(
-  "Relay6Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay7Logic1 = /* @__PURE__ */ wordOf(
-  "Relay7Logic1",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay7Logic2 = /* @__PURE__ */ wordOf(
-  "Relay7Logic2",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
-export const Relay7Logic3 = /* @__PURE__ */ wordOf(
-  "Relay7Logic3",
-  { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) },
-);
+))();
+export const Relay1Logic1 = /* @__PURE__ */ (() => wordOf("Relay1Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay1Logic2 = /* @__PURE__ */ (() => wordOf("Relay1Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay1Logic3 = /* @__PURE__ */ (() => wordOf("Relay1Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay2Logic1 = /* @__PURE__ */ (() => wordOf("Relay2Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay2Logic2 = /* @__PURE__ */ (() => wordOf("Relay2Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay2Logic3 = /* @__PURE__ */ (() => wordOf("Relay2Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay3Logic1 = /* @__PURE__ */ (() => wordOf("Relay3Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay3Logic2 = /* @__PURE__ */ (() => wordOf("Relay3Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay3Logic3 = /* @__PURE__ */ (() => wordOf("Relay3Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay4Logic1 = /* @__PURE__ */ (() => wordOf("Relay4Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay4Logic2 = /* @__PURE__ */ (() => wordOf("Relay4Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay4Logic3 = /* @__PURE__ */ (() => wordOf("Relay4Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay5Logic1 = /* @__PURE__ */ (() => wordOf("Relay5Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay5Logic2 = /* @__PURE__ */ (() => wordOf("Relay5Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay5Logic3 = /* @__PURE__ */ (() => wordOf("Relay5Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay6Logic1 = /* @__PURE__ */ (() => wordOf("Relay6Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay6Logic2 = /* @__PURE__ */ (() => wordOf("Relay6Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay6Logic3 = /* @__PURE__ */ (() => wordOf("Relay6Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay7Logic1 = /* @__PURE__ */ (() => wordOf("Relay7Logic1", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay7Logic2 = /* @__PURE__ */ (() => wordOf("Relay7Logic2", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();
+export const Relay7Logic3 = /* @__PURE__ */ (() => wordOf("Relay7Logic3", { last: bitFlag(2), inverted: bitFlag(1), andWithNext: bitFlag(0) }))();

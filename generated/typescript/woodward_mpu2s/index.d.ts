@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate woodward_mpu2s --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Woodward MPU2-S: its device, its points, and names for their numbers. */
-import type { Handles, Line } from "fieldscribe-runtime";
+import type { Handles, Line, Point } from "fieldscribe-runtime";
 import { CanDevice } from "fieldscribe-runtime/can";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -17,5 +17,10 @@ export interface WoodwardMpu2sOptions {
 /** Woodward MPU2-S on a line. */
 export declare class WoodwardMpu2s extends CanDevice {
   constructor(line: Line, options: WoodwardMpu2sOptions);
+  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  readMany(
+    what: "visualisation_data" | "parameters_access" | "parameters_general" | "parameters_controllers" | "parameters_breaker" | "parameters_synchronisation" | "parameters_monitoring_generator" | "parameters_monitoring_mains" | "parameters_monitoring_power" | "parameters_inputs" | "parameters_texts" | "parameters_analog" | "parameters_relays" | "parameters_operation" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "woodward_mpu2s">>,
+    how?: { errors?: "raise" | "return" },
+  ): Promise<Record<string, any>>;
 }
 export interface WoodwardMpu2s extends Handles<typeof points> {}

@@ -81,1057 +81,1057 @@ import {
   Switch2,
 } from "./enums.js";
 
-export const telegramIdentification = /* @__PURE__ */ readOnly(integer(U16), {
+export const telegramIdentification = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "telegram_identification", at: telegram("visualisation", 0), group: "visualisation_data", references: { mux: 0, word: 1, nr: 1 },
-});
-export const generatorFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const generatorFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "generator_frequency", at: telegram("visualisation", 1), group: "visualisation_data", references: { mux: 0, word: 2, nr: 2 },
   unit: "Hz",
-});
-export const generatorActivePower = /* @__PURE__ */ readOnly(scaled(S16, rule({ factors: [factor("generatorPowerExponent", { power: -1, tenTo: [0, 5] })] }), { decimals: 0 }), {
+}))();
+export const generatorActivePower = /* @__PURE__ */ (() => readOnly(scaled(S16, rule({ factors: [factor("generatorPowerExponent", { power: -1, tenTo: [0, 5] })] }), { decimals: 0 }), {
   name: "generator_active_power", at: telegram("visualisation", 2), group: "visualisation_data", references: { mux: 0, word: 3, nr: 3 },
   unit: "W",
-});
-export const generatorPowerExponent = /* @__PURE__ */ readOnly(integer(S8), {
+}))();
+export const generatorPowerExponent = /* @__PURE__ */ (() => readOnly(integer(S8), {
   name: "generator_power_exponent", at: telegram("visualisation", 3), bits: [15, 8], group: "visualisation_data", code: "PGNEXPO", references: { mux: 1, word: 1, nr: 4 },
   allowed: [[0, 5]],
-});
-export const generatorVoltageExponent = /* @__PURE__ */ readOnly(integer(S8), {
+}))();
+export const generatorVoltageExponent = /* @__PURE__ */ (() => readOnly(integer(S8), {
   name: "generator_voltage_exponent", at: telegram("visualisation", 3), bits: [7, 0], group: "visualisation_data", code: "UGNEXPO", references: { mux: 1, word: 1, nr: 4 },
   allowed: [[-4, 4]],
-});
-export const presentActivePowerSetpoint = /* @__PURE__ */ readOnly(scaled(S16, rule({ num: 2800, factors: [factor("activePowerSetpointFactor", { power: -1 }), factor("generatorPowerExponent", { power: -1, tenTo: [0, 5] })] }), { decimals: 4 }), {
+}))();
+export const presentActivePowerSetpoint = /* @__PURE__ */ (() => readOnly(scaled(S16, rule({ num: 2800, factors: [factor("activePowerSetpointFactor", { power: -1 }), factor("generatorPowerExponent", { power: -1, tenTo: [0, 5] })] }), { decimals: 4 }), {
   name: "present_active_power_setpoint", at: telegram("visualisation", 4), group: "visualisation_data", references: { mux: 1, word: 2, nr: 5 },
   unit: "W",
-});
-export const activePowerSetpointFactor = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const activePowerSetpointFactor = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "active_power_setpoint_factor", at: telegram("visualisation", 5), group: "visualisation_data", code: "PGNWWD", references: { mux: 1, word: 3, nr: 6 },
-});
-export const busbarVoltageL1L2 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("busbarVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const busbarVoltageL1L2 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("busbarVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "busbar_voltage_l1_l2", at: telegram("visualisation", 6), group: "visualisation_data", references: { mux: 2, word: 1, nr: 7 },
   unit: "V",
-});
-export const mainsVoltageL1L2 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL1L2 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l1_l2", at: telegram("visualisation", 7), group: "visualisation_data", references: { mux: 2, word: 2, nr: 8 },
   unit: "V",
-});
-export const presentFaultClasses = /* @__PURE__ */ readOnly(flags(U16, PresentFaultClasses), {
+}))();
+export const presentFaultClasses = /* @__PURE__ */ (() => readOnly(flags(U16, PresentFaultClasses), {
   name: "present_fault_classes", at: telegram("visualisation", 8), group: "visualisation_data", references: { mux: 2, word: 3, nr: 9 },
-});
-export const controlRegister2 = /* @__PURE__ */ readOnly(flags(U16, ControlRegister2), {
+}))();
+export const controlRegister2 = /* @__PURE__ */ (() => readOnly(flags(U16, ControlRegister2), {
   name: "control_register_2", at: telegram("visualisation", 9), group: "visualisation_data", references: { mux: 3, word: 1, nr: 10 },
-});
-export const controlRegister1 = /* @__PURE__ */ readOnly(flags(U16, ControlRegister1), {
+}))();
+export const controlRegister1 = /* @__PURE__ */ (() => readOnly(flags(U16, ControlRegister1), {
   name: "control_register_1", at: telegram("visualisation", 11), group: "visualisation_data", references: { mux: 3, word: 3, nr: 12 },
-});
-export const internalFaults8 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults8), {
+}))();
+export const internalFaults8 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults8), {
   name: "internal_faults_8", at: telegram("visualisation", 12), group: "visualisation_data", references: { mux: 4, word: 1, nr: 13 },
-});
-export const internalFaults6 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults6), {
+}))();
+export const internalFaults6 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults6), {
   name: "internal_faults_6", at: telegram("visualisation", 13), group: "visualisation_data", references: { mux: 4, word: 2, nr: 14 },
-});
-export const generatorVoltageL2L3 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL2L3 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l2_l3", at: telegram("visualisation", 14), group: "visualisation_data", references: { mux: 4, word: 3, nr: 15 },
   unit: "V",
-});
-export const generatorVoltageL3L1 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL3L1 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l3_l1", at: telegram("visualisation", 15), group: "visualisation_data", references: { mux: 5, word: 1, nr: 16 },
   unit: "V",
-});
-export const generatorVoltageL1N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL1N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l1_n", at: telegram("visualisation", 16), group: "visualisation_data", references: { mux: 5, word: 2, nr: 17 },
   unit: "V",
-});
-export const generatorVoltageL2N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL2N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l2_n", at: telegram("visualisation", 17), group: "visualisation_data", references: { mux: 5, word: 3, nr: 18 },
   unit: "V",
-});
-export const generatorVoltageL3N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL3N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l3_n", at: telegram("visualisation", 18), group: "visualisation_data", references: { mux: 6, word: 1, nr: 19 },
   unit: "V",
-});
-export const generatorVoltageL1L2 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const generatorVoltageL1L2 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "generator_voltage_l1_l2", at: telegram("visualisation", 19), group: "visualisation_data", references: { mux: 6, word: 2, nr: 20 },
   unit: "V",
-});
-export const generatorCurrentL1 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
+}))();
+export const generatorCurrentL1 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
   name: "generator_current_l1", at: telegram("visualisation", 21), group: "visualisation_data", references: { mux: 7, word: 1, nr: 22 },
   unit: "A",
-});
-export const generatorCurrentL2 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
+}))();
+export const generatorCurrentL2 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
   name: "generator_current_l2", at: telegram("visualisation", 22), group: "visualisation_data", references: { mux: 7, word: 2, nr: 23 },
   unit: "A",
-});
-export const generatorCurrentL3 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
+}))();
+export const generatorCurrentL3 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("generatorCurrentExponent", { power: -1, tenTo: [-3, 3] })] }), { decimals: 3 }), {
   name: "generator_current_l3", at: telegram("visualisation", 23), group: "visualisation_data", references: { mux: 7, word: 3, nr: 24 },
   unit: "A",
-});
-export const generatorCosPhi = /* @__PURE__ */ readOnly(scaled(S16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const generatorCosPhi = /* @__PURE__ */ (() => readOnly(scaled(S16, rule({ num: 100 }), { decimals: 2 }), {
   name: "generator_cos_phi", at: telegram("visualisation", 25), group: "visualisation_data", references: { mux: 8, word: 2, nr: 26 },
-});
-export const loadSharingParticipants = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const loadSharingParticipants = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "load_sharing_participants", at: telegram("visualisation", 28), group: "visualisation_data", references: { mux: 9, word: 2, nr: 29 },
-});
-export const mainsState = /* @__PURE__ */ readOnly(named(U8, SupplyPresence, { closed: true }), {
+}))();
+export const mainsState = /* @__PURE__ */ (() => readOnly(named(U8, SupplyPresence, { closed: true }), {
   name: "mains_state", at: telegram("visualisation", 29), bits: [15, 8], group: "visualisation_data", references: { mux: 9, word: 3, nr: 30 },
-});
-export const generatorState = /* @__PURE__ */ readOnly(named(U8, SupplyPresence, { closed: true }), {
+}))();
+export const generatorState = /* @__PURE__ */ (() => readOnly(named(U8, SupplyPresence, { closed: true }), {
   name: "generator_state", at: telegram("visualisation", 29), bits: [7, 0], group: "visualisation_data", references: { mux: 9, word: 3, nr: 30 },
-});
-export const generatorCurrentExponent = /* @__PURE__ */ readOnly(integer(S8), {
+}))();
+export const generatorCurrentExponent = /* @__PURE__ */ (() => readOnly(integer(S8), {
   name: "generator_current_exponent", at: telegram("visualisation", 30), bits: [15, 8], group: "visualisation_data", code: "IGNEXPO", references: { mux: 10, word: 1, nr: 31 },
   allowed: [[-3, 3]],
-});
-export const busbarFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const busbarFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "busbar_frequency", at: telegram("visualisation", 31), group: "visualisation_data", references: { mux: 10, word: 2, nr: 32 },
   unit: "Hz",
-});
-export const busbarState = /* @__PURE__ */ readOnly(named(U8, SupplyPresence, { closed: true }), {
+}))();
+export const busbarState = /* @__PURE__ */ (() => readOnly(named(U8, SupplyPresence, { closed: true }), {
   name: "busbar_state", at: telegram("visualisation", 32), bits: [15, 8], group: "visualisation_data", references: { mux: 10, word: 3, nr: 33 },
-});
-export const mainsVoltageL2L3 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL2L3 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l2_l3", at: telegram("visualisation", 33), group: "visualisation_data", references: { mux: 11, word: 1, nr: 34 },
   unit: "V",
-});
-export const mainsVoltageL3L1 = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL3L1 = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l3_l1", at: telegram("visualisation", 34), group: "visualisation_data", references: { mux: 11, word: 2, nr: 35 },
   unit: "V",
-});
-export const mainsVoltageL1N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL1N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l1_n", at: telegram("visualisation", 35), group: "visualisation_data", references: { mux: 11, word: 3, nr: 36 },
   unit: "V",
-});
-export const mainsVoltageL2N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL2N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l2_n", at: telegram("visualisation", 36), group: "visualisation_data", references: { mux: 12, word: 1, nr: 37 },
   unit: "V",
-});
-export const mainsVoltageL3N = /* @__PURE__ */ readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
+}))();
+export const mainsVoltageL3N = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ factors: [factor("mainsVoltageExponent", { power: -1, tenTo: [-4, 4] })] }), { decimals: 4 }), {
   name: "mains_voltage_l3_n", at: telegram("visualisation", 37), group: "visualisation_data", references: { mux: 12, word: 2, nr: 38 },
   unit: "V",
-});
-export const mainsFrequency = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const mainsFrequency = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 100 }), { decimals: 2 }), {
   name: "mains_frequency", at: telegram("visualisation", 38), group: "visualisation_data", references: { mux: 12, word: 3, nr: 39 },
   unit: "Hz",
-});
-export const mainsVoltageExponent = /* @__PURE__ */ readOnly(integer(S8), {
+}))();
+export const mainsVoltageExponent = /* @__PURE__ */ (() => readOnly(integer(S8), {
   name: "mains_voltage_exponent", at: telegram("visualisation", 42), bits: [7, 0], group: "visualisation_data", code: "UNTEXPO", references: { mux: 14, word: 1, nr: 43 },
   allowed: [[-4, 4]],
-});
-export const busbarVoltageExponent = /* @__PURE__ */ readOnly(integer(S8), {
+}))();
+export const busbarVoltageExponent = /* @__PURE__ */ (() => readOnly(integer(S8), {
   name: "busbar_voltage_exponent", at: telegram("visualisation", 43), bits: [7, 0], group: "visualisation_data", code: "USSEXPO", references: { mux: 14, word: 2, nr: 44 },
   allowed: [[-4, 4]],
-});
-export const operatingHours = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const operatingHours = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "operating_hours", at: telegram("visualisation", 44, 45), group: "visualisation_data", references: { mux: 14, word: 3, nr: 45 },
   unit: "h",
-});
-export const hoursUntilMaintenance = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const hoursUntilMaintenance = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "hours_until_maintenance", at: telegram("visualisation", 46), group: "visualisation_data", references: { mux: 15, word: 2, nr: 47 },
   unit: "h",
-});
-export const engineStartCounter = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const engineStartCounter = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "engine_start_counter", at: telegram("visualisation", 47), group: "visualisation_data", references: { mux: 15, word: 3, nr: 48 },
-});
-export const generatorActiveEnergy = /* @__PURE__ */ readOnly(integer(U32), {
+}))();
+export const generatorActiveEnergy = /* @__PURE__ */ (() => readOnly(integer(U32), {
   name: "generator_active_energy", at: telegram("visualisation", 49, 50), group: "visualisation_data", references: { mux: 16, word: 2, nr: 50 },
   unit: "kWh",
-});
-export const batteryVoltage = /* @__PURE__ */ readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const batteryVoltage = /* @__PURE__ */ (() => readOnly(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "battery_voltage", at: telegram("visualisation", 51), group: "visualisation_data", references: { mux: 17, word: 1, nr: 52 },
   unit: "V",
-});
-export const internalFaults1 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults1), {
+}))();
+export const internalFaults1 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults1), {
   name: "internal_faults_1", at: telegram("visualisation", 52), group: "visualisation_data", references: { mux: 17, word: 2, nr: 53 },
-});
-export const internalFaults2 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults2), {
+}))();
+export const internalFaults2 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults2), {
   name: "internal_faults_2", at: telegram("visualisation", 53), group: "visualisation_data", references: { mux: 17, word: 3, nr: 54 },
-});
-export const internalFaults3 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults3), {
+}))();
+export const internalFaults3 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults3), {
   name: "internal_faults_3", at: telegram("visualisation", 54), group: "visualisation_data", references: { mux: 18, word: 1, nr: 55 },
-});
-export const internalFaults4 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults4), {
+}))();
+export const internalFaults4 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults4), {
   name: "internal_faults_4", at: telegram("visualisation", 55), group: "visualisation_data", references: { mux: 18, word: 2, nr: 56 },
-});
-export const internalFaults5 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults5), {
+}))();
+export const internalFaults5 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults5), {
   name: "internal_faults_5", at: telegram("visualisation", 56), group: "visualisation_data", references: { mux: 18, word: 3, nr: 57 },
-});
-export const digitalInputFaults1To8 = /* @__PURE__ */ readOnly(flags(U16, DigitalInputFaults1To8), {
+}))();
+export const digitalInputFaults1To8 = /* @__PURE__ */ (() => readOnly(flags(U16, DigitalInputFaults1To8), {
   name: "digital_input_faults_1_to_8", at: telegram("visualisation", 57), group: "visualisation_data", references: { mux: 19, word: 1, nr: 58 },
-});
-export const digitalInputFaults9To16 = /* @__PURE__ */ readOnly(flags(U16, DigitalInputFaults9To16), {
+}))();
+export const digitalInputFaults9To16 = /* @__PURE__ */ (() => readOnly(flags(U16, DigitalInputFaults9To16), {
   name: "digital_input_faults_9_to_16", at: telegram("visualisation", 58), group: "visualisation_data", references: { mux: 19, word: 2, nr: 59 },
-});
-export const internalFaults7 = /* @__PURE__ */ readOnly(flags(U16, InternalFaults7), {
+}))();
+export const internalFaults7 = /* @__PURE__ */ (() => readOnly(flags(U16, InternalFaults7), {
   name: "internal_faults_7", at: telegram("visualisation", 59), group: "visualisation_data", references: { mux: 19, word: 3, nr: 60 },
-});
-export const passwordLevel2 = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const passwordLevel2 = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "password_level_2", at: parameter(500), group: "parameters_access",
   allowed: [[0, 9999]],
-});
-export const generatorFrequencySetpoint = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorFrequencySetpoint = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_frequency_setpoint", at: parameter(11), group: "parameters_general",
   unit: "Hz", allowed: [[10240, 17920]], conditions: ["password"],
-});
-export const generatorRatedFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorRatedFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_rated_frequency", at: parameter(12), group: "parameters_general",
   unit: "Hz", allowed: [[12800, 15360]], conditions: ["password"],
-});
-export const generatorVtSecondary100v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorVtSecondary100v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_vt_secondary", item: "generator_vt_secondary_100v", at: parameter(9), group: "parameters_general",
   unit: "V", allowed: [[50, 125]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorVtSecondary400v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorVtSecondary400v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_vt_secondary", item: "generator_vt_secondary_400v", at: parameter(9), group: "parameters_general",
   unit: "V", allowed: [[50, 480]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorVtPrimary = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorVtPrimary = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_vt_primary", at: parameter(1), group: "parameters_general",
   unit: "V", allowed: [[5, 65000]], conditions: ["password"],
-});
-export const busbarVtSecondary100v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const busbarVtSecondary100v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "busbar_vt_secondary", item: "busbar_vt_secondary_100v", at: parameter(498), group: "parameters_general",
   unit: "V", allowed: [[50, 125]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const busbarVtSecondary400v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const busbarVtSecondary400v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "busbar_vt_secondary", item: "busbar_vt_secondary_400v", at: parameter(498), group: "parameters_general",
   unit: "V", allowed: [[50, 480]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const busbarVtPrimary = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const busbarVtPrimary = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "busbar_vt_primary", at: parameter(499), group: "parameters_general",
   unit: "V", allowed: [[5, 65000]], conditions: ["password"],
-});
-export const mainsVtSecondary100v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const mainsVtSecondary100v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "mains_vt_secondary", item: "mains_vt_secondary_100v", at: parameter(282), group: "parameters_general",
   unit: "V", allowed: [[50, 125]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const mainsVtSecondary400v = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const mainsVtSecondary400v = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "mains_vt_secondary", item: "mains_vt_secondary_400v", at: parameter(282), group: "parameters_general",
   unit: "V", allowed: [[50, 480]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const mainsVtPrimary = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const mainsVtPrimary = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "mains_vt_primary", at: parameter(3), group: "parameters_general",
   unit: "V", allowed: [[5, 65000]], conditions: ["password"],
-});
-export const generatorVoltageFactor = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const generatorVoltageFactor = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "generator_voltage_factor", at: parameter(507), group: "parameters_general", code: "KWUGNSEK",
   changesWith: ["generatorVtSecondary", "generatorVtPrimary", "busbarVtSecondary", "busbarVtPrimary", "mainsVtSecondary", "mainsVtPrimary", "generatorCurrentTransformerRatio"],
-});
-export const generatorVoltageSetpoint100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorVoltageSetpoint100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_voltage_setpoint", item: "generator_voltage_setpoint_100v", at: parameter(10), group: "parameters_general",
   unit: "V", allowed: [[limit(rule({ den: 16, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 4096, unless: {} }), limit(rule({ num: 5, den: 16, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 20480, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorVoltageSetpoint400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorVoltageSetpoint400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_voltage_setpoint", item: "generator_voltage_setpoint_400v", at: parameter(10), group: "parameters_general",
   unit: "V", allowed: [[limit(rule({ den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 8192, unless: {} }), limit(rule({ num: 6, den: 5, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorRatedVoltage100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorRatedVoltage100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_rated_voltage", item: "generator_rated_voltage_100v", at: parameter(296), group: "parameters_general",
   unit: "V", allowed: [[limit(rule({ den: 16, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 4096, unless: {} }), limit(rule({ num: 5, den: 16, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 20480, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorRatedVoltage400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorRatedVoltage400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_rated_voltage", item: "generator_rated_voltage_400v", at: parameter(296), group: "parameters_general",
   unit: "V", allowed: [[limit(rule({ den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 8192, unless: {} }), limit(rule({ num: 6, den: 5, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorCurrentTransformerRatio = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorCurrentTransformerRatio = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_current_transformer_ratio", at: parameter(2), group: "parameters_general",
   unit: "A", allowed: [[10, 7000]], conditions: ["password"],
-});
-export const powerMeasurementPhases = /* @__PURE__ */ readWrite(named(BIT, PowerMeasurementPhases, { closed: true }), {
+}))();
+export const powerMeasurementPhases = /* @__PURE__ */ (() => readWrite(named(BIT, PowerMeasurementPhases, { closed: true }), {
   name: "power_measurement_phases", at: parameter(21), bits: [11, 11], group: "parameters_general",
   conditions: ["password"],
-});
-export const generatorRatedPower = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorRatedPower = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_rated_power", at: parameter(7), group: "parameters_general",
   unit: "kW", allowed: [[5, 9999]], conditions: ["password"],
-});
-export const generatorRatedCurrent = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorRatedCurrent = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_rated_current", at: parameter(71), group: "parameters_general",
   unit: "A", allowed: [[0, 7000]], conditions: ["password"],
-});
-export const generatorPowerSetpoint1 = /* @__PURE__ */ readWrite(integer(S16), {
+}))();
+export const generatorPowerSetpoint1 = /* @__PURE__ */ (() => readWrite(integer(S16), {
   name: "generator_power_setpoint_1", at: parameter(69), group: "parameters_general",
   unit: "kW", allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const generatorPowerSetpoint2 = /* @__PURE__ */ readWrite(integer(S16), {
+}))();
+export const generatorPowerSetpoint2 = /* @__PURE__ */ (() => readWrite(integer(S16), {
   name: "generator_power_setpoint_2", at: parameter(70), group: "parameters_general",
   unit: "kW", allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const frequencyController = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const frequencyController = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "frequency_controller", at: parameter(19), bits: [15, 14], group: "parameters_controllers",
   conditions: ["password"],
-});
-export const frequencyControllerStartFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const frequencyControllerStartFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "frequency_controller_start_frequency", at: parameter(57), group: "parameters_controllers",
   unit: "Hz", allowed: [[0, 17920]], conditions: ["password"],
-});
-export const frequencyControllerStartDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const frequencyControllerStartDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "frequency_controller_start_delay", at: parameter(497), group: "parameters_controllers",
   unit: "s", allowed: [[0, 49950]], conditions: ["password"],
-});
-export const frequencyControllerDeadBand = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const frequencyControllerDeadBand = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "frequency_controller_dead_band", at: parameter(44), group: "parameters_controllers",
   unit: "Hz", allowed: [[5, 256]], conditions: ["password"],
-});
-export const frequencyControllerPulseTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 2 }), { decimals: 0 }), {
+}))();
+export const frequencyControllerPulseTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 2 }), { decimals: 0 }), {
   name: "frequency_controller_pulse_time", at: parameter(45), group: "parameters_controllers",
   unit: "ms", allowed: [[5, 125]], conditions: ["password"],
-});
-export const frequencyControllerGain = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const frequencyControllerGain = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "frequency_controller_gain", at: parameter(46), group: "parameters_controllers",
   allowed: [[1, 999]], conditions: ["password"],
-});
-export const voltageController = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const voltageController = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "voltage_controller", at: parameter(19), bits: [11, 10], group: "parameters_controllers",
   conditions: ["password"],
-});
-export const voltageControllerDeadBand = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
+}))();
+export const voltageControllerDeadBand = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
   name: "voltage_controller_dead_band", at: parameter(37), group: "parameters_controllers",
   unit: "%", allowed: [[4, 600]], conditions: ["password"],
-});
-export const voltageControllerPulseTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 2 }), { decimals: 0 }), {
+}))();
+export const voltageControllerPulseTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 2 }), { decimals: 0 }), {
   name: "voltage_controller_pulse_time", at: parameter(38), group: "parameters_controllers",
   unit: "ms", allowed: [[10, 125]], conditions: ["password"],
-});
-export const voltageControllerGain = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const voltageControllerGain = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "voltage_controller_gain", at: parameter(39), group: "parameters_controllers",
   allowed: [[1, 999]], conditions: ["password"],
-});
-export const cosPhiController = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const cosPhiController = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "cos_phi_controller", at: parameter(19), bits: [9, 8], group: "parameters_controllers",
   conditions: ["password"],
-});
-export const cosPhiControllerSetpoint = /* @__PURE__ */ readWrite(scaled(S16, rule({ num: 100 }), { decimals: 2 }), {
+}))();
+export const cosPhiControllerSetpoint = /* @__PURE__ */ (() => readWrite(scaled(S16, rule({ num: 100 }), { decimals: 2 }), {
   name: "cos_phi_controller_setpoint", at: parameter(13), group: "parameters_controllers",
   allowed: [[-99, -70], [70, 100]], conditions: ["password"],
-});
-export const cosPhiControllerDeadBand = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const cosPhiControllerDeadBand = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "cos_phi_controller_dead_band", at: parameter(40), group: "parameters_controllers",
   unit: "%", allowed: [[5, 250]], conditions: ["password"],
-});
-export const cosPhiControllerGain = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const cosPhiControllerGain = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "cos_phi_controller_gain", at: parameter(42), group: "parameters_controllers",
   allowed: [[1, 999]], conditions: ["password"],
-});
-export const activePowerController = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const activePowerController = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "active_power_controller", at: parameter(19), bits: [13, 12], group: "parameters_controllers",
   conditions: ["password"],
-});
-export const activePowerControllerRamp = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const activePowerControllerRamp = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "active_power_controller_ramp", at: parameter(67), group: "parameters_controllers",
   unit: "%/s", allowed: [[0, 100]], conditions: ["password"],
-});
-export const activePowerControllerMaximum = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const activePowerControllerMaximum = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "active_power_controller_maximum", at: parameter(73), group: "parameters_controllers",
   unit: "%", allowed: [[100, 1200]], conditions: ["password"],
-});
-export const activePowerControllerMinimum = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const activePowerControllerMinimum = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "active_power_controller_minimum", at: parameter(74), group: "parameters_controllers",
   unit: "%", allowed: [[0, 500]], conditions: ["password"],
-});
-export const activePowerControllerDeadBand = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const activePowerControllerDeadBand = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "active_power_controller_dead_band", at: parameter(47), group: "parameters_controllers",
   unit: "%", allowed: [[1, 250]], conditions: ["password"],
-});
-export const activePowerControllerGain = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const activePowerControllerGain = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "active_power_controller_gain", at: parameter(49), group: "parameters_controllers",
   allowed: [[1, 999]], conditions: ["password"],
-});
-export const activePowerControllerReductionFactor = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const activePowerControllerReductionFactor = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "active_power_controller_reduction_factor", at: parameter(50), group: "parameters_controllers",
   allowed: [[10, 99]], conditions: ["password"],
-});
-export const partLoadLeadSetpoint = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const partLoadLeadSetpoint = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "part_load_lead_setpoint", at: parameter(76), group: "parameters_controllers",
   unit: "%", allowed: [[50, 1100]], conditions: ["password"],
-});
-export const partLoadLeadTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const partLoadLeadTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "part_load_lead_time", at: parameter(75), group: "parameters_controllers",
   unit: "s", allowed: [[0, 30000]], conditions: ["password"],
-});
-export const controlByInterfaceX1X5 = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const controlByInterfaceX1X5 = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "control_by_interface_x1_x5", at: parameter(201), bits: [7, 6], group: "parameters_breaker",
   conditions: ["password"],
-});
-export const breakerLogic = /* @__PURE__ */ readWrite(named(U8, BreakerLogic, { closed: true }), {
+}))();
+export const breakerLogic = /* @__PURE__ */ (() => readWrite(named(U8, BreakerLogic, { closed: true }), {
   name: "breaker_logic", at: parameter(16), bits: [11, 8], group: "parameters_breaker",
   conditions: ["password"],
-});
-export const loadRampMaximumTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const loadRampMaximumTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "load_ramp_maximum_time", at: parameter(141), group: "parameters_breaker",
   unit: "s", allowed: [[0, 49950]], conditions: ["password"],
-});
-export const generatorBreakerSignalLogic = /* @__PURE__ */ readWrite(named(BIT, GeneratorBreakerSignalLogic, { closed: true }), {
+}))();
+export const generatorBreakerSignalLogic = /* @__PURE__ */ (() => readWrite(named(BIT, GeneratorBreakerSignalLogic, { closed: true }), {
   name: "generator_breaker_signal_logic", at: parameter(21), bits: [3, 3], group: "parameters_breaker",
   conditions: ["password"],
-});
-export const generatorBreakerOpenRelayLogic = /* @__PURE__ */ readWrite(named(BIT, ContactLogic, { closed: true }), {
+}))();
+export const generatorBreakerOpenRelayLogic = /* @__PURE__ */ (() => readWrite(named(BIT, ContactLogic, { closed: true }), {
   name: "generator_breaker_open_relay_logic", at: parameter(248), bits: [2, 2], group: "parameters_breaker",
   conditions: ["password"],
-});
-export const synchronisationFrequencyDifferenceMax = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const synchronisationFrequencyDifferenceMax = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "synchronisation_frequency_difference_max", at: parameter(26), group: "parameters_synchronisation",
   unit: "Hz", allowed: [[5, 125]], conditions: ["password"],
-});
-export const synchronisationFrequencyDifferenceMin = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const synchronisationFrequencyDifferenceMin = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "synchronisation_frequency_difference_min", at: parameter(27), group: "parameters_synchronisation",
   unit: "Hz", allowed: [[0, 125]], conditions: ["password"],
-});
-export const synchronisationVoltageDifferenceMax = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
+}))();
+export const synchronisationVoltageDifferenceMax = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
   name: "synchronisation_voltage_difference_max", at: parameter(28), group: "parameters_synchronisation",
   unit: "%", allowed: [[4, 600]], conditions: ["password"],
-});
-export const synchronisationVoltageDifferenceMin = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
+}))();
+export const synchronisationVoltageDifferenceMin = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
   name: "synchronisation_voltage_difference_min", at: parameter(309), group: "parameters_synchronisation",
   unit: "%", allowed: [[4, 600]], conditions: ["password"],
-});
-export const synchronisationPulseTime = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const synchronisationPulseTime = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "synchronisation_pulse_time", at: parameter(31), group: "parameters_synchronisation",
   unit: "s", allowed: [[1, 13]], conditions: ["password"],
-});
-export const generatorBreakerPickUpTime = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const generatorBreakerPickUpTime = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "generator_breaker_pick_up_time", at: parameter(32), group: "parameters_synchronisation",
   unit: "ms", allowed: [[40, 300]], conditions: ["password"],
-});
-export const synchronisationTimeMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const synchronisationTimeMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "synchronisation_time_monitoring", at: parameter(21), bits: [0, 0], group: "parameters_synchronisation",
   conditions: ["password"],
-});
-export const synchronisationTimeMonitoringDelay = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const synchronisationTimeMonitoringDelay = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "synchronisation_time_monitoring_delay", at: parameter(34), group: "parameters_synchronisation",
   unit: "s", allowed: [[10, 999]], conditions: ["password"],
-});
-export const deadBusStart = /* @__PURE__ */ readWrite(named(U8, Switch2, { closed: true }), {
+}))();
+export const deadBusStart = /* @__PURE__ */ (() => readWrite(named(U8, Switch2, { closed: true }), {
   name: "dead_bus_start", at: parameter(19), bits: [5, 4], group: "parameters_synchronisation",
   conditions: ["password"],
-});
-export const deadBusStartFrequencyDifferenceMax = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const deadBusStartFrequencyDifferenceMax = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "dead_bus_start_frequency_difference_max", at: parameter(29), group: "parameters_synchronisation",
   unit: "Hz", allowed: [[13, 1280]], conditions: ["password"],
-});
-export const deadBusStartVoltageDifferenceMax = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
+}))();
+export const deadBusStartVoltageDifferenceMax = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 40 }), { decimals: 2 }), {
   name: "dead_bus_start_voltage_difference_max", at: parameter(30), group: "parameters_synchronisation",
   unit: "%", allowed: [[4, 800]], conditions: ["password"],
-});
-export const deadBusStartMaximumTime = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const deadBusStartMaximumTime = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "dead_bus_start_maximum_time", at: parameter(142), group: "parameters_synchronisation",
   unit: "s", allowed: [[0, 999]], conditions: ["password"],
-});
-export const generatorBreakerMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorBreakerMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_breaker_monitoring", at: parameter(17), bits: [12, 12], group: "parameters_synchronisation",
   conditions: ["password"],
-});
-export const automaticBreakerUnlocking = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const automaticBreakerUnlocking = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "automatic_breaker_unlocking", at: parameter(248), bits: [1, 1], group: "parameters_synchronisation",
   conditions: ["password"],
-});
-export const generatorOverloadMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorOverloadMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_overload_monitoring", at: parameter(15), bits: [11, 11], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const overloadThresholdParallelOperation = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const overloadThresholdParallelOperation = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "overload_threshold_parallel_operation", at: parameter(112), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[800, 1500]], conditions: ["password"],
-});
-export const overloadDelayParallelOperation = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const overloadDelayParallelOperation = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "overload_delay_parallel_operation", at: parameter(113), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[0, 4950]], conditions: ["password"],
-});
-export const overloadThresholdIsolatedOperation = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const overloadThresholdIsolatedOperation = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "overload_threshold_isolated_operation", at: parameter(414), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[800, 1500]], conditions: ["password"],
-});
-export const overloadDelayIsolatedOperation = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const overloadDelayIsolatedOperation = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "overload_delay_isolated_operation", at: parameter(126), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[0, 4950]], conditions: ["password"],
-});
-export const generatorReversePowerMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorReversePowerMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_reverse_power_monitoring", at: parameter(15), bits: [5, 5], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const reversePowerThreshold = /* @__PURE__ */ readWrite(scaled(S16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const reversePowerThreshold = /* @__PURE__ */ (() => readWrite(scaled(S16, rule({ num: 10 }), { decimals: 1 }), {
   name: "reverse_power_threshold", at: parameter(114), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[-990, 990]], conditions: ["password"],
-});
-export const reversePowerDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const reversePowerDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "reverse_power_delay", at: parameter(115), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[0, 4995]], conditions: ["password"],
-});
-export const generatorUnbalancedLoadMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorUnbalancedLoadMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_unbalanced_load_monitoring", at: parameter(15), bits: [10, 10], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const unbalancedLoadThreshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const unbalancedLoadThreshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "unbalanced_load_threshold", at: parameter(116), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[0, 1000]], conditions: ["password"],
-});
-export const unbalancedLoadDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const unbalancedLoadDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "unbalanced_load_delay", at: parameter(117), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 4999]], conditions: ["password"],
-});
-export const generatorOvercurrentMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorOvercurrentMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_overcurrent_monitoring", at: parameter(15), bits: [4, 4], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const overcurrent1Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const overcurrent1Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "overcurrent_1_threshold", at: parameter(118), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[0, 3000]], conditions: ["password"],
-});
-export const overcurrent1Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const overcurrent1Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "overcurrent_1_delay", at: parameter(119), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 4999]], conditions: ["password"],
-});
-export const overcurrent2Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const overcurrent2Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "overcurrent_2_threshold", at: parameter(428), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[0, 3000]], conditions: ["password"],
-});
-export const overcurrent2Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const overcurrent2Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "overcurrent_2_delay", at: parameter(429), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 4999]], conditions: ["password"],
-});
-export const inverseTimeOvercurrent = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const inverseTimeOvercurrent = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "inverse_time_overcurrent", at: parameter(248), bits: [10, 10], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const inverseTimeOvercurrentCharacteristic = /* @__PURE__ */ readWrite(named(U8, InverseTimeOvercurrentCharacteristic, { closed: true }), {
+}))();
+export const inverseTimeOvercurrentCharacteristic = /* @__PURE__ */ (() => readWrite(named(U8, InverseTimeOvercurrentCharacteristic, { closed: true }), {
   name: "inverse_time_overcurrent_characteristic", at: parameter(298), bits: [1, 0], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const inverseTimeOvercurrentTp = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const inverseTimeOvercurrentTp = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "inverse_time_overcurrent_tp", at: parameter(299), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[0, 99]], conditions: ["password"],
-});
-export const inverseTimeOvercurrentIp = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 1000 }), { decimals: 3 }), {
+}))();
+export const inverseTimeOvercurrentIp = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 1000 }), { decimals: 3 }), {
   name: "inverse_time_overcurrent_ip", at: parameter(300), group: "parameters_monitoring_generator",
   allowed: [[100, 3000]], conditions: ["password"],
-});
-export const inverseTimeOvercurrentIstart = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 1000 }), { decimals: 3 }), {
+}))();
+export const inverseTimeOvercurrentIstart = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 1000 }), { decimals: 3 }), {
   name: "inverse_time_overcurrent_istart", at: parameter(301), group: "parameters_monitoring_generator",
   allowed: [[1000, 3000]], conditions: ["password"],
-});
-export const inverseTimeOvercurrentByVoltage = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const inverseTimeOvercurrentByVoltage = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "inverse_time_overcurrent_by_voltage", at: parameter(248), bits: [11, 11], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const inverseTimeOvercurrentVoltageKnee = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const inverseTimeOvercurrentVoltageKnee = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "inverse_time_overcurrent_voltage_knee", at: parameter(302), group: "parameters_monitoring_generator",
   unit: "%", allowed: [[10, 90]], conditions: ["password"],
-});
-export const generatorOverfrequencyMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorOverfrequencyMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_overfrequency_monitoring", at: parameter(310), bits: [12, 12], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const generatorOverfrequency1Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorOverfrequency1Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_overfrequency_1_threshold", at: parameter(104), group: "parameters_monitoring_generator",
   unit: "Hz", allowed: [[10240, 21760]], conditions: ["password"],
-});
-export const generatorOverfrequency1Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorOverfrequency1Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_overfrequency_1_delay", at: parameter(105), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorOverfrequency2Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorOverfrequency2Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_overfrequency_2_threshold", at: parameter(288), group: "parameters_monitoring_generator",
   unit: "Hz", allowed: [[10240, 21760]], conditions: ["password"],
-});
-export const generatorOverfrequency2Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorOverfrequency2Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_overfrequency_2_delay", at: parameter(289), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorUnderfrequencyMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorUnderfrequencyMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_underfrequency_monitoring", at: parameter(310), bits: [3, 3], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const generatorUnderfrequency1Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorUnderfrequency1Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_underfrequency_1_threshold", at: parameter(106), group: "parameters_monitoring_generator",
   unit: "Hz", allowed: [[10240, 21760]], conditions: ["password"],
-});
-export const generatorUnderfrequency1Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorUnderfrequency1Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_underfrequency_1_delay", at: parameter(107), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorUnderfrequency2Threshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const generatorUnderfrequency2Threshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "generator_underfrequency_2_threshold", at: parameter(290), group: "parameters_monitoring_generator",
   unit: "Hz", allowed: [[10240, 21760]], conditions: ["password"],
-});
-export const generatorUnderfrequency2Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorUnderfrequency2Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_underfrequency_2_delay", at: parameter(291), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorOvervoltageMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorOvervoltageMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_overvoltage_monitoring", at: parameter(310), bits: [1, 1], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const generatorOvervoltage1Threshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorOvervoltage1Threshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_overvoltage_1_threshold", item: "generator_overvoltage_1_threshold_100v", at: parameter(108), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorOvervoltage1Threshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorOvervoltage1Threshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_overvoltage_1_threshold", item: "generator_overvoltage_1_threshold_400v", at: parameter(108), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorOvervoltage1Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorOvervoltage1Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_overvoltage_1_delay", at: parameter(109), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorOvervoltage2Threshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorOvervoltage2Threshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_overvoltage_2_threshold", item: "generator_overvoltage_2_threshold_100v", at: parameter(292), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorOvervoltage2Threshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorOvervoltage2Threshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_overvoltage_2_threshold", item: "generator_overvoltage_2_threshold_400v", at: parameter(292), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorOvervoltage2Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorOvervoltage2Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_overvoltage_2_delay", at: parameter(293), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorUndervoltageMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const generatorUndervoltageMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "generator_undervoltage_monitoring", at: parameter(310), bits: [0, 0], group: "parameters_monitoring_generator",
   conditions: ["password"],
-});
-export const generatorUndervoltage1Threshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorUndervoltage1Threshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_undervoltage_1_threshold", item: "generator_undervoltage_1_threshold_100v", at: parameter(110), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorUndervoltage1Threshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorUndervoltage1Threshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_undervoltage_1_threshold", item: "generator_undervoltage_1_threshold_400v", at: parameter(110), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorUndervoltage1Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorUndervoltage1Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_undervoltage_1_delay", at: parameter(111), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const generatorUndervoltage2Threshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorUndervoltage2Threshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_undervoltage_2_threshold", item: "generator_undervoltage_2_threshold_100v", at: parameter(294), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const generatorUndervoltage2Threshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const generatorUndervoltage2Threshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("generatorVoltageFactor")] }), { decimals: 3 }), {
   name: "generator_undervoltage_2_threshold", item: "generator_undervoltage_2_threshold_400v", at: parameter(294), group: "parameters_monitoring_generator",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("generatorVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const generatorUndervoltage2Delay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const generatorUndervoltage2Delay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "generator_undervoltage_2_delay", at: parameter(295), group: "parameters_monitoring_generator",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const mainsFrequencyMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const mainsFrequencyMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "mains_frequency_monitoring", at: parameter(15), bits: [14, 14], group: "parameters_monitoring_mains",
   conditions: ["password"],
-});
-export const mainsOverfrequencyThreshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const mainsOverfrequencyThreshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "mains_overfrequency_threshold", at: parameter(87), group: "parameters_monitoring_mains",
   unit: "Hz", allowed: [[10240, 17920]], conditions: ["password"],
-});
-export const mainsOverfrequencyDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const mainsOverfrequencyDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "mains_overfrequency_delay", at: parameter(88), group: "parameters_monitoring_mains",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const mainsUnderfrequencyThreshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const mainsUnderfrequencyThreshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "mains_underfrequency_threshold", at: parameter(89), group: "parameters_monitoring_mains",
   unit: "Hz", allowed: [[10240, 17920]], conditions: ["password"],
-});
-export const mainsUnderfrequencyDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const mainsUnderfrequencyDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "mains_underfrequency_delay", at: parameter(90), group: "parameters_monitoring_mains",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const mainsVoltageMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const mainsVoltageMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "mains_voltage_monitoring", at: parameter(15), bits: [15, 15], group: "parameters_monitoring_mains",
   conditions: ["password"],
-});
-export const mainsVoltageFactor = /* @__PURE__ */ readOnly(integer(U16), {
+}))();
+export const mainsVoltageFactor = /* @__PURE__ */ (() => readOnly(integer(U16), {
   name: "mains_voltage_factor", at: parameter(508), group: "parameters_monitoring_mains", code: "KWUNTSEK",
   changesWith: ["generatorVtSecondary", "generatorVtPrimary", "busbarVtSecondary", "busbarVtPrimary", "mainsVtSecondary", "mainsVtPrimary", "generatorCurrentTransformerRatio"],
-});
-export const mainsOvervoltageThreshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const mainsOvervoltageThreshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
   name: "mains_overvoltage_threshold", item: "mains_overvoltage_threshold_100v", at: parameter(91), group: "parameters_monitoring_mains",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const mainsOvervoltageThreshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const mainsOvervoltageThreshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
   name: "mains_overvoltage_threshold", item: "mains_overvoltage_threshold_400v", at: parameter(91), group: "parameters_monitoring_mains",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const mainsOvervoltageDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const mainsOvervoltageDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "mains_overvoltage_delay", at: parameter(92), group: "parameters_monitoring_mains",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const mainsUndervoltageThreshold100v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const mainsUndervoltageThreshold100v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
   name: "mains_undervoltage_threshold", item: "mains_undervoltage_threshold_100v", at: parameter(93), group: "parameters_monitoring_mains",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 3, den: 8, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 24576, unless: {} })]], conditions: ["password"], variant: ["voltage", "100V"],
-});
-export const mainsUndervoltageThreshold400v = /* @__PURE__ */ readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
+}))();
+export const mainsUndervoltageThreshold400v = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ den: 400, factors: [factor("mainsVoltageFactor")] }), { decimals: 3 }), {
   name: "mains_undervoltage_threshold", item: "mains_undervoltage_threshold_400v", at: parameter(93), group: "parameters_monitoring_mains",
   unit: "V", allowed: [[limit(rule({ den: 20, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 3277, unless: {} }), limit(rule({ num: 13, den: 10, factors: [factor("mainsVoltageFactor")] }), { least: 0, greatest: 65535, unless: {} })]], conditions: ["password"], variant: ["voltage", "400V"],
-});
-export const mainsUndervoltageDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const mainsUndervoltageDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "mains_undervoltage_delay", at: parameter(94), group: "parameters_monitoring_mains",
   unit: "s", allowed: [[1, 499]], conditions: ["password"],
-});
-export const phaseShiftMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const phaseShiftMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "phase_shift_monitoring", at: parameter(15), bits: [1, 1], group: "parameters_monitoring_mains",
   conditions: ["password"],
-});
-export const phaseShiftMonitoringPhases = /* @__PURE__ */ readWrite(named(BIT, PhaseShiftMonitoringPhases, { closed: true }), {
+}))();
+export const phaseShiftMonitoringPhases = /* @__PURE__ */ (() => readWrite(named(BIT, PhaseShiftMonitoringPhases, { closed: true }), {
   name: "phase_shift_monitoring_phases", at: parameter(21), bits: [13, 13], group: "parameters_monitoring_mains",
   conditions: ["password"],
-});
-export const phaseShiftThresholdSinglePhase = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const phaseShiftThresholdSinglePhase = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "phase_shift_threshold_single_phase", at: parameter(85), group: "parameters_monitoring_mains",
   unit: "°", allowed: [[3, 30]], conditions: ["password"],
-});
-export const phaseShiftThresholdThreePhase = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const phaseShiftThresholdThreePhase = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "phase_shift_threshold_three_phase", at: parameter(86), group: "parameters_monitoring_mains",
   unit: "°", allowed: [[3, 30]], conditions: ["password"],
-});
-export const reactivePowerMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const reactivePowerMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "reactive_power_monitoring", at: parameter(248), bits: [12, 12], group: "parameters_monitoring_power",
   conditions: ["password"],
-});
-export const reactivePowerThresholdInductive = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const reactivePowerThresholdInductive = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "reactive_power_threshold_inductive", at: parameter(303), group: "parameters_monitoring_power",
   unit: "%", allowed: [[50, 1000]], conditions: ["password"],
-});
-export const reactivePowerDelayInductive = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const reactivePowerDelayInductive = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "reactive_power_delay_inductive", at: parameter(306), group: "parameters_monitoring_power",
   unit: "s", allowed: [[0, 49950]], conditions: ["password"],
-});
-export const reactivePowerThresholdCapacitive = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const reactivePowerThresholdCapacitive = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "reactive_power_threshold_capacitive", at: parameter(304), group: "parameters_monitoring_power",
   unit: "%", allowed: [[50, 1000]], conditions: ["password"],
-});
-export const reactivePowerDelayCapacitive = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const reactivePowerDelayCapacitive = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "reactive_power_delay_capacitive", at: parameter(305), group: "parameters_monitoring_power",
   unit: "s", allowed: [[0, 49950]], conditions: ["password"],
-});
-export const earthFaultMonitoring = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const earthFaultMonitoring = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "earth_fault_monitoring", at: parameter(248), bits: [9, 9], group: "parameters_monitoring_power",
   conditions: ["password"],
-});
-export const earthFaultThreshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const earthFaultThreshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "earth_fault_threshold", at: parameter(307), group: "parameters_monitoring_power",
   unit: "%", allowed: [[50, 1000]], conditions: ["password"],
-});
-export const earthFaultDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const earthFaultDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "earth_fault_delay", at: parameter(308), group: "parameters_monitoring_power",
   unit: "s", allowed: [[1, 4999]], conditions: ["password"],
-});
-export const batteryUndervoltageThreshold = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
+}))();
+export const batteryUndervoltageThreshold = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 10 }), { decimals: 1 }), {
   name: "battery_undervoltage_threshold", at: parameter(137), group: "parameters_monitoring_power",
   unit: "V", allowed: [[95, 300]], conditions: ["password"],
-});
-export const batteryUndervoltageDelay = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
+}))();
+export const batteryUndervoltageDelay = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 50 }), { decimals: 2 }), {
   name: "battery_undervoltage_delay", at: parameter(419), group: "parameters_monitoring_power",
   unit: "s", allowed: [[1, 4950]], conditions: ["password"],
-});
-export const digitalInputs1To4Logic = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs1To4Logic), {
+}))();
+export const digitalInputs1To4Logic = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs1To4Logic), {
   name: "digital_inputs_1_to_4_logic", at: parameter(125), bits: [11, 8], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs1To4Delay = /* @__PURE__ */ readWrite(digits(U16, InputDelay, { count: 4 }), {
+}))();
+export const digitalInputs1To4Delay = /* @__PURE__ */ (() => readWrite(digits(U16, InputDelay, { count: 4 }), {
   name: "digital_inputs_1_to_4_delay", at: parameter(404), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs1To4EngineDelay = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs1To4EngineDelay), {
+}))();
+export const digitalInputs1To4EngineDelay = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs1To4EngineDelay), {
   name: "digital_inputs_1_to_4_engine_delay", at: parameter(127), bits: [11, 8], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs1To4FaultClass = /* @__PURE__ */ readWrite(digits(U16, FaultClass, { count: 4 }), {
+}))();
+export const digitalInputs1To4FaultClass = /* @__PURE__ */ (() => readWrite(digits(U16, FaultClass, { count: 4 }), {
   name: "digital_inputs_1_to_4_fault_class", at: parameter(130), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs5To8Logic = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs5To8Logic), {
+}))();
+export const digitalInputs5To8Logic = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs5To8Logic), {
   name: "digital_inputs_5_to_8_logic", at: parameter(125), bits: [7, 4], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs5To8Delay = /* @__PURE__ */ readWrite(digits(U16, InputDelay, { count: 4 }), {
+}))();
+export const digitalInputs5To8Delay = /* @__PURE__ */ (() => readWrite(digits(U16, InputDelay, { count: 4 }), {
   name: "digital_inputs_5_to_8_delay", at: parameter(405), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs5To8EngineDelay = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs5To8EngineDelay), {
+}))();
+export const digitalInputs5To8EngineDelay = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs5To8EngineDelay), {
   name: "digital_inputs_5_to_8_engine_delay", at: parameter(127), bits: [7, 4], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs5To8FaultClass = /* @__PURE__ */ readWrite(digits(U16, FaultClass, { count: 4 }), {
+}))();
+export const digitalInputs5To8FaultClass = /* @__PURE__ */ (() => readWrite(digits(U16, FaultClass, { count: 4 }), {
   name: "digital_inputs_5_to_8_fault_class", at: parameter(135), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs9To12Logic = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs9To12Logic), {
+}))();
+export const digitalInputs9To12Logic = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs9To12Logic), {
   name: "digital_inputs_9_to_12_logic", at: parameter(125), bits: [3, 0], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs9To12Delay = /* @__PURE__ */ readWrite(digits(U16, InputDelay, { count: 4 }), {
+}))();
+export const digitalInputs9To12Delay = /* @__PURE__ */ (() => readWrite(digits(U16, InputDelay, { count: 4 }), {
   name: "digital_inputs_9_to_12_delay", at: parameter(406), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs9To12EngineDelay = /* @__PURE__ */ readWrite(flags(U8, DigitalInputs9To12EngineDelay), {
+}))();
+export const digitalInputs9To12EngineDelay = /* @__PURE__ */ (() => readWrite(flags(U8, DigitalInputs9To12EngineDelay), {
   name: "digital_inputs_9_to_12_engine_delay", at: parameter(127), bits: [3, 0], group: "parameters_inputs",
   conditions: ["password"],
-});
-export const digitalInputs9To12FaultClass = /* @__PURE__ */ readWrite(digits(U16, FaultClass, { count: 4 }), {
+}))();
+export const digitalInputs9To12FaultClass = /* @__PURE__ */ (() => readWrite(digits(U16, FaultClass, { count: 4 }), {
   name: "digital_inputs_9_to_12_fault_class", at: parameter(136), group: "parameters_inputs",
   conditions: ["password"],
-});
-export const faultTextTerminal62 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal62 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_62", at: parameter(739, 738, 737, 736, 735, 734, 733, 732), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal63 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal63 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_63", at: parameter(747, 746, 745, 744, 743, 742, 741, 740), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal64 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal64 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_64", at: parameter(755, 754, 753, 752, 751, 750, 749, 748), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal65 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal65 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_65", at: parameter(763, 762, 761, 760, 759, 758, 757, 756), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal66 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal66 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_66", at: parameter(771, 770, 769, 768, 767, 766, 765, 764), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal67 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal67 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_67", at: parameter(779, 778, 777, 776, 775, 774, 773, 772), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal68 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal68 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_68", at: parameter(787, 786, 785, 784, 783, 782, 781, 780), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal69 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal69 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_69", at: parameter(795, 794, 793, 792, 791, 790, 789, 788), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal70 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal70 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_70", at: parameter(803, 802, 801, 800, 799, 798, 797, 796), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal71 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal71 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_71", at: parameter(811, 810, 809, 808, 807, 806, 805, 804), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal72 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal72 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_72", at: parameter(819, 818, 817, 816, 815, 814, 813, 812), group: "parameters_texts",
   conditions: ["password"],
-});
-export const faultTextTerminal73 = /* @__PURE__ */ readWrite(text(16), {
+}))();
+export const faultTextTerminal73 = /* @__PURE__ */ (() => readWrite(text(16), {
   name: "fault_text_terminal_73", at: parameter(827, 826, 825, 824, 823, 822, 821, 820), group: "parameters_texts",
   conditions: ["password"],
-});
-export const analogOutput1Source = /* @__PURE__ */ readWrite(named(U16, AnalogSource), {
+}))();
+export const analogOutput1Source = /* @__PURE__ */ (() => readWrite(named(U16, AnalogSource), {
   name: "analog_output_1_source", at: parameter(192), group: "parameters_analog",
   allowed: [[0, 23]], conditions: ["password"],
-});
-export const analogOutput1CurrentRange = /* @__PURE__ */ readWrite(named(BIT, CurrentRange, { closed: true }), {
+}))();
+export const analogOutput1CurrentRange = /* @__PURE__ */ (() => readWrite(named(BIT, CurrentRange, { closed: true }), {
   name: "analog_output_1_current_range", at: parameter(16), bits: [1, 1], group: "parameters_analog",
   conditions: ["password"],
-});
-export const analogOutput1ValueAt0Percent = /* @__PURE__ */ readWrite(scaled(S16, [scaleCase("analogOutput1Source", 1, rule()), scaleCase("analogOutput1Source", 2, rule({ num: 100 })), scaleCase("analogOutput1Source", 3, rule({ num: 100 })), scaleCase("analogOutput1Source", 4, rule()), scaleCase("analogOutput1Source", 5, rule()), scaleCase("analogOutput1Source", 6, rule()), scaleCase("analogOutput1Source", 7, rule()), scaleCase("analogOutput1Source", 8, rule()), scaleCase("analogOutput1Source", 9, rule()), scaleCase("analogOutput1Source", 10, rule()), scaleCase("analogOutput1Source", 19, rule()), scaleCase("analogOutput1Source", 20, rule()), scaleCase("analogOutput1Source", 21, rule({ num: 100 })), scaleCase("analogOutput1Source", 22, rule())], { decimals: 2 }), {
+}))();
+export const analogOutput1ValueAt0Percent = /* @__PURE__ */ (() => readWrite(scaled(S16, [scaleCase("analogOutput1Source", 1, rule()), scaleCase("analogOutput1Source", 2, rule({ num: 100 })), scaleCase("analogOutput1Source", 3, rule({ num: 100 })), scaleCase("analogOutput1Source", 4, rule()), scaleCase("analogOutput1Source", 5, rule()), scaleCase("analogOutput1Source", 6, rule()), scaleCase("analogOutput1Source", 7, rule()), scaleCase("analogOutput1Source", 8, rule()), scaleCase("analogOutput1Source", 9, rule()), scaleCase("analogOutput1Source", 10, rule()), scaleCase("analogOutput1Source", 19, rule()), scaleCase("analogOutput1Source", 20, rule()), scaleCase("analogOutput1Source", 21, rule({ num: 100 })), scaleCase("analogOutput1Source", 22, rule())], { decimals: 2 }), {
   name: "analog_output_1_value_at_0_percent", at: parameter(193), group: "parameters_analog",
   allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const analogOutput1ValueAt100Percent = /* @__PURE__ */ readWrite(scaled(S16, [scaleCase("analogOutput1Source", 1, rule()), scaleCase("analogOutput1Source", 2, rule({ num: 100 })), scaleCase("analogOutput1Source", 3, rule({ num: 100 })), scaleCase("analogOutput1Source", 4, rule()), scaleCase("analogOutput1Source", 5, rule()), scaleCase("analogOutput1Source", 6, rule()), scaleCase("analogOutput1Source", 7, rule()), scaleCase("analogOutput1Source", 8, rule()), scaleCase("analogOutput1Source", 9, rule()), scaleCase("analogOutput1Source", 10, rule()), scaleCase("analogOutput1Source", 19, rule()), scaleCase("analogOutput1Source", 20, rule()), scaleCase("analogOutput1Source", 21, rule({ num: 100 })), scaleCase("analogOutput1Source", 22, rule())], { decimals: 2 }), {
+}))();
+export const analogOutput1ValueAt100Percent = /* @__PURE__ */ (() => readWrite(scaled(S16, [scaleCase("analogOutput1Source", 1, rule()), scaleCase("analogOutput1Source", 2, rule({ num: 100 })), scaleCase("analogOutput1Source", 3, rule({ num: 100 })), scaleCase("analogOutput1Source", 4, rule()), scaleCase("analogOutput1Source", 5, rule()), scaleCase("analogOutput1Source", 6, rule()), scaleCase("analogOutput1Source", 7, rule()), scaleCase("analogOutput1Source", 8, rule()), scaleCase("analogOutput1Source", 9, rule()), scaleCase("analogOutput1Source", 10, rule()), scaleCase("analogOutput1Source", 19, rule()), scaleCase("analogOutput1Source", 20, rule()), scaleCase("analogOutput1Source", 21, rule({ num: 100 })), scaleCase("analogOutput1Source", 22, rule())], { decimals: 2 }), {
   name: "analog_output_1_value_at_100_percent", at: parameter(194), group: "parameters_analog",
   allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const analogOutput2Source = /* @__PURE__ */ readWrite(named(U16, AnalogSource), {
+}))();
+export const analogOutput2Source = /* @__PURE__ */ (() => readWrite(named(U16, AnalogSource), {
   name: "analog_output_2_source", at: parameter(195), group: "parameters_analog",
   allowed: [[0, 23]], conditions: ["password"],
-});
-export const analogOutput2CurrentRange = /* @__PURE__ */ readWrite(named(BIT, CurrentRange, { closed: true }), {
+}))();
+export const analogOutput2CurrentRange = /* @__PURE__ */ (() => readWrite(named(BIT, CurrentRange, { closed: true }), {
   name: "analog_output_2_current_range", at: parameter(16), bits: [3, 3], group: "parameters_analog",
   conditions: ["password"],
-});
-export const analogOutput2ValueAt0Percent = /* @__PURE__ */ readWrite(scaled(S16, [scaleCase("analogOutput2Source", 1, rule()), scaleCase("analogOutput2Source", 2, rule({ num: 100 })), scaleCase("analogOutput2Source", 3, rule({ num: 100 })), scaleCase("analogOutput2Source", 4, rule()), scaleCase("analogOutput2Source", 5, rule()), scaleCase("analogOutput2Source", 6, rule()), scaleCase("analogOutput2Source", 7, rule()), scaleCase("analogOutput2Source", 8, rule()), scaleCase("analogOutput2Source", 9, rule()), scaleCase("analogOutput2Source", 10, rule()), scaleCase("analogOutput2Source", 19, rule()), scaleCase("analogOutput2Source", 20, rule()), scaleCase("analogOutput2Source", 21, rule({ num: 100 })), scaleCase("analogOutput2Source", 22, rule())], { decimals: 2 }), {
+}))();
+export const analogOutput2ValueAt0Percent = /* @__PURE__ */ (() => readWrite(scaled(S16, [scaleCase("analogOutput2Source", 1, rule()), scaleCase("analogOutput2Source", 2, rule({ num: 100 })), scaleCase("analogOutput2Source", 3, rule({ num: 100 })), scaleCase("analogOutput2Source", 4, rule()), scaleCase("analogOutput2Source", 5, rule()), scaleCase("analogOutput2Source", 6, rule()), scaleCase("analogOutput2Source", 7, rule()), scaleCase("analogOutput2Source", 8, rule()), scaleCase("analogOutput2Source", 9, rule()), scaleCase("analogOutput2Source", 10, rule()), scaleCase("analogOutput2Source", 19, rule()), scaleCase("analogOutput2Source", 20, rule()), scaleCase("analogOutput2Source", 21, rule({ num: 100 })), scaleCase("analogOutput2Source", 22, rule())], { decimals: 2 }), {
   name: "analog_output_2_value_at_0_percent", at: parameter(196), group: "parameters_analog",
   allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const analogOutput2ValueAt100Percent = /* @__PURE__ */ readWrite(scaled(S16, [scaleCase("analogOutput2Source", 1, rule()), scaleCase("analogOutput2Source", 2, rule({ num: 100 })), scaleCase("analogOutput2Source", 3, rule({ num: 100 })), scaleCase("analogOutput2Source", 4, rule()), scaleCase("analogOutput2Source", 5, rule()), scaleCase("analogOutput2Source", 6, rule()), scaleCase("analogOutput2Source", 7, rule()), scaleCase("analogOutput2Source", 8, rule()), scaleCase("analogOutput2Source", 9, rule()), scaleCase("analogOutput2Source", 10, rule()), scaleCase("analogOutput2Source", 19, rule()), scaleCase("analogOutput2Source", 20, rule()), scaleCase("analogOutput2Source", 21, rule({ num: 100 })), scaleCase("analogOutput2Source", 22, rule())], { decimals: 2 }), {
+}))();
+export const analogOutput2ValueAt100Percent = /* @__PURE__ */ (() => readWrite(scaled(S16, [scaleCase("analogOutput2Source", 1, rule()), scaleCase("analogOutput2Source", 2, rule({ num: 100 })), scaleCase("analogOutput2Source", 3, rule({ num: 100 })), scaleCase("analogOutput2Source", 4, rule()), scaleCase("analogOutput2Source", 5, rule()), scaleCase("analogOutput2Source", 6, rule()), scaleCase("analogOutput2Source", 7, rule()), scaleCase("analogOutput2Source", 8, rule()), scaleCase("analogOutput2Source", 9, rule()), scaleCase("analogOutput2Source", 10, rule()), scaleCase("analogOutput2Source", 19, rule()), scaleCase("analogOutput2Source", 20, rule()), scaleCase("analogOutput2Source", 21, rule({ num: 100 })), scaleCase("analogOutput2Source", 22, rule())], { decimals: 2 }), {
   name: "analog_output_2_value_at_100_percent", at: parameter(197), group: "parameters_analog",
   allowed: [[-9999, 9999]], conditions: ["password"],
-});
-export const relay1Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay1Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_1_event_1", at: parameter(436), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay1Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay1Logic1), {
+}))();
+export const relay1Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay1Logic1), {
   name: "relay_1_logic_1", at: parameter(436), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay1Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay1Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_1_event_2", at: parameter(437), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay1Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay1Logic2), {
+}))();
+export const relay1Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay1Logic2), {
   name: "relay_1_logic_2", at: parameter(437), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay1Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay1Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_1_event_3", at: parameter(438), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay1Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay1Logic3), {
+}))();
+export const relay1Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay1Logic3), {
   name: "relay_1_logic_3", at: parameter(438), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay2Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_2_event_1", at: parameter(439), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay2Logic1), {
+}))();
+export const relay2Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay2Logic1), {
   name: "relay_2_logic_1", at: parameter(439), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay2Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_2_event_2", at: parameter(440), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay2Logic2), {
+}))();
+export const relay2Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay2Logic2), {
   name: "relay_2_logic_2", at: parameter(440), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay2Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_2_event_3", at: parameter(441), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay2Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay2Logic3), {
+}))();
+export const relay2Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay2Logic3), {
   name: "relay_2_logic_3", at: parameter(441), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay3Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_3_event_1", at: parameter(442), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay3Logic1), {
+}))();
+export const relay3Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay3Logic1), {
   name: "relay_3_logic_1", at: parameter(442), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay3Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_3_event_2", at: parameter(443), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay3Logic2), {
+}))();
+export const relay3Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay3Logic2), {
   name: "relay_3_logic_2", at: parameter(443), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay3Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_3_event_3", at: parameter(444), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay3Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay3Logic3), {
+}))();
+export const relay3Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay3Logic3), {
   name: "relay_3_logic_3", at: parameter(444), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay4Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_4_event_1", at: parameter(445), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay4Logic1), {
+}))();
+export const relay4Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay4Logic1), {
   name: "relay_4_logic_1", at: parameter(445), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay4Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_4_event_2", at: parameter(446), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay4Logic2), {
+}))();
+export const relay4Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay4Logic2), {
   name: "relay_4_logic_2", at: parameter(446), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay4Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_4_event_3", at: parameter(447), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay4Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay4Logic3), {
+}))();
+export const relay4Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay4Logic3), {
   name: "relay_4_logic_3", at: parameter(447), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay5Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_5_event_1", at: parameter(448), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay5Logic1), {
+}))();
+export const relay5Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay5Logic1), {
   name: "relay_5_logic_1", at: parameter(448), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay5Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_5_event_2", at: parameter(449), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay5Logic2), {
+}))();
+export const relay5Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay5Logic2), {
   name: "relay_5_logic_2", at: parameter(449), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay5Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_5_event_3", at: parameter(450), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay5Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay5Logic3), {
+}))();
+export const relay5Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay5Logic3), {
   name: "relay_5_logic_3", at: parameter(450), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay6Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_6_event_1", at: parameter(451), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay6Logic1), {
+}))();
+export const relay6Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay6Logic1), {
   name: "relay_6_logic_1", at: parameter(451), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay6Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_6_event_2", at: parameter(452), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay6Logic2), {
+}))();
+export const relay6Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay6Logic2), {
   name: "relay_6_logic_2", at: parameter(452), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay6Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_6_event_3", at: parameter(453), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay6Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay6Logic3), {
+}))();
+export const relay6Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay6Logic3), {
   name: "relay_6_logic_3", at: parameter(453), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Event1 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay7Event1 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_7_event_1", at: parameter(454), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Logic1 = /* @__PURE__ */ readWrite(flags(U8, Relay7Logic1), {
+}))();
+export const relay7Logic1 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay7Logic1), {
   name: "relay_7_logic_1", at: parameter(454), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Event2 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay7Event2 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_7_event_2", at: parameter(455), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Logic2 = /* @__PURE__ */ readWrite(flags(U8, Relay7Logic2), {
+}))();
+export const relay7Logic2 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay7Logic2), {
   name: "relay_7_logic_2", at: parameter(455), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Event3 = /* @__PURE__ */ readWrite(named(U8, RelayEvent, { closed: true }), {
+}))();
+export const relay7Event3 = /* @__PURE__ */ (() => readWrite(named(U8, RelayEvent, { closed: true }), {
   name: "relay_7_event_3", at: parameter(456), bits: [15, 8], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const relay7Logic3 = /* @__PURE__ */ readWrite(flags(U8, Relay7Logic3), {
+}))();
+export const relay7Logic3 = /* @__PURE__ */ (() => readWrite(flags(U8, Relay7Logic3), {
   name: "relay_7_logic_3", at: parameter(456), bits: [2, 0], group: "parameters_relays",
   fixed: [0x00f8, 0x0000], conditions: ["password"],
-});
-export const automaticIdleControl = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const automaticIdleControl = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "automatic_idle_control", at: parameter(18), bits: [0, 0], group: "parameters_operation",
   conditions: ["password"],
-});
-export const shutdown = /* @__PURE__ */ readWrite(named(BIT, OffOn, { closed: true }), {
+}))();
+export const shutdown = /* @__PURE__ */ (() => readWrite(named(BIT, OffOn, { closed: true }), {
   name: "shutdown", at: parameter(201), bits: [11, 11], group: "parameters_operation",
   conditions: ["password"],
-});
-export const engineMonitoringDelay = /* @__PURE__ */ readWrite(integer(U16), {
+}))();
+export const engineMonitoringDelay = /* @__PURE__ */ (() => readWrite(integer(U16), {
   name: "engine_monitoring_delay", at: parameter(122), group: "parameters_operation",
   unit: "s", allowed: [[1, 99]], conditions: ["password"],
-});
-export const monitoringStartFrequency = /* @__PURE__ */ readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
+}))();
+export const monitoringStartFrequency = /* @__PURE__ */ (() => readWrite(scaled(U16, rule({ num: 256 }), { decimals: 3 }), {
   name: "monitoring_start_frequency", at: parameter(25), group: "parameters_operation",
   unit: "Hz", allowed: [[3840, 17920]], conditions: ["password"],
-});
+}))();
 
 /** All points by their names here. */
 export const allPoints = /* @__PURE__ */ Object.freeze({

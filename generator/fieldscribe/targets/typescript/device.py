@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.model import Device
-from fieldscribe.targets.runtime_calls.class_facts import class_facts
+from fieldscribe.targets.runtime_calls.class_facts import class_facts, readable_groups
 from fieldscribe.targets.typescript.families import in_typescript
 from fieldscribe.targets.typescript.identifiers import Identifiers, option, scope_of
 from fieldscribe.targets.typescript.layout import Layout
@@ -34,5 +34,5 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
         "choices": [(f"{name}?", kind) for name, kind in options],
         "settings": list(family.options),
         "device": js_string(device.id),
-        "points": any(point.terms.generated for point in device.points),
+        "groups": " | ".join(map(js_string, readable_groups(device))) or "never",
     }

@@ -10,7 +10,7 @@ from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, call
 from fieldscribe.targets.typescript.identifiers import Identifiers, word_attribute
-from fieldscribe.targets.typescript.layout import Layout, doc_lines
+from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
 from fieldscribe.targets.typescript.types import is_big
 from fieldscribe.text import camel, js_comment, upper
 
@@ -74,7 +74,7 @@ def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
     flags = tuple(
         (word_attribute(flag), _type(flag, classes), _flag_doc(flag), flag.name in free) for flag in point.flags
     )
-    text = layout.laid_out(made, 0, f"export const {name} = /* @__PURE__ */ ")
+    text = f"export const {name} = {lazily(layout.laid_out(made, 0))};"
     return WordOfFlags(name, _sentence(point.title["en"]), text, flags, point.writable and not is_big(point))
 
 

@@ -86,6 +86,11 @@ class Layout:
         return "{ ", " }", [(self.key(key), item) for key, item in node.items()]
 
 
+def lazily(made: str) -> str:
+    """Return what makes a constant: bundlers leave all of it out where nobody uses it, calls in arguments too."""
+    return f"/* @__PURE__ */ (() => {made})()"
+
+
 def doc_lines(text: str) -> tuple[str, ...]:
     """Return the lines of a `/** */` comment."""
     if len(text) + 7 <= WIDTH:

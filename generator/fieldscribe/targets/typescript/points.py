@@ -16,7 +16,7 @@ from fieldscribe.targets.runtime_calls.remarks import limits_text, remarks_text
 from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
 from fieldscribe.targets.typescript.families import in_typescript
 from fieldscribe.targets.typescript.identifiers import Identifiers, attribute, scope_of
-from fieldscribe.targets.typescript.layout import Layout, doc_lines
+from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
 from fieldscribe.targets.typescript.types import TYPE_NAMES, type_of
 from fieldscribe.text import camel, js_comment, js_string
 from fieldscribe.wording import open_text
@@ -53,7 +53,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     numbers = sorted({numbers_of(point, scope) for point in made} - {""})
     return {
         "constants": [*constants, *(text for text, _ in commands)],
-        "codes": [layout.laid_out(codes, 0, f"const {name} = /* @__PURE__ */ ") for name, codes in scope.codes.items()],
+        "codes": [f"const {name} = {lazily(layout.flat(codes))};" for name, codes in scope.codes.items()],
         "imports": sorted({*map(layout.maker, scope.used)}),
         "numbers": numbers,
         "points": [attribute(point.item) for point in made],
@@ -99,7 +99,8 @@ class Points:
             lines[text.partition(":")[0] not in _FIRST_LINE] += f" {text},"
         body = "\n".join(f" {line}" for line in lines if line)
         form = layout.flat(made.positional[0])
-        return f"export const {texts[0]} = /* @__PURE__ */ {maker}({form}, {{\n{body}\n}});\n"
+        text = f"{maker}({form}, {{\n{body}\n}})"
+        return f"export const {texts[0]} = {lazily(text)};\n"
 
     def declared(self, point: Point) -> Declared:
         """Return how a point is declared."""
@@ -121,7 +122,7 @@ class Points:
         """Yield the constants of the commands."""
         for command, made in commands_of(self.scope):
             name = self.scope.commands[command.name]
-            text = self.layout.laid_out(made, 0, f"export const {name} = /* @__PURE__ */ ")
+            text = f"export const {name} = {lazily(self.layout.laid_out(made, 0))}"
             doc = doc_lines(js_comment(command.title["en"].rstrip(".") + "."))
             yield f"{text};\n", Declared(name, doc, _command_type(made))
 

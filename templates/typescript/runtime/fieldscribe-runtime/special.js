@@ -93,7 +93,6 @@ function codeProperty(name) {
 }
 
 /** Special codes. @param {ConstructorParameters<typeof Codes>[0]} raws @param {ConstructorParameters<typeof Codes>[1]} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function codes(raws, facts = {}) {
   return new Codes(raws, facts);
 }

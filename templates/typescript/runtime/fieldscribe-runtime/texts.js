@@ -320,7 +320,6 @@ class TimeForm extends AroundForm {
 
 /** Characters. @param {number} characters @param {...(string | TextFacts)} more encoding, and how words hold it
  * @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function text(characters, ...more) {
   const [encoding, facts] = textArguments(more);
   return new TextForm(characters, encoding, facts);
@@ -328,7 +327,6 @@ export function text(characters, ...more) {
 
 /** Bytes in a notation. @param {number} count @param {...(string | TextFacts)} more notation, and how words hold it
  * @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function bytes(count, ...more) {
   const [notation, facts] = textArguments(more);
   return new BytesForm(count, notation, facts);
@@ -343,13 +341,11 @@ function textArguments(more) {
 
 /** Decimal digits. @param {WireType} wire @param {Readonly<Record<string, number>>} names @param {{ count: number }} facts
  * @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function digits(wire, names, { count }) {
   return new DigitsForm(wire, names, count);
 }
 
 /** A time. @param {Form} form @param {string} epoch @returns {Form} */
-/* @__NO_SIDE_EFFECTS__ */
 export function time(form, epoch) {
   return new TimeForm(form, epoch);
 }

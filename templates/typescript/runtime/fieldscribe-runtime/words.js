@@ -15,14 +15,12 @@ export function camelName(name) {
  * @typedef {{ low: number, width: number, active?: 0 | 1, names?: Readonly<Record<string, number>> }} BitRange */
 
 /** One bit of a word. @param {number} low @param {{ active?: 0 | 1 }} [facts] @returns {BitRange} */
-/* @__NO_SIDE_EFFECTS__ */
 export function bitFlag(low, { active = 1 } = {}) {
   return { low, width: 1, active };
 }
 
 /** Several bits of a word. @param {number} low @param {number} width @param {Readonly<Record<string, number>>} [names]
  * @returns {BitRange} */
-/* @__NO_SIDE_EFFECTS__ */
 export function bitField(low, width, names) {
   return { low, width, names };
 }
@@ -114,7 +112,6 @@ export class WordLayout {
 
 /** The kind of a word of flags. @param {string} name @param {Readonly<Record<string, BitRange>>} flags
  * @param {{ constant?: number, closed?: readonly string[] }} [facts] */
-/* @__NO_SIDE_EFFECTS__ */
 export function wordOf(name, flags, facts = {}) {
   return new WordLayout(name, flags, facts);
 }

@@ -8,5 +8,5 @@ IN_TYPESCRIPT = TypeScriptFamily(
     device="UssDevice",
     makers={"Profile": "ussProfile", "Telegram": "telegramLayout"},
     modules={"UssDevice": "uss", "ussProfile": "uss-frames", "telegramLayout": "can-frames"},
-    options=(("link", "UssLink"),),
+    options=(("link", 'import("fieldscribe-runtime/uss-frames").UssLink'),),
 )

@@ -1,0 +1,174 @@
+/**
+ * Give a class the points and commands of a device, as attributes of its objects.
+ * @template {typeof Session} T @param {T} kind @param {import("./table.js").DeviceFacts} facts @returns {T}
+ */
+export function defineDevice<T extends typeof Session>(kind: T, facts: import("./table.js").DeviceFacts): T;
+/** A device on a bus: its unit number, its variants, and what is remembered of it. One operation at a time. */
+export class Session {
+    /** @param {any} line @param {DeviceOptions} options */
+    constructor(line: any, options: DeviceOptions);
+    /** The points of the device; `defineDevice` sets it. @type {PointTable} */
+    get table(): PointTable;
+    line: any;
+    unit: number;
+    variants: Record<string, string | undefined>;
+    /** So often a request is sent again after the line lost it or its reply; a command is sent once. */
+    retries: number;
+    /** Seconds between a failure and the next try. */
+    retryPause: number;
+    /** Requests, good replies, and failures by status. */
+    traffic: {
+        requests: number;
+        replies: number;
+        errors: Record<string, number>;
+    };
+    _profile: any;
+    /** @type {PointRaws} */
+    _kept: PointRaws;
+    /** What `readMany` does not request again. @type {Refusals} */
+    _refused: Refusals;
+    _isFirstDue: boolean;
+    _isOnce: boolean;
+    /** @type {Promise<unknown>} */
+    _turn: Promise<unknown>;
+    /** @type {Map<AnyPoint, any>} */
+    _handles: Map<AnyPoint, any>;
+    /** Read the words or bits of a place, in ascending order of address. @param {Place} at @returns {Promise<number[]>} */
+    _get(at: Place): Promise<number[]>;
+    /** Write words or bits at a place, in ascending order of address. @param {Place} at @param {readonly number[]} words */
+    _store(at: Place, words: readonly number[]): Promise<void>;
+    /** Carry out an operation once those before it are done, before it the commands that come first.
+     * @template T @param {() => Promise<T>} work @param {boolean} [prepares] @returns {Promise<T>} */
+    _run<T>(work: () => Promise<T>, prepares?: boolean): Promise<T>;
+    /** Give the commands that a device gives by itself. @param {string} run */
+    _automatic(run: string): Promise<void>;
+    /** Send nothing again meanwhile: what a device did already must not be done twice.
+     * @template T @param {() => Promise<T>} work @returns {Promise<T>} */
+    _once<T>(work: () => Promise<T>): Promise<T>;
+    /** Add to errors raised meanwhile what was requested. @template T
+     * @param {AnyPoint | readonly AnyPoint[] | string} what @param {() => Promise<T>} work @returns {Promise<T>} */
+    _about<T>(what: AnyPoint | readonly AnyPoint[] | string, work: () => Promise<T>): Promise<T>;
+    /** Carry out one request, again while the line loses it, as often as is left; failures are counted.
+     * @template T @param {number} left @param {() => Promise<T>} ask @returns {Promise<T>} */
+    _retried<T>(left: number, ask: () => Promise<T>): Promise<T>;
+    /** One exchange over the line; `awaited` is said where no reply comes. @param {any} request @param {any} reply
+     * @param {string} awaited @returns {Promise<any>} */
+    _exchange(request: any, reply: any, awaited: string): Promise<any>;
+    /** What a test of a step compares: the value of an axis, or the raw number of a point. @param {string} of
+     * @returns {Promise<number | string>} */
+    _compared(of: string): Promise<number | string>;
+    /** @param {AnyPoint} point @returns {Promise<number | bigint>} */
+    _readRaw(point: AnyPoint): Promise<number | bigint>;
+    /** The raw number in words that came; it is remembered if the description says when it changes.
+     * @param {AnyPoint} point @param {readonly number[]} words @returns {number | bigint} */
+    _taken(point: AnyPoint, words: readonly number[]): number | bigint;
+    /** The raw numbers that a point needs of others, by name: those known, those remembered, the rest read.
+     *
+     * What is written must not follow from a number that has changed meanwhile, by another master or by hand: then only
+     * what never changes is taken from memory.
+     * @param {AnyPoint} point @param {Iterable<string>} names
+     * @param {{ known?: PointRaws, refusals?: Refusals, writes?: boolean }} [how]
+     * @returns {Promise<Record<string, number | bigint>>}
+     */
+    _raws(point: AnyPoint, names: Iterable<string>, { known, refusals, writes }?: {
+        known?: PointRaws;
+        refusals?: Refusals;
+        writes?: boolean;
+    }): Promise<Record<string, number | bigint>>;
+    /** The point that another one needs; raises AccessError that says so. @param {AnyPoint} point @param {string} name
+     * @returns {AnyPoint} */
+    _needed(point: AnyPoint, name: string): AnyPoint;
+    /** Read a point's value. @param {AnyPoint} point @returns {Promise<any>} */
+    _read(point: AnyPoint): Promise<any>;
+    /** Write a value, to another place than the usual one where one is named.
+     * @param {AnyPoint} point @param {unknown} value @param {Place} [at] */
+    _write(point: AnyPoint, value: unknown, at?: Place): Promise<void>;
+    /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw @param {Place} [at] */
+    _writeRaw(point: AnyPoint, raw: number | bigint, at?: Place): Promise<void>;
+    /** Write a raw number that was checked; raises EchoError if the device confirms another one.
+     * @param {AnyPoint} point @param {number | bigint} raw @param {Record<string, number | bigint>} raws
+     * @param {Place} [at] */
+    _putRaw(point: AnyPoint, raw: number | bigint, raws: Record<string, number | bigint>, at?: Place): Promise<void>;
+    /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
+     * @returns {Promise<number>} */
+    _sharedWord(point: AnyPoint): Promise<number>;
+    /** Write words or bits at a place, and forget what they change. @param {Place} at @param {readonly number[]} words */
+    _put(at: Place, words: readonly number[]): Promise<void>;
+    /** Read the raw numbers of several points (of a whole group, where one is named): place by place.
+     * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+     * @returns {Promise<PointRaws>} */
+    _gather(points: readonly AnyPoint[], group: string | undefined, refusals?: Refusals): Promise<PointRaws>;
+    /** Read some points by one request; where `refusals` are noted, by one each if the device refuses that.
+     * @param {readonly AnyPoint[]} points @param {Refusals | undefined} refusals @param {() => Promise<PointRaws>} ask
+     * @param {any} [block] @returns {Promise<PointRaws>} */
+    _part(points: readonly AnyPoint[], refusals: Refusals | undefined, ask: () => Promise<PointRaws>, block?: any): Promise<PointRaws>;
+    /** Note that the device refuses a part for what lies between its points: each of them comes by itself.
+     * @param {readonly AnyPoint[]} points @param {any} block */
+    _noteGaps(points: readonly AnyPoint[], block: any): void;
+    /** The points of a group that are in this device; families with blocks look there. @param {AnyPoint[]} points
+     * @returns {Promise<AnyPoint[]>} */
+    _there(points: AnyPoint[]): Promise<AnyPoint[]>;
+    /** Whether the words of a point travel the way the link is set; families say where that differs.
+     * @param {AnyPoint} point @returns {boolean} */
+    _isCarried(point: AnyPoint): boolean;
+    /** The values of points, by name, and before them what their scales need.
+     * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+     * @returns {Promise<Record<string, any>>} */
+    _values(points: readonly AnyPoint[], group: string | undefined, refusals?: Refusals): Promise<Record<string, any>>;
+    /** @param {string} group @returns {AnyPoint[]} */
+    _group(group: string): AnyPoint[];
+    /** Raises AccessError if the point belongs to another variant than the one given for this device, or is not one.
+     * @param {AnyPoint} point @returns {AnyPoint} */
+    _required(point: AnyPoint): AnyPoint;
+    /** @param {unknown} what @returns {AnyPoint} */
+    _readable(what: unknown): AnyPoint;
+    /** The attribute of a point, or of one that is bound to this device. @param {any} one @returns {unknown} */
+    _attributeOf(one: any): unknown;
+    /** The point bound to this device. @param {AnyPoint} point @returns {any} */
+    _bound(point: AnyPoint): any;
+    /** Where a point is written; families with several memories choose. @param {AnyPoint} point @param {boolean} keep
+     * @returns {Place | undefined} */
+    _writePlace(point: AnyPoint, keep: boolean): Place | undefined;
+    /**
+     * A point by its name, old name or code (`P0731[1]` is one element of an array), bound to this device. Raises
+     * AccessError.
+     * @param {string} what @returns {any}
+     */
+    point(what: string): any;
+    /**
+     * Read a group by its name, or several points, with few requests; values by attribute.
+     *
+     * With `errors: "return"` a point that is absent, refused or without a value has its error as value, and only a lost
+     * line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the same
+     * error, until it was read in another way or `forget()` is called.
+     * @param {string | Iterable<string | object>} what @param {{ errors?: "raise" | "return" }} [how]
+     * @returns {Promise<Record<string, any>>}
+     */
+    readMany(what: string | Iterable<string | object>, { errors }?: {
+        errors?: "raise" | "return";
+    }): Promise<Record<string, any>>;
+    /**
+     * Read what tells this device from others; returns the value of each variant axis that what it holds fits. Raises
+     * OtherDeviceError for another device.
+     * @returns {Promise<Record<string, string>>}
+     */
+    identify(): Promise<Record<string, string>>;
+    /** What a point holds in place of what is wanted. @param {import("./table.js").Identification[]} rows
+     * @param {Map<string, unknown>} held @returns {Promise<string | undefined>} */
+    _misfit(rows: import("./table.js").Identification[], held: Map<string, unknown>): Promise<string | undefined>;
+    /** Read everything anew: what changes rarely or never, and what the device has refused; first commands come again. */
+    forget(): void;
+}
+export type Place = import("./places.js").Place;
+export type AnyPoint = import("./table.js").AnyPoint;
+export type Refusals = Map<AnyPoint, FieldscribeError>;
+export type PointRaws = Map<AnyPoint, number | bigint>;
+/**
+ * What is common to the options of all devices: the unit, and variants and given numbers by name.
+ */
+export type DeviceOptions = {
+    unit: number;
+    [name: string]: unknown;
+};
+import { PointTable } from "./table.js";
+import { FieldscribeError } from "./errors.js";
