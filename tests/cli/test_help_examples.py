@@ -273,8 +273,11 @@ CLAIMS = {
     "docs": {
         "hitachi_l200 --format xlsx --out tables": Claim(0, "", made="tables/hitachi_l200.xlsx"),
         "siemens_mm4 jumo_controller --format csv --out tables": Claim(0, "", made="tables/siemens_mm4_meanings.csv"),
+        "woodward_mpu2s --format html --out pages": Claim(0, "", made="pages/woodward_mpu2s.html"),
         "nord_sk5xxe --format markdown --out manuals": Claim(0, "", made="manuals/nord_sk5xxe.md"),
-        "--pages --format html --out site": Claim(0, "^[0-9]+ written, .* of index in site", made="site/index.html"),
+        "hitachi_l200 nord_sk5xxe --pages --format html --out site": Claim(
+            0, "(?m)^[0-9]+ written, .* of index in site", made="site/index.html"
+        ),
         "hitachi_l200 --format xlsx --out tables --check": Claim(0, "^0 of 2 files of hitachi_l200 in tables are not"),
     },
     "units": {

@@ -19,6 +19,7 @@ FOR_AXE = (
 FINDS = {
     "view_of": ("view_of", "fieldscribe/descriptions/KEYS.html#"),
     "other readings": ("Other readings", "fieldscribe/descriptions/using/listen.html#other-readings"),
+    "0x1028": ("A020 base_frequency", "hitachi_l200.html#point=base_frequency"),
     "SIGNALS can": ("Signals", "fieldscribe/descriptions/language/can.html#signals"),
 }
 """What people type, with the first place found, and the start of where Enter leads."""
@@ -30,7 +31,7 @@ pytestmark = pytest.mark.full(seconds=20)
 def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What a reader meets."""
     site = tmp_path_factory.mktemp("site")
-    assert main(["docs", "--pages", "--format", "html", "--out", str(site)]) == 0
+    assert main(["docs", "hitachi_l200", "jumo_controller", "--pages", "--format", "html", "--out", str(site)]) == 0
     npm_package("playwright-core"), npm_package("axe-core")
     words = [*(f"{path}.html" for path in FOR_AXE), "--", *FINDS, "zzyzx"]
     visit = Path(__file__).with_name("visit.mjs")
@@ -54,10 +55,10 @@ def test_the_search_leads_there(query: str, seen: dict[str, Any]) -> None:
     title, place = FINDS[query]
     search = seen["searches"][query]
     assert search["found"][0].startswith(title)
-    assert search["first"] == title
+    assert search["first"].startswith(title)
     assert search["at"].startswith(place)
-    assert search["marked"].strip().startswith(title)
-    assert search["cleared"] == ["", True, "page-find"]
+    assert title.split(" ")[-1].lower().replace("_", " ") in search["marked"].lower().replace("_", " ")
+    assert search["cleared"] == ["", True, "search"]
 
 
 def test_a_search_without_a_hit(seen: dict[str, Any]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import sys
 from html.parser import HTMLParser
 from operator import attrgetter
@@ -34,6 +35,10 @@ HOSTILE = """# <script>alert(1)</script> \u202e"x" & `<b>`
 ## Twice
 ## Twice
 """
+
+
+PAGE = (ROOT / "descriptions/using/pages.md").read_text("utf-8")
+DEVICES = ("hitachi_l200", "nord_sk5xxe")
 
 
 def made(root: Path, **files: str) -> tuple[dict[str, str], Report]:
@@ -113,16 +118,23 @@ class Links(HTMLParser):
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of all pages."""
+    """The folder that the command of our page makes."""
+    (command,) = re.findall(r"(?s)```sh\nfieldscribe (.*?)\n```", PAGE)
     out = tmp_path_factory.mktemp("site")
-    assert main(["docs", "--pages", "--format", "html", "--out", str(out)]) == 0
+    assert main(shlex.split(command.replace("--out site", f"--out {out}"))) == 0
     return out
+
+
+def test_the_files_of_the_page_are_made(site: Path) -> None:
+    named = re.findall(r"(?m)^\| `(.*?)`", PAGE)
+    assert "index.html" in named
+    assert all((site / name).is_file() for name in named)
 
 
 def test_every_page_is_there_and_every_link_leads_somewhere(site: Path) -> None:
     pages = {path.relative_to(site).as_posix(): Links(path.read_text("utf-8")) for path in site.rglob("*.html")}
     sources = [*ROOT.glob("*.md"), *(ROOT / "descriptions").rglob("*.md")]
-    assert pages.keys() - {"index.html"} == {
+    assert {path for path in pages if path.startswith("fieldscribe/")} == {
         f"fieldscribe/{path.relative_to(ROOT).with_suffix('.html').as_posix()}" for path in sources
     }
     for path, page in pages.items():
@@ -172,12 +184,23 @@ def test_the_command_says_what_it_lacks(
 
 
 def test_a_second_run_finds_nothing_to_do(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["docs", "--pages", "--format", "html", "--out", str(site)]
+    words = ["docs", *DEVICES, "--pages", "--format", "html", "--out", str(site)]
     assert main([*words, "--check"]) == 0
-    assert re.fullmatch(r"0 of \d+ files of index in .* are not current\n", capsys.readouterr().out)
+    assert re.search(r"^0 of \d+ files of index in .* are not current\n", capsys.readouterr().out, re.MULTILINE)
+    (site / "index.css").write_text("body { color: red; }\n", "utf-8")
+    assert main(words) == 1
+    assert "index.css is in the way: it was edited" in capsys.readouterr().err
     (site / "index.css").unlink()
     assert main(words) == 0
-    assert capsys.readouterr().out.startswith("1 written, 0 removed, ")
+    assert re.search(r"^1 written, 0 removed, \d+ unchanged of index in", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_without_our_pages_they_go_and_the_index_stays(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["docs", *DEVICES, "--format", "html", "--out", str(site)]
+    assert main(words) == 0
+    assert re.search(r"^3 written, \d+ removed, 1 unchanged of index in", capsys.readouterr().out, re.MULTILINE)
+    assert not list(site.glob("fieldscribe/**/*.html"))
+    assert "fieldscribe/" not in (site / "index.html").read_text("utf-8")
 
 
 def test_the_index_lists_devices_and_finds_their_points_by_any_number() -> None:
@@ -192,7 +215,7 @@ def test_the_index_lists_devices_and_finds_their_points_by_any_number() -> None:
     ]
     rows = {title: words for _, title, words, _ in data(files["index.js"])["hitachi_l200.html"]}
     words = rows["A020 base_frequency: Base frequency / Basisfrequenz"].split()
-    assert {"1028h", "(4136)", "0x1028", "4137", "404137"} <= set(words)
+    assert {"1028h", "4136", "0x1028", "4137", "404137"} <= set(words)
 
 
 @pytest.mark.parametrize("device", sorted((ROOT / "tests/devices").iterdir()), ids=attrgetter("name"))
@@ -201,6 +224,6 @@ def test_any_device_has_a_row_for_each_point(device: Path) -> None:
     assert described is not None
     files = dict(site_files([described], (), "fieldscribe docs", render))
     assert [anchor for anchor, *_ in data(files["index.js"])[f"{described.id}.html"]] == [
-        point.item for point in described.points
+        f"point={point.item}" for point in described.points
     ]
     assert "alert(" not in files["index.html"]

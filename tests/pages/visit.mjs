@@ -45,25 +45,25 @@ for (const query of words.slice(words.indexOf("--") + 1)) {
   await open("index.html");
   await page.keyboard.press("/");
   await page.keyboard.type(query);
-  const found = await page.$$eval("#page-hits li", (items) => items.map((item) => item.textContent));
+  const found = await page.$$eval("#hits li", (items) => items.map((item) => item.textContent));
   await page.keyboard.press("ArrowDown");
   const first = await focused();
   await page.keyboard.press("Escape");
-  const cleared = [await page.inputValue("#page-find"), await page.isHidden("#page-hits"), await focused()];
+  const cleared = [await page.inputValue("#search"), await page.isHidden("#hits"), await focused()];
   await page.keyboard.type(query);
   if (found.length) {
     await page.keyboard.press("Enter");
     await page.waitForURL(/#/);
   }
-  const marked = await page.evaluate("document.querySelector(':target')?.textContent ?? null");
+  const marked = await page.evaluate("(document.querySelector(':target') ?? document.querySelector('.detail h2, article h2, h2'))?.textContent ?? null");
   seen.searches[query] = { found, first, cleared, at: await here(), marked };
 }
 await page.emulateMedia({ colorScheme: "light" });
 await open("fieldscribe/README.html");
-await page.click(".code >> nth=0 >> .copy");
+await page.click(".code >> nth=0 >> button");
 seen.copied = await page.evaluate("navigator.clipboard.readText()");
 seen.papers = [await paper()];
-await page.click("#page-scheme");
+await page.click(".scheme");
 seen.papers.push(await paper());
 await open("index.html");
 seen.papers.push(await paper());

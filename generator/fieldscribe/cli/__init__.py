@@ -46,7 +46,7 @@ COMMANDS = {
     "check": "validate descriptions; print everything that is wrong, and where",
     "generate": "compile descriptions into C, Python, Rust, documentation and vectors",
     "vendor": "write exactly the files that a project needs of a device: for all points, or some",
-    "docs": "write the documentation of devices: a workbook, tables as CSV, or a page in Markdown",
+    "docs": "write the documentation of devices: a workbook, tables as CSV, Markdown, or pages with a search",
     "export": "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)",
     "explain": "show everything about one address, code or name",
     "decode": "decode frames from the line into points and values",

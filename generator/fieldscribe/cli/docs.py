@@ -19,11 +19,11 @@ EXAMPLE = """examples:
   fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
   fieldscribe docs nord_sk5xxe --format markdown --out manuals
   fieldscribe docs woodward_mpu2s --format html --out pages
-  fieldscribe docs --pages --format html --out site
+  fieldscribe docs hitachi_l200 nord_sk5xxe --pages --format html --out site
   fieldscribe docs hitachi_l200 --format xlsx --out tables --check
 
 a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
-several devices as html have an index.html, which lists and searches all that the command names, without a network
+several devices as html have an index.html, which lists and searches all that the command names
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 

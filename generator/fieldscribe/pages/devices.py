@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
 from fieldscribe.text import html_code, line
-from fieldscribe.wording import address_text, label, title_text
+from fieldscribe.wording import label, title_text
+from fieldscribe.wording.exact import hex_text
 
 Row = tuple[str, str, str, str]
 """What a search sees of a place: its anchor, its title, its further words, and the heading above it."""
@@ -44,7 +45,7 @@ def rows_of(device: Device) -> Iterator[Row]:
     groups = {group.name: line(title_text(group.title)) for group in device.groups}
     for point in device.points:
         title = f"{label(point)}: {line(title_text(point.title))}"
-        yield point.item, title, " ".join(dict.fromkeys(_numbers(device, point))), groups[point.group]
+        yield f"point={point.item}", title, " ".join(dict.fromkeys(_numbers(device, point))), groups[point.group]
 
 
 def _numbers(device: Device, point: Point) -> Iterable[str]:
@@ -52,6 +53,6 @@ def _numbers(device: Device, point: Point) -> Iterable[str]:
     yield from point.was
     if point.addresses:
         first = min(point.addresses)
-        yield f"{address_text(first)} 0x{first:04X}"
+        yield from (hex_text(first), str(first), f"0x{first:04X}")
         yield from map(str, family(device.family).numbers(point.space, first).values())
     yield from map(str, point.references.values())

@@ -43,23 +43,33 @@ function wordsOfKind(device, kind) {
 
 /** Return the points with all words, the nearest first, and the further places. */
 function search(index, query, isWanted) {
-  const words = folded(query).split(/\s+/).filter(Boolean);
+  const words = queryWords(query);
   const byKind = words.map((word) => index.kinds.map((text) => text.includes(word)));
+  const points = nearest(index.points.filter((row) => isWanted(row.point)), words, byKind).map((row) => row.point);
+  const places = words.length ? index.places.filter((place) => words.every((word) => place.key.includes(word) || place.text.includes(word))) : [];
+  const nearness = (place) => words.filter((word) => !place.key.includes(word)).length;
+  return { points, places: places.sort((a, b) => nearness(a) - nearness(b)) };
+}
+
+/** Return the words of a query as texts are compared. */
+function queryWords(query) {
+  return folded(query).split(/\s+/).filter(Boolean);
+}
+
+/** Return the rows with all words, the nearest first; `byKind` tells for each word which kinds of rows have it. */
+function nearest(rows, words, byKind) {
   const hits = [];
-  for (const row of index.points) {
-    if (!isWanted(row.point)) continue;
+  for (const row of rows) {
     let rank = 0;
     for (let at = 0; at < words.length; at += 1) {
       const of = rankOf(row, words[at], byKind[at]);
       if (of < 0) { rank = -1; break; }
       rank += of;
     }
-    if (rank >= 0) hits.push({ point: row.point, rank });
+    if (rank >= 0) hits.push({ row, rank });
   }
   if (words.length) hits.sort((a, b) => a.rank - b.rank);
-  const places = words.length ? index.places.filter((place) => words.every((word) => place.key.includes(word) || place.text.includes(word))) : [];
-  const nearness = (place) => words.filter((word) => !place.key.includes(word)).length;
-  return { points: hits.map((hit) => hit.point), places: places.sort((a, b) => nearness(a) - nearness(b)) };
+  return hits.map((hit) => hit.row);
 }
 
 function rankOf(row, word, byKind) {

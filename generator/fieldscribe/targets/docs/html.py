@@ -31,7 +31,7 @@ Section = tuple[str, list[tuple[str, str]]]
 def html_of(scope: DocsScope, render: Render) -> str:
     """Return the page of a device."""
     made, command, licence = head_lines(scope.device, "docs", line)
-    style, script = _source(_STYLES), _source(_SCRIPTS)
+    style, script = source(_STYLES), source(_SCRIPTS)
     context = {
         "head": [_comment(text) for text in (made, command, licence)],
         "title": html_code(f"{line(scope.device.vendor)} {line(scope.device.model)}"),
@@ -125,7 +125,7 @@ def _sections(scope: DocsScope) -> Iterable[Section]:
 
 
 @cache
-def _source(names: tuple[str, ...]) -> str:
+def source(names: tuple[str, ...]) -> str:
     """Return files of the page as one text."""
     folder = templates_dir() / "docs/page"
     return "\n".join((folder / name).read_text("utf-8").strip() for name in names) + "\n"
