@@ -73,11 +73,18 @@ function plain(value) {
 const [name, className, where, options] = process.argv.slice(2);
 const generated = await import(name);
 const line = await opened(JSON.parse(where));
-const device = new generated[className](line, JSON.parse(options));
+let device;
+let failure;
+try {
+  device = new generated[className](line, JSON.parse(options));
+} catch (error) {
+  failure = error;
+}
 for await (const text of createInterface({ input: process.stdin })) {
   const { on, call, arguments: given = [], set } = JSON.parse(text);
   let answer;
   try {
+    if (failure) throw failure;
     if (set) answer = { result: plain(Object.assign(device, set) && null) };
     else if (call === "table") answer = { result: [...device.table.points].map(([attribute, { name, decode, encode, at }]) => ({ attribute, name, readable: Boolean(decode), writable: Boolean(encode), telegram: at.telegram })) };
     else {
