@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from fieldscribe.cli import main
+from support.described import shipped
+from support.own_pages import HOSTILE, made
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
 FOR_AXE = (
@@ -15,6 +18,8 @@ FOR_AXE = (
     "fieldscribe/README",
     "fieldscribe/descriptions/language/which-key",
     "fieldscribe/descriptions/using/c",
+    "hostile/index",
+    "hostile/fieldscribe/README",
 )
 FINDS = {
     "view_of": ("view_of", "fieldscribe/descriptions/KEYS.html#"),
@@ -29,9 +34,17 @@ pytestmark = pytest.mark.full(seconds=20)
 
 @pytest.fixture(scope="module")
 def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """What a reader meets."""
+    """What a reader meets, of our pages with two devices, and of hostile ones."""
     site = tmp_path_factory.mktemp("site")
     assert main(["docs", "hitachi_l200", "jumo_controller", "--pages", "--format", "html", "--out", str(site)]) == 0
+    title = {"en": f"<img src=x onerror=alert(1)>\u202e{'long' * 99}"}
+    device = replace(
+        shipped("jumo_controller"), vendor=title["en"], model="</script><script>alert(1)</script>", title=title
+    )
+    hostile, _ = made(site / "sources", [device], README=HOSTILE + "x" * 999 + "\n\n    " + "y" * 999)
+    for path, text in hostile.items():
+        (site / "hostile" / path).parent.mkdir(parents=True, exist_ok=True)
+        (site / "hostile" / path).write_text(text, "utf-8")
     npm_package("playwright-core"), npm_package("axe-core")
     words = [*(f"{path}.html" for path in FOR_AXE), "--", *FINDS, "zzyzx"]
     visit = Path(__file__).with_name("visit.mjs")

@@ -15,40 +15,16 @@ from typing import Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pages.site import load_pages, site_files
+from fieldscribe.pages.site import site_files
 from fieldscribe.pages.texts import markdown_reader, page_of
 from fieldscribe.pipeline import load_device
 from fieldscribe.resources import render
 from support.described import shipped
+from support.own_pages import HOSTILE, made
 from support.places import ROOT
-
-HOSTILE = """# <script>alert(1)</script> \u202e"x" & `<b>`
-
-<img src=x onerror=alert(1)> [run](javascript:alert(1)) ![picture](https://example.org/x.png)
-
-<!-- a mark of ours -->
-| key | what |
-|---|---|
-| `a.<any>` | <i>first</i> |
-| `a.<any>` | the next |
-
-## Twice
-## Twice
-"""
-
 
 PAGE = (ROOT / "descriptions/using/pages.md").read_text("utf-8")
 DEVICES = ("hitachi_l200", "nord_sk5xxe")
-
-
-def made(root: Path, **files: str) -> tuple[dict[str, str], Report]:
-    """The files of an index of such pages alone, by path."""
-    (root / "descriptions").mkdir()
-    for name, text in files.items():
-        (root / f"{name}.md").write_text(text, "utf-8")
-    report = Report()
-    shelves = load_pages(["hitachi_l200"], report, root)
-    return dict(site_files([], shelves, "fieldscribe docs", render)), report
 
 
 def test_nothing_of_a_text_becomes_markup() -> None:

@@ -16,6 +16,7 @@ const page = await context.newPage();
 const seen = { troubles: [], wide: [], axe: {}, searches: {} };
 page.on("console", (message) => message.type() === "error" && seen.troubles.push(message.text()));
 page.on("pageerror", (error) => seen.troubles.push(String(error)));
+page.on("dialog", (dialog) => seen.troubles.push(dialog.message()) && dialog.dismiss());
 page.on("request", (request) => request.url().startsWith("file:") || seen.troubles.push(request.url()));
 
 const open = (path) => page.goto(pathToFileURL(join(folder, path)).href);
