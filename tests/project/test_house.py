@@ -65,6 +65,8 @@ NAMES_A_FAMILY = {
     "importing.wb.templates": "the protocols of a gateway",
     "cli.import_dbc": "CAN databases are of one",
     "importing.dbc": "CAN databases are of one",
+    "listening.bus_files": "captures of CAN tools are of one",
+    "user_errors": "a library of Python is called as one",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",
     "language.keys.places": "examples of whole files and messages",

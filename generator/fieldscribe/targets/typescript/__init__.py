@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 
 from fieldscribe import __version__
@@ -22,6 +21,8 @@ _RUNTIME = "fieldscribe-runtime"
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files of the device's package, as paths below the output folder and their text."""
+    import json  # `check` starts without it
+
     from fieldscribe.targets.typescript.device import device_context
     from fieldscribe.targets.typescript.enums import enums_context
     from fieldscribe.targets.typescript.points import points_context
