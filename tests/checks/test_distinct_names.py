@@ -12,7 +12,7 @@ from fieldscribe.model import Device
 from fieldscribe.targets import knows, target
 from support.described import compile_in, group, head, made, shipped, together
 
-LANGUAGES = ("c", "python", "rust")
+LANGUAGES = ("c", "python", "rust", "typescript")
 SHIPPED = (
     "eastron_sdm630",
     "fronius_datamanager",
@@ -75,7 +75,7 @@ def test_a_kind_that_is_too_coarse_is_noticed() -> None:
 
 def test_large_devices_are_proven() -> None:
     """But for the names in C that are longer than all compilers compare."""
-    for name, proven in (("hitachi_l200", [1, 1, 1]), ("woodward_mpu2s", [0, 1, 1])):
+    for name, proven in (("hitachi_l200", [1, 1, 1, 1]), ("woodward_mpu2s", [0, 1, 1, 1])):
         kinds = PointKinds(shipped(name), keys_of(shipped(name)))
         assert [
             kinds.are_distinct(target(language).identifiers, target(language).BEFORE_POINTS) for language in LANGUAGES

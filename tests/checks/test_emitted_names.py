@@ -18,7 +18,7 @@ from fieldscribe.targets import c, target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
 from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
 
-LANGUAGES = ("c", "python", "rust")
+LANGUAGES = ("c", "python", "rust", "typescript")
 """Targets in which names of the description become identifiers."""
 
 SEEDS = 60
@@ -125,6 +125,17 @@ def rust_names(text: str) -> Iterator[tuple[str, str]]:
             yield scope if line.startswith(" ") else "", found[1]
 
 
+def typescript_names(text: str) -> Iterator[tuple[str, str]]:
+    """What a module imports and defines, and the properties of each object in it."""
+    scope = ""
+    for line in text.splitlines():
+        if found := re.match(r"(?:export )?(?:const|class) (\w+)|import \{", line):
+            scope = found[1] or ""
+            yield from [("", found[1])] if found[1] else []
+        elif found := re.match(r"  (\w+)(?:: |,$)", line):
+            yield scope, found[1]
+
+
 def doubles(device: Device) -> list[object]:
     """Names that generated code defines twice in one place."""
     found: list[object] = []
@@ -138,6 +149,8 @@ def doubles(device: Device) -> list[object]:
             names = list(python_names(text))
         elif path.endswith(".rs"):
             names = list(rust_names(text))
+        elif path.endswith(".js") and not path.endswith("index.js"):
+            names = list(typescript_names(text))
         else:
             continue
         found += [(path, one) for one, count in Counter(names).items() if count > 1]
@@ -185,6 +198,7 @@ NAMES_OF_FLAGS = {
         "mode": ("MODE", "mode", "with_mode", "MODE_A", "MODE_B"),
         "low": ("LOW_ACTIVE_LOW", "low", "with_low"),
     },
+    "typescript": {"on": ("on",), "mode": ("mode", "StateMode"), "low": ("low",)},
 }
 
 
@@ -210,6 +224,7 @@ def test_each_flag_has_its_names_and_is_named_as_their_owner(language: str, tmp_
         ("c", ("MADE_UP_MODE_OFF",), ("MADE_UP_MODE_SLOW_ONE",)),
         ("python", ("OFF",), ("SLOW_ONE",)),
         ("rust", ("Off",), ("SlowOne",)),
+        ("typescript", ("OFF",), ("SLOW_ONE",)),
     ],
 )
 def test_each_entry_of_an_enum_is_named_as_the_owner_of_its_names(

@@ -16,13 +16,14 @@ from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.lowered.template_keys import TemplateKeys
 from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Special, Variant
 from fieldscribe.resources import render
-from fieldscribe.targets import c, python, rust
+from fieldscribe.targets import c, python, rust, typescript
 from fieldscribe.targets.c import point_templates
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python import attributes
 from fieldscribe.targets.python import enums as python_enums
 from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
+from fieldscribe.targets.typescript import points as typescript_points
 from fieldscribe.text import c_comment, line
 from support.described import made, shipped
 from support.models import (
@@ -79,8 +80,8 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
     assert TextTemplate(text.format(name, code)).fill(["speed", "B2"]) == text.format("speed", "B2")
 
 
-LANGUAGES = (c, python, rust)
-FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums)
+LANGUAGES = (c, python, rust, typescript)
+FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums, typescript_points)
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")

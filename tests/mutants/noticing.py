@@ -28,7 +28,7 @@ if TYPE_CHECKING:  # a mutant of the compiler is judged in a process that has no
     from fieldscribe.model import Device
 
 TESTS = ROOT / "tests"
-TARGETS = ("c", "python", "rust", "docs", "vectors")
+TARGETS = ("c", "python", "rust", "typescript", "docs", "vectors")
 _TOLD = {"test_bad.py": "bad", "test_transcripts.py": "transcripts"}
 """Files whose tests stand in a folder beside them."""
 MEASURED = 120

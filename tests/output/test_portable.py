@@ -51,7 +51,7 @@ def test_every_step_works_without_what_other_systems_lack(tmp_path: Path) -> Non
     (tmp_path / "made/c/kitchen_can.h").unlink()
     assert "1 written" in run("generate", device, "--out", "made")
     assert sorted(path.name for path in (tmp_path / "made").iterdir()) == [
-        *("c", "docs", "manifest", "python", "rust", "vectors"),
+        *("c", "docs", "manifest", "python", "rust", "typescript", "vectors"),
     ]
 
 

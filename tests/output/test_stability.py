@@ -13,7 +13,7 @@ from fieldscribe.pipeline import outputs
 from support.described import loaded
 from support.places import ROOT
 
-CODE = ("c", "python", "rust")
+CODE = ("c", "python", "rust", "typescript")
 
 
 def compiled(folder: Path) -> dict[str, str]:

@@ -24,8 +24,9 @@ POINTS = """\
 def comments(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """The text of each language, each comment on one line."""
     device = loaded_in(tmp_path_factory.mktemp("drive"), described(POINTS))
-    texts = {path: text for _, path, text in outputs(device, ("c", "python", "rust"))}
+    texts = {path: text for _, path, text in outputs(device, ("c", "python", "rust", "typescript"))}
     main = {"c": "c/made_up.h", "python": "python/made_up/points.py", "rust": "rust/made_up/src/points.rs"}
+    main["typescript"] = "typescript/made_up/points.d.ts"
     return {language: re.sub(r"\n *(///|\*)? *", " ", texts[path]) for language, path in main.items()}
 
 
@@ -40,6 +41,8 @@ def comments(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
         ("python", "Ratio: any number."),
         *[("c", f"exists only when {text}") for text in ("mode == remote", "limit > 60.5")],
         *[("python", f"Exists only when {text}.") for text in ("mode == remote", "limit > 60.5")],
+        ("typescript", "Voltage: any number in V."),
+        *[("typescript", f"Exists only when {text}.") for text in ("mode == remote", "limit > 60.5")],
         *[("rust", f"exists only when `{text}`.") for text in ("mode == remote", "limit > 60.5")],
     ],
 )

@@ -239,13 +239,13 @@ def test_points_alone_need_no_frames(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("code", "in_head"),
     [
-        ("A020", dict.fromkeys(("c", "python", "rust"), "A020")),
-        ("$(touch /x)", dict.fromkeys(("c", "python", "rust"), "'$(touch /x)'")),
-        ("a;b`c`", dict.fromkeys(("c", "python", "rust"), "'a;b`c`'")),
+        ("A020", dict.fromkeys(("c", "python", "rust", "typescript"), "A020")),
+        ("$(touch /x)", dict.fromkeys(("c", "python", "rust", "typescript"), "'$(touch /x)'")),
+        ("a;b`c`", dict.fromkeys(("c", "python", "rust", "typescript"), "'a;b`c`'")),
         ("x*/y", {"c": "...", "python": "'x*/y'", "rust": "'x*/y'"}),
         ("it's #1", {"c": """'it'"'"'s #1'""", "python": "...", "rust": """'it'"'"'s #1'"""}),
-        ("A,B", dict.fromkeys(("c", "python", "rust"), "...")),
-        ("a  b", dict.fromkeys(("c", "python", "rust"), "...")),
+        ("A,B", dict.fromkeys(("c", "python", "rust", "typescript"), "...")),
+        ("a  b", dict.fromkeys(("c", "python", "rust", "typescript"), "...")),
     ],
 )
 def test_the_command_in_a_head_can_be_pasted(code: str, in_head: dict[str, str], tmp_path: Path) -> None:
@@ -351,7 +351,7 @@ def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pyte
 
 def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
     """All that is left of one request goes when another takes its place."""
-    for language in ("c", "python", "rust", "csv", "markdown"):
+    for language in ("c", "python", "rust", "typescript", "csv", "markdown"):
         if language in LANGUAGES:
             assert vendor(language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020") == 0
         else:

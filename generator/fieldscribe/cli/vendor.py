@@ -38,6 +38,7 @@ EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points @points.txt --single-file
   fieldscribe vendor python woodward_mpu2s --out tools
   fieldscribe vendor rust siemens_mm4 --out crates --points "P10*,status_word"
+  fieldscribe vendor typescript nord_sk5xxe --out drivers
   fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
 
 a point is named by its code or its name (a code with a comma in it by its name), several by their group or by a

@@ -68,8 +68,8 @@ VENDORED = Layout(
     "",
     ".manifest.json",
     by_target=False,
-    named=r"fieldscribe(_\w+)?\.h|fieldscribe_runtime/.*|LICENSE-fieldscribe\.txt"
-    r"|@/py\.typed|(@|fieldscribe_runtime)-[\w.+]+-py3-none-any\.whl|@(_meanings)?\.csv|@\.xlsx",
+    named=r"fieldscribe(_\w+)?\.h|fieldscribe[_-]runtime/.*|LICENSE-fieldscribe\.txt"
+    r"|@/(py\.typed|package\.json)|(@|fieldscribe_runtime)-[\w.+]+-py3-none-any\.whl|@(_meanings)?\.csv|@\.xlsx",
 )
 
 

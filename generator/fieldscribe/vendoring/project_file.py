@@ -1,7 +1,7 @@
 """Reads `fieldscribe.toml`: which devices a project uses, with which points, in which languages.
 
 out = "drivers"              # below this file's folder; a device may name another one
-targets = ["c"]              # c, python, rust; a device may name others
+targets = ["c"]              # c, python, rust, typescript; a device may name others
 
 [[devices]]
 device = "hitachi_l200"      # an id, or the path of a description below this file's folder

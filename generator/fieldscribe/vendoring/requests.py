@@ -21,7 +21,7 @@ from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.pruning import RUNTIME_NAME, pruned
 from fieldscribe.vendoring.selection import select
 
-LANGUAGES = ("c", "python", "rust")
+LANGUAGES = ("c", "python", "rust", "typescript")
 """The languages of code requests."""
 
 LANGUAGE_OF = {"frames": "c", "rows": "c", "single_file": "c", "wheel": "python"}

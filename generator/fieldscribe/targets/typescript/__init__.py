@@ -11,6 +11,7 @@ from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.typescript.identifiers import Identifiers
 from fieldscribe.targets.typescript.namespaces import device_name_taken, identifiers
 from fieldscribe.text import js_comment, line
+from fieldscribe.wording import open_texts
 
 SEES_TITLES = False
 NEEDS_FAMILY = True
@@ -37,7 +38,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     views = {
         "enums": enums_context(device, names, render),
         "points": points_context(device, names, render),
-        "index": device_context(device, names),
+        "index": {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)},
     }
     yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
     for name, view in views.items():
