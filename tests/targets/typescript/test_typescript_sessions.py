@@ -165,7 +165,6 @@ def test_a_telegram_that_nobody_sends_is_told(folder: Path) -> None:
         node_device(folder, MPU2S, {"kind": "can", "port": port}, unit=drive.unit) as node,
     ):
         cyclic = next(one["attribute"] for one in node(None, "table") if one["telegram"])
-        node.set(patience=2)
         assert node(cyclic, "readRaw") is not None
         drive.fault("silent")
         node.set(patience=0.2, freshFor=0)
