@@ -6,7 +6,8 @@
  */
 /**
  * Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two.
- * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[], end: number }} ModbusChain
+ * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[],
+ *   end: number }} ModbusChain
  */
 /** The address that others count from, and the last one that does, counted from it.
  * @typedef {{ address: number, last: number }} BlockStart */
@@ -19,7 +20,8 @@ export function modbusBase(...where: (number | Readonly<Record<string, number>> 
 export function modbusChain(name: string, code: number, marker: readonly number[], places: readonly number[], end: number): ModbusChain;
 /** The bases of one device, as far as they are known. */
 export class ModbusBases {
-    /** @param {import("./table.js").DeviceFacts} facts @param {ReadWords} read @param {Record<string, unknown>} options */
+    /** @param {import("./table.js").DeviceFacts} facts @param {ReadWords} read
+     * @param {Record<string, unknown>} options */
     constructor({ bases, given, chain }: import("./table.js").DeviceFacts, read: ReadWords, options: Record<string, unknown>);
     bases: Readonly<Record<string, ModbusBase>>;
     chain: ModbusChain | undefined;

@@ -29,7 +29,8 @@ import { camelName } from "./words.js";
  * What a line must know of the frames that a device waits for. The line offers every frame that comes to `accepts`, and
  * resolves with the first one that is accepted; where none is within `patience` seconds it rejects with NoReplyError.
  * Nobody answers a `broadcast`: the line resolves at once.
- * @typedef {{ framing: string, broadcast: boolean, patience: number, accepts: (frame: CanFrame) => boolean }} CanReplyShape
+ * @typedef {{ framing: string, broadcast: boolean, patience: number,
+ *   accepts: (frame: CanFrame) => boolean }} CanReplyShape
  */
 
 /**
@@ -57,7 +58,9 @@ export class TelegramReceiver {
     this.telegram = layout.name;
     this.unit = unit;
     this.message = messageNamed(profile, layout.message);
-    this.packing = this.message.signals.length ? new SignalPacking(this.message.signals, this.message.length) : undefined;
+    this.packing = this.message.signals.length
+      ? new SignalPacking(this.message.signals, this.message.length)
+      : undefined;
     this.places = wordPlaces(this.message);
     this.multiplexer = this.message.roles.findIndex((role) => role.kind === "multiplexer");
     /** In which part each word of the telegram comes, and at which place in it. @type {[number, number][]} */
@@ -72,7 +75,13 @@ export class TelegramReceiver {
     }
     const count = this.packing ? this.packing.parts.length : Math.ceil(layout.words / this.places.length);
     /** @type {Slot[]} */
-    this.slots = Array.from({ length: count }, () => ({ words: [], number: 0, wordsBefore: [], numberBefore: 0, moment: 0 }));
+    this.slots = Array.from({ length: count }, () => ({
+      words: [],
+      number: 0,
+      wordsBefore: [],
+      numberBefore: 0,
+      moment: 0,
+    }));
     this.count = 0;
   }
 
@@ -126,7 +135,10 @@ export class TelegramReceiver {
     const found = positions.map((position) => this.slot(position));
     const at = positions.map((position) => this.partOf[position][1]);
     if (!found.length || found.some((slot) => !slot.number)) {
-      throw new TelegramError("missing", `not all frames of ${this.telegram} with words ${positions.join(", ")} came yet`);
+      throw new TelegramError(
+        "missing",
+        `not all frames of ${this.telegram} with words ${positions.join(", ")} came yet`,
+      );
     }
     const high = found[0];
     const low = found[found.length - 1];
@@ -173,7 +185,8 @@ export function packMessage(device, message, values, { unit = 0, raws } = {}) {
   const found = [];
   for (const [name, value] of Object.entries(values)) {
     const point = table.points.get(camelName(name));
-    if (point?.at.telegram !== message) throw new RequestError("bad_point", `${shown(name)} is no signal of ${message}`);
+    if (point?.at.telegram !== message)
+      throw new RequestError("bad_point", `${shown(name)} is no signal of ${message}`);
     if (!point.encode) throw new RequestError("bad_point", `${name} cannot be written`);
     found.push([packing.firsts().indexOf(point.at.addresses[0]), point.encode(value, raws)]);
   }
@@ -367,7 +380,8 @@ export class CanDevice extends Session {
 
   /** Read some points; where refusals are noted, words that do not come in a telegram that comes are, too.
    * @param {readonly AnyPoint[]} points @param {import("./session.js").Refusals | undefined} refusals
-   * @param {() => Promise<import("./session.js").PointRaws>} ask @returns {Promise<import("./session.js").PointRaws>} */
+   * @param {() => Promise<import("./session.js").PointRaws>} ask
+   * @returns {Promise<import("./session.js").PointRaws>} */
   async _part(points, refusals, ask) {
     try {
       return await super._part(points, refusals, ask);

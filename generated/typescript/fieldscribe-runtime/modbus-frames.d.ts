@@ -13,7 +13,8 @@
  */
 /**
  * One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0.
- * @typedef {{ unit: number, function: number, address: number, count?: number, values?: readonly number[] }} ModbusRequest
+ * @typedef {{ unit: number, function: number, address: number, count?: number,
+ *   values?: readonly number[] }} ModbusRequest
  */
 /** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and what follows it, nothing around that. */
 /**

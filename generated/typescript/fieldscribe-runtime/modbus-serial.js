@@ -36,7 +36,11 @@ import { hex2, wordsOfBytes } from "./receiving.js";
  */
 
 /** What the client says of wrong replies. @type {readonly (readonly [string, RegExp])[]} */
-const CLIENT_FAULTS = [["bad_crc", /CRC/], ["wrong_unit", /address/i], ["wrong_function", /code/i]];
+const CLIENT_FAULTS = [
+  ["bad_crc", /CRC/],
+  ["wrong_unit", /address/i],
+  ["wrong_function", /code/i],
+];
 
 /** A line over a client that is connected; it keeps the client's timeout. Loop-back tests and padding are not there. */
 export class ModbusSerialLine {
@@ -91,7 +95,12 @@ function callClient(client, request, next) {
   else if (code === WRITE_REGISTER) client.writeFC6(unit, address, value, next);
   else if (code === WRITE_REGISTERS) client.writeFC16(unit, address, wordsOfBytes(data), next);
   else if (code === WRITE_COILS && data.length === (value + 7) >> 3) {
-    client.writeFC15(unit, address, Array.from({ length: value }, (_, at) => ((data[at >> 3] >> (at & 7)) & 1) === 1), next);
+    client.writeFC15(
+      unit,
+      address,
+      Array.from({ length: value }, (_, at) => ((data[at >> 3] >> (at & 7)) & 1) === 1),
+      next,
+    );
   } else throw new RequestError("bad_function", `modbus-serial cannot send ${[...request].map(hex2).join(" ")}`);
 }
 

@@ -57,7 +57,8 @@ export class ModbusDevice extends Session {
     _noteGaps(points: readonly AnyPoint[], block: ModbusBlock): void;
     /** The addresses that the device has refused: of points, and between them. @returns {Set<string>} */
     _holes(): Set<string>;
-    /** Tells the addresses of all points that are known to be there, and readable. @returns {(spot: string) => boolean} */
+    /** Tells the addresses of all points that are known to be there, and readable.
+     * @returns {(spot: string) => boolean} */
     _bridges(): (spot: string) => boolean;
 }
 export type Place = import("./places.js").Place;

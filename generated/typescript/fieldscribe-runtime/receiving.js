@@ -51,7 +51,10 @@ export class ReplyReader {
       }
       if (expected === null || length < expected) {
         if (length < longest) return undefined;
-        throw new FrameError("long_frame", `${quotedBytes(this.received)}, more than any frame has; is the baud rate right?`);
+        throw new FrameError(
+          "long_frame",
+          `${quotedBytes(this.received)}, more than any frame has; is the baud rate right?`,
+        );
       }
       const frame = this.received.subarray(0, expected);
       if (isOwn(frame)) return frame;
@@ -95,7 +98,8 @@ export function wordsOfBytes(data) {
 
 /** Raises FrameError (wrong_type) for what is no reply at all. @param {unknown} reply */
 export function checkBytes(reply) {
-  if (!(reply instanceof Uint8Array)) throw new FrameError("wrong_type", `a reply is a Uint8Array, not ${shown(reply)}`);
+  if (!(reply instanceof Uint8Array))
+    throw new FrameError("wrong_type", `a reply is a Uint8Array, not ${shown(reply)}`);
 }
 
 /** Raises RequestError for what is no integer. @param {string} status @param {string} what @param {unknown} number */

@@ -90,7 +90,9 @@ export class SerialLine extends StreamLine {
     const onData = this._onData;
     const echoed = this.echo ? this._echoed(request, onData) : undefined;
     await new Promise((resolve, reject) => {
-      this._port.write(request, (/** @type {Error | undefined} */ error) => (error ? reject(error) : resolve(undefined)));
+      this._port.write(request, (/** @type {Error | undefined} */ error) =>
+        error ? reject(error) : resolve(undefined),
+      );
     });
     await new Promise((resolve) => this._port.drain(resolve));
     await echoed;

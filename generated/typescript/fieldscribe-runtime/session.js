@@ -74,12 +74,14 @@ export class Session {
     this._handles = new Map();
   }
 
-  /** Read the words or bits of a place, in ascending order of address. @param {Place} at @returns {Promise<number[]>} */
+  /** Read the words or bits of a place, in ascending order of address. @param {Place} at
+   * @returns {Promise<number[]>} */
   async _get(at) {
     throw new RequestError("bad_space", `${placeLabel(at)} cannot be read`);
   }
 
-  /** Write words or bits at a place, in ascending order of address. @param {Place} at @param {readonly number[]} words */
+  /** Write words or bits at a place, in ascending order of address. @param {Place} at
+   * @param {readonly number[]} words */
   async _store(at, words) {
     throw new RequestError("bad_space", `${placeLabel(at)} cannot take ${words.length} words`);
   }
@@ -240,7 +242,8 @@ export class Session {
     await this._putRaw(point, point.encode(value, raws), raws, at);
   }
 
-  /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw @param {Place} [at] */
+  /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw
+   * @param {Place} [at] */
   async _writeRaw(point, raw, at) {
     point.requireRaw?.(raw);
     const raws = await this._raws(point, point.limitNeeds ?? [], { writes: true });
@@ -294,7 +297,13 @@ export class Session {
     /** @type {Map<string, AnyPoint[]>} */
     const places = new Map();
     for (const point of points) {
-      const key = JSON.stringify([point.at.space, point.at.telegram, point.at.base, point.at.index, point.at.addresses]);
+      const key = JSON.stringify([
+        point.at.space,
+        point.at.telegram,
+        point.at.base,
+        point.at.index,
+        point.at.addresses,
+      ]);
       places.set(key, [...(places.get(key) ?? []), point]);
     }
     /** @type {PointRaws} */
@@ -363,7 +372,11 @@ export class Session {
         if (other && !this._kept.has(other)) wanted.add(other);
       }
     }
-    const raws = await this._gather([...wanted].filter((point) => !refusals?.has(point)), group, refusals);
+    const raws = await this._gather(
+      [...wanted].filter((point) => !refusals?.has(point)),
+      group,
+      refusals,
+    );
     /** @type {Record<string, any>} */
     const values = {};
     for (const point of points) {
@@ -387,13 +400,16 @@ export class Session {
     );
     if (!members.length) {
       const hint = this.table.found(group, this.variants) || this.table.coded(group).length;
-      const known = hint ? `; it is a point: readMany([${shown(group)}]) reads it` : `, only ${this.table.groups().join(", ")}`;
+      const known = hint
+        ? `; it is a point: readMany([${shown(group)}]) reads it`
+        : `, only ${this.table.groups().join(", ")}`;
       throw new AccessError(`there is no group ${group}${known}`);
     }
     const travels = (/** @type {AnyPoint} */ point) =>
-      [point, ...(point.scaleNeeds ?? []).map((/** @type {string} */ name) => this.table.found(name, this.variants))].every(
-        (one) => !one || this._isCarried(one),
-      );
+      [
+        point,
+        ...(point.scaleNeeds ?? []).map((/** @type {string} */ name) => this.table.found(name, this.variants)),
+      ].every((one) => !one || this._isCarried(one));
     return members.filter((point) => point.decode && travels(point));
   }
 
@@ -551,7 +567,8 @@ function boundPoint(session, point) {
     methods.readRaw = () => session._run(() => session._readRaw(point));
   }
   if (point.encode) {
-    const placed = (/** @type {{ keep?: boolean } | undefined} */ how) => session._writePlace(point, how?.keep ?? false);
+    const placed = (/** @type {{ keep?: boolean } | undefined} */ how) =>
+      session._writePlace(point, how?.keep ?? false);
     methods.write = (/** @type {unknown} */ value, /** @type {{ keep?: boolean }} */ how) =>
       session._run(async () => session._write(point, value, placed(how)));
     methods.writeRaw = (/** @type {number} */ raw, /** @type {{ keep?: boolean }} */ how) =>

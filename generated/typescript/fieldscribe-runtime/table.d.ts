@@ -17,7 +17,8 @@
  */
 /**
  * What a point holds in a device, or in one of its variants: one of `values`, raw numbers or texts.
- * @typedef {{ point: string, values: readonly (number | string)[], variant?: readonly [string, string] }} Identification
+ * @typedef {{ point: string, values: readonly (number | string)[], variant?: readonly [string,
+ *   string] }} Identification
  */
 /** @param {string} point @param {readonly (number | string)[]} values @param {readonly [string, string]} [variant]
  * @returns {Identification} */

@@ -63,7 +63,8 @@ export function ussProfile(facts) {
   return Object.freeze({ broadcast: null, errors: {}, telegrams: [], variantPzd: [], ...facts });
 }
 
-/** The task that writes a parameter of 1 or 2 words. @param {number} words @param {boolean} isElement @param {boolean} keep
+/** The task that writes a parameter of 1 or 2 words. @param {number} words @param {boolean} isElement
+ * @param {boolean} keep
  * @returns {number | undefined} */
 export function ussChangeTask(words, isElement, keep) {
   return words < 1 || words > 2 ? undefined : USS_CHANGES[keep ? "eeprom" : "ram"][words - 1 + (isElement ? 2 : 0)];
@@ -97,7 +98,7 @@ function ussTelegram(address, words) {
 function ussNamed(task, parameter, index) {
   const page = Math.floor(parameter / 2000);
   const pages = USS_PAGE_BITS.reduce((bits, place, at) => bits | (((page >> at) & 1) << place), 0);
-  return [(task << 12) | parameter % 2000, pages | index];
+  return [(task << 12) | (parameter % 2000), pages | index];
 }
 
 /**

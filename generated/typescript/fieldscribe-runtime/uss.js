@@ -99,7 +99,10 @@ export class UssDevice extends Session {
           throw new RequestError("bad_value", `word ${at + 1} is ${chosen[at]} and has not ${bits} in ${fixed}`);
         }
         if (at === 0 && bits & ~mask[1]) {
-          throw new RequestError("bad_value", `the mask leaves out ${bits & ~mask[1]} of the first word, which has to count`);
+          throw new RequestError(
+            "bad_value",
+            `the mask leaves out ${bits & ~mask[1]} of the first word, which has to count`,
+          );
         }
       }
       this._sent = new Map();
@@ -115,7 +118,11 @@ export class UssDevice extends Session {
     checkNumber("bad_count", "the number of words", count, [1, 0x10000]);
     if (index !== undefined) checkInteger("bad_index", "index", index);
     if (!this._telegram(space)) return place(space, [address], { index });
-    return place("telegram", Array.from({ length: count }, (_, at) => address + at), { telegram: space });
+    return place(
+      "telegram",
+      Array.from({ length: count }, (_, at) => address + at),
+      { telegram: space },
+    );
   }
 
   /** @param {string | undefined} name @returns {import("./uss-frames.js").Telegram | undefined} */

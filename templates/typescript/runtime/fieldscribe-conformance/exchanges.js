@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: 0BSD
 /** What vectors say of frames and whole exchanges, held against the generated class of a device. */
-import {
-  buildCanFrame,
-  messageNamed,
-  parseCanFrame,
-  SignalPacking,
-} from "../fieldscribe-runtime/can-frames.js";
+import { buildCanFrame, messageNamed, parseCanFrame, SignalPacking } from "../fieldscribe-runtime/can-frames.js";
 import { TelegramReceiver } from "../fieldscribe-runtime/can.js";
 import { mergedWords, stepReads } from "../fieldscribe-runtime/commands.js";
 import { FieldscribeError, NoReplyError } from "../fieldscribe-runtime/errors.js";
@@ -28,7 +23,8 @@ async function outcomeOf(work) {
   }
 }
 
-/** Whether two values are the same, all through; a raw number of a vector may be a number or a bigint. @param {any} one @param {any} other @returns {boolean} */
+/** Whether two values are the same, all through; a raw number of a vector may be a number or a bigint. @param {any} one
+ * @param {any} other @returns {boolean} */
 function isSame(one, other) {
   if (Object.is(one, other) || (typeof one === "bigint" && String(one) === String(other))) return true;
   if (typeof one !== "object" || typeof other !== "object" || !one || !other) return false;
@@ -52,7 +48,9 @@ class ScriptedLine {
     this.framing = vector.framing ?? undefined;
     /** @type {[Uint8Array, Uint8Array][]} */
     this.steps = [...vector.script];
-    this.needs = new Map((vector.needs ?? []).map((/** @type {[Uint8Array, Uint8Array]} */ [sent, came]) => [String(sent), came]));
+    this.needs = new Map(
+      (vector.needs ?? []).map((/** @type {[Uint8Array, Uint8Array]} */ [sent, came]) => [String(sent), came]),
+    );
   }
 
   /** @param {any} request @param {any} reply @returns {Promise<any>} */
@@ -122,7 +120,10 @@ async function readFollows(device, vector) {
   const point = pointOfVector(device, vector);
   const raw = vector.status === "ok" ? rawOfVector(point, vector) : undefined;
   const value = vector.status === "ok" ? point.decode(raw, rawsOfVector(vector)) : undefined;
-  for (const [name, expected] of [["readRaw", raw], ["read", value]]) {
+  for (const [name, expected] of [
+    ["readRaw", raw],
+    ["read", value],
+  ]) {
     const { line, handle } = scripted(device, vector, point);
     if (!(await follows(vector, line, () => handle[name](), expected))) return false;
   }
@@ -150,7 +151,8 @@ async function commandFollows(device, vector) {
   return follows(vector, line, () => made[commandAttribute(device, vector.command)].send());
 }
 
-/** What a command is called: its name may be a point's, or a method. @param {DeviceClass} device @param {string} name */
+/** What a command is called: its name may be a point's, or a method. @param {DeviceClass} device
+ * @param {string} name */
 function commandAttribute(device, name) {
   const { commands = {} } = device.table.facts;
   const plain = camelName(name);
@@ -174,7 +176,8 @@ async function modbusBuilds(device, vector) {
 async function modbusParses(device, vector) {
   const { framing, transaction, bytes } = vector;
   const { profile } = device.table.facts;
-  const parse = () => parseModbusReply(modbusRequestOf(vector), bytes ?? new Uint8Array(0), profile, framing, transaction);
+  const parse = () =>
+    parseModbusReply(modbusRequestOf(vector), bytes ?? new Uint8Array(0), profile, framing, transaction);
   const [status, result] = await outcomeOf(parse);
   if (status !== vector.status) return false;
   if (status === "exception") return result.code === vector.exception;
@@ -243,7 +246,8 @@ async function ussBroadcasts(device, vector) {
 async function ussParses(device, vector) {
   const { unit, task, parameter, index, bytes } = vector;
   const link = linkOfVector(vector);
-  const parse = () => parseUssReply({ unit, task, parameter, index }, bytes ?? new Uint8Array(0), device.table.facts.profile, link);
+  const parse = () =>
+    parseUssReply({ unit, task, parameter, index }, bytes ?? new Uint8Array(0), device.table.facts.profile, link);
   const [status, found] = await outcomeOf(parse);
   if (status !== vector.status) return false;
   if (status === "refused") return vector.response === 7 && found.code === vector.error;
@@ -255,7 +259,9 @@ async function ussParses(device, vector) {
 async function canBuilds(device, vector) {
   const { profile } = device.table.facts;
   const message = messageNamed(profile, vector.message);
-  const [status, frame] = await outcomeOf(() => buildCanFrame(message, profile, vector.unit, vector.address, vector.raw));
+  const [status, frame] = await outcomeOf(() =>
+    buildCanFrame(message, profile, vector.unit, vector.address, vector.raw),
+  );
   return status === vector.status && (status !== "ok" || isSame([frame.id, frame.data], [vector.id, vector.bytes]));
 }
 
@@ -270,7 +276,9 @@ async function canParses(device, vector) {
 /** @param {DeviceClass} device @param {any} vector */
 function receiverOf(device, vector) {
   const receiver = new TelegramReceiver(device.table.facts.profile, vector.telegram, vector.unit);
-  const taken = (vector.frames ?? []).map((/** @type {[number, Uint8Array]} */ [id, data]) => Number(receiver.take({ id, data })));
+  const taken = (vector.frames ?? []).map((/** @type {[number, Uint8Array]} */ [id, data]) =>
+    Number(receiver.take({ id, data })),
+  );
   return { receiver, taken };
 }
 
@@ -284,7 +292,8 @@ async function canTelegram(device, vector) {
   const { receiver, taken } = receiverOf(device, vector);
   const point = pointOfVector(device, vector);
   const [status, words] = await outcomeOf(() => receiver.ascending(point.at));
-  if (status !== vector.status || !isSame(taken, vector.taken ?? []) || point.at.telegram !== vector.telegram) return false;
+  if (status !== vector.status || !isSame(taken, vector.taken ?? []) || point.at.telegram !== vector.telegram)
+    return false;
   return status !== "ok" || isSame(point.fromWords(words), vector.raw);
 }
 
@@ -301,7 +310,9 @@ async function canSignalFollows(device, vector) {
   if (status !== vector.status || status !== "ok") return status === vector.status;
   const packing = new SignalPacking(message.signals, message.length);
   const number = packing.firsts().indexOf(point.at.addresses[0]);
-  const selecting = message.signals[number].when.map(([at, raws]) => /** @type {const} */ ([at, raws[raws.length - 1]]));
+  const selecting = message.signals[number].when.map(
+    ([at, raws]) => /** @type {const} */ ([at, raws[raws.length - 1]]),
+  );
   const packed = packing.pack([...selecting, [number, vector.raw]]);
   return isSame(point.fromWords(words), vector.raw) && isSame(packed, vector.packed);
 }

@@ -16,7 +16,8 @@ const MOST_BLOCKS = 256;
 
 /**
  * Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two.
- * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[], end: number }} ModbusChain
+ * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[],
+ *   end: number }} ModbusChain
  */
 
 /** The address that others count from, and the last one that does, counted from it.
@@ -42,7 +43,8 @@ export function modbusChain(name, code, marker, places, end) {
 
 /** The bases of one device, as far as they are known. */
 export class ModbusBases {
-  /** @param {import("./table.js").DeviceFacts} facts @param {ReadWords} read @param {Record<string, unknown>} options */
+  /** @param {import("./table.js").DeviceFacts} facts @param {ReadWords} read
+   * @param {Record<string, unknown>} options */
   constructor({ bases = {}, given = {}, chain }, read, options) {
     this.bases = bases;
     this.chain = chain;
@@ -116,7 +118,10 @@ export class ModbusBases {
     const blocks = await this.blocks();
     const start = blocks.get(id);
     if (!start) {
-      throw new BlockError("no_block", `the device has no block ${id}, only ${[...blocks.keys()].join(", ") || "none"}`);
+      throw new BlockError(
+        "no_block",
+        `the device has no block ${id}, only ${[...blocks.keys()].join(", ") || "none"}`,
+      );
     }
     const counts = Object.entries(base.counts);
     if (!base.offset && !counts.length) return start;

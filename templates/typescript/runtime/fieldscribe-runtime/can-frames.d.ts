@@ -9,7 +9,8 @@
  * Where a signal lies: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
  * value if the low byte comes first, else that of the highest. `when` has places of other signals with the raw numbers
  * that select this one: all must fit.
- * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number, readonly number[]])[] }} CanSignal
+ * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number,
+ *   readonly number[]])[] }} CanSignal
  */
 /**
  * A layout of bytes with an identifier: `canId`, plus the unit number if `addsUnit`. It has `roles` for its 8 bytes, or
@@ -45,7 +46,8 @@ export function canMessage(name: string, direction: string, canId: number, facts
 export function canRole(kind: string, number?: number): CanRole;
 /** @param {number} start @param {number} width @param {Partial<CanSignal>} [facts] @returns {CanSignal} */
 export function canSignal(start: number, width: number, facts?: Partial<CanSignal>): CanSignal;
-/** @param {string} name @param {string} direction @param {number} words @param {string} [message] @returns {Telegram} */
+/** @param {string} name @param {string} direction @param {number} words @param {string} [message]
+ * @returns {Telegram} */
 export function telegramLayout(name: string, direction: string, words: number, message?: string): Telegram;
 /** A message by name; raises AccessError. @param {CanProfile} profile @param {string | undefined} name
  * @returns {CanMessage} */
@@ -57,7 +59,8 @@ export function telegramNamed(profile: {
 }, name: string | undefined): Telegram;
 /** @param {CanMessage} message @param {string} kind */
 export function carriesRole(message: CanMessage, kind: string): boolean;
-/** The request that reads or writes a parameter; raises AccessError. @param {CanProfile} profile @param {boolean} writes
+/** The request that reads or writes a parameter; raises AccessError. @param {CanProfile} profile
+ * @param {boolean} writes
  * @returns {CanMessage} */
 export function parameterRequest(profile: CanProfile, writes: boolean): CanMessage;
 /** The identifier that carries a message to or from a unit. @param {CanMessage} message @param {number} unit */
@@ -71,7 +74,8 @@ export function buildCanFrame(message: CanMessage, profile: CanProfile, unit: nu
 /** @param {CanMessage} message @param {CanProfile} profile @param {number} unit @param {Uint8Array} data
  * @returns {CanFrame} */
 export function canFrameOf(message: CanMessage, profile: CanProfile, unit: number, data: Uint8Array): CanFrame;
-/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit, wrong_check.
+/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
+ * wrong_check.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {string | undefined} */
 export function canFrameFault(message: CanMessage, unit: number, frame: CanFrame): string | undefined;
 /**
@@ -93,7 +97,8 @@ export class SignalPacking {
     constructor(signals: readonly CanSignal[], length: number);
     signals: readonly CanSignal[];
     length: number;
-    /** @type {{ signals: number[], when: CanSignal["when"], first: number, words: number }[]} words that come together */
+    /** @type {{ signals: number[], when: CanSignal["when"], first: number,
+     *   words: number }[]} words that come together */
     parts: {
         signals: number[];
         when: CanSignal["when"];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-/** CAN messages with a layout of bytes, and their signals, without any I/O. Any bytes of any length are safe to parse. */
+/** CAN messages with a layout of bytes, and their signals, without any I/O. Any bytes are safe to parse. */
 import { AccessError, FrameError } from "./errors.js";
 import { checkNumber, hex2 } from "./receiving.js";
 
@@ -19,7 +19,8 @@ const CAN_LENGTH = 8;
  * Where a signal lies: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
  * value if the low byte comes first, else that of the highest. `when` has places of other signals with the raw numbers
  * that select this one: all must fit.
- * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number, readonly number[]])[] }} CanSignal
+ * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number,
+ *   readonly number[]])[] }} CanSignal
  */
 
 /**
@@ -72,7 +73,8 @@ export function canSignal(start, width, facts) {
   return { start, width, lowFirst: false, when: [], ...facts };
 }
 
-/** @param {string} name @param {string} direction @param {number} words @param {string} [message] @returns {Telegram} */
+/** @param {string} name @param {string} direction @param {number} words @param {string} [message]
+ * @returns {Telegram} */
 export function telegramLayout(name, direction, words, message) {
   return { name, direction, words, message };
 }
@@ -99,7 +101,8 @@ export function carriesRole(message, kind) {
   return message.roles.some((role) => role.kind === kind);
 }
 
-/** The request that reads or writes a parameter; raises AccessError. @param {CanProfile} profile @param {boolean} writes
+/** The request that reads or writes a parameter; raises AccessError. @param {CanProfile} profile
+ * @param {boolean} writes
  * @returns {CanMessage} */
 export function parameterRequest(profile, writes) {
   const found = profile.messages.find(
@@ -116,7 +119,7 @@ export function identifierOf(message, unit) {
 
 /** The bytes of a mask, combined by exclusive or. @param {Uint8Array} data @param {number} mask */
 function combinedBytes(data, mask) {
-  return data.reduce((result, byte, place) => (mask >> place) & 1 ? result ^ byte : result, 0);
+  return data.reduce((result, byte, place) => ((mask >> place) & 1 ? result ^ byte : result), 0);
 }
 
 /**
@@ -130,7 +133,9 @@ export function buildCanFrame(message, profile, unit, address = 0, raw = 0) {
   checkNumber("bad_value", "raw number", raw, [0, 0xffff]);
   /** @type {Record<string, number>} */
   const carried = { unit, address, raw };
-  const bytes = message.roles.map(({ kind, number }) => (kind === "constant" ? number : (carried[kind] ?? 0) >> number));
+  const bytes = message.roles.map(({ kind, number }) =>
+    kind === "constant" ? number : (carried[kind] ?? 0) >> number,
+  );
   const data = Uint8Array.from(bytes);
   message.roles.forEach(({ kind, number }, place) => {
     if (kind === "xor") data[place] = combinedBytes(data, number);
@@ -145,9 +150,14 @@ export function canFrameOf(message, profile, unit, data) {
 }
 
 /** The kinds of bytes that are known beforehand, in the order in which they are looked at. */
-const FIXED_ROLES = [["constant", "constant"], ["unit", "unit"], ["xor", "check"]];
+const FIXED_ROLES = [
+  ["constant", "constant"],
+  ["unit", "unit"],
+  ["xor", "check"],
+];
 
-/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit, wrong_check.
+/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
+ * wrong_check.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {string | undefined} */
 export function canFrameFault(message, unit, frame) {
   if (frame.id !== identifierOf(message, unit)) return "wrong_id";
@@ -201,7 +211,8 @@ export class SignalPacking {
   constructor(signals, length) {
     this.signals = signals;
     this.length = length;
-    /** @type {{ signals: number[], when: CanSignal["when"], first: number, words: number }[]} words that come together */
+    /** @type {{ signals: number[], when: CanSignal["when"], first: number,
+     *   words: number }[]} words that come together */
     this.parts = [];
     let at = 0;
     signals.forEach((signal, number) => {
@@ -234,7 +245,10 @@ export class SignalPacking {
     const found = new Map();
     this.parts.forEach(({ signals, when }, place) => {
       if (!when.every(([selector, known]) => known.includes(Number(this.raw(data, selector))))) return;
-      found.set(place, signals.flatMap((number) => wordsOfRaw(this.raw(data, number), signalWords(this.signals[number]))));
+      found.set(
+        place,
+        signals.flatMap((number) => wordsOfRaw(this.raw(data, number), signalWords(this.signals[number]))),
+      );
     });
     return found;
   }

@@ -88,7 +88,8 @@ export class CanDevice extends Session {
     _listen(at: Place): Promise<number[]>;
     /** Read some points; where refusals are noted, words that do not come in a telegram that comes are, too.
      * @param {readonly AnyPoint[]} points @param {import("./session.js").Refusals | undefined} refusals
-     * @param {() => Promise<import("./session.js").PointRaws>} ask @returns {Promise<import("./session.js").PointRaws>} */
+     * @param {() => Promise<import("./session.js").PointRaws>} ask
+     * @returns {Promise<import("./session.js").PointRaws>} */
     _part(points: readonly AnyPoint[], refusals: import("./session.js").Refusals | undefined, ask: () => Promise<import("./session.js").PointRaws>): Promise<import("./session.js").PointRaws>;
 }
 export type Place = import("./places.js").Place;

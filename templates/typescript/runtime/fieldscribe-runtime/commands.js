@@ -142,7 +142,8 @@ function stepTestHolds(value, test, than) {
 }
 
 /** Write the words of a step, or wait for them; raises WaitError if they do not come during the pauses.
- * @param {import("./session.js").Session} session @param {Step} one @param {Readonly<Record<string, number>>} numbers */
+ * @param {import("./session.js").Session} session @param {Step} one
+ * @param {Readonly<Record<string, number>>} numbers */
 async function request(session, one, numbers) {
   for (let left = one.within; ; left -= LOOK_PAUSE) {
     const at = { ...one.at, function: undefined };

@@ -36,7 +36,8 @@ const MODBUS_ECHOES = [WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS];
 
 /**
  * One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0.
- * @typedef {{ unit: number, function: number, address: number, count?: number, values?: readonly number[] }} ModbusRequest
+ * @typedef {{ unit: number, function: number, address: number, count?: number,
+ *   values?: readonly number[] }} ModbusRequest
  */
 
 /** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and what follows it, nothing around that. */
@@ -68,7 +69,7 @@ export function modbusCrc(data) {
 
 /** @param {ModbusRequest} request @returns {number} */
 function itemsOf(request) {
-  return MODBUS_READS.includes(request.function) ? request.count ?? 0 : request.values?.length ?? 0;
+  return MODBUS_READS.includes(request.function) ? (request.count ?? 0) : (request.values?.length ?? 0);
 }
 
 /** Raises RequestError (bad_framing) if the device does not frame its telegrams so.
@@ -139,7 +140,15 @@ export function buildModbusRequest(request, profile, framing = "rtu", transactio
   checkModbusRequest(request, profile);
   const frame = [request.unit, ...pduOf(request, profile)];
   if (framing === "tcp") {
-    return Uint8Array.of((transaction >> 8) & 0xff, transaction & 0xff, 0, 0, frame.length >> 8, frame.length, ...frame);
+    return Uint8Array.of(
+      (transaction >> 8) & 0xff,
+      transaction & 0xff,
+      0,
+      0,
+      frame.length >> 8,
+      frame.length,
+      ...frame,
+    );
   }
   if (framing === "pdu") return Uint8Array.from(frame);
   const check = modbusCrc(Uint8Array.from(frame));

@@ -176,7 +176,10 @@ export class ModbusDevice extends Session {
     return this._run(async () => {
       checkNumber("bad_address", "address", address, [0, 0xffff]);
       checkNumber("bad_count", "the number of words or bits", values.length, [1, 0x10000]);
-      const at = place(space, values.map((_, each) => address + each));
+      const at = place(
+        space,
+        values.map((_, each) => address + each),
+      );
       const code = this._writeFunction(at, values.length);
       if (values.length > (this._profile.functions[code] ?? 0)) {
         buildModbusRequest({ unit: this.unit, function: code, address, values }, this._profile, this._framing);
@@ -211,7 +214,10 @@ export class ModbusDevice extends Session {
     if (base === undefined || !this._bases) return 0;
     const start = await this._bases.start(base);
     if (last > start.last) {
-      throw new BlockError("behind_end", `the block of ${base} ends at its word ${start.last}, before the word ${last}`);
+      throw new BlockError(
+        "behind_end",
+        `the block of ${base} ends at its word ${start.last}, before the word ${last}`,
+      );
     }
     return start.address;
   }
@@ -287,7 +293,11 @@ export class ModbusDevice extends Session {
       (block) => points.some((point) => covers(block, point.at)) && !spotsOf(block).some((one) => holes.has(one)),
     );
     const rest = points.filter((point) => !blocks.some((block) => covers(block, point.at)));
-    const raws = await super._gather(rest.filter((point) => isScattered(point.at)), undefined, refusals);
+    const raws = await super._gather(
+      rest.filter((point) => isScattered(point.at)),
+      undefined,
+      refusals,
+    );
     const places = rest.filter((point) => !isScattered(point.at)).map((point) => point.at);
     for (const block of [...blocks, ...planReads(places, this._profile, this._bridges())]) {
       const inside = points.filter((point) => covers(block, point.at) && !raws.has(point));
@@ -308,7 +318,9 @@ export class ModbusDevice extends Session {
 
   /** @param {readonly AnyPoint[]} points @param {ModbusBlock} block */
   _noteGaps(points, block) {
-    const taken = new Set(points.flatMap(({ at }) => at.addresses.map((/** @type {number} */ one) => spot(areaOf(at), one))));
+    const taken = new Set(
+      points.flatMap(({ at }) => at.addresses.map((/** @type {number} */ one) => spot(areaOf(at), one))),
+    );
     for (const one of spotsOf(block)) if (!taken.has(one)) this._gaps.add(one);
   }
 
@@ -320,7 +332,8 @@ export class ModbusDevice extends Session {
     return new Set([...this._gaps, ...refused]);
   }
 
-  /** Tells the addresses of all points that are known to be there, and readable. @returns {(spot: string) => boolean} */
+  /** Tells the addresses of all points that are known to be there, and readable.
+   * @returns {(spot: string) => boolean} */
   _bridges() {
     if (!this._readableSpots) {
       this._readableSpots = new Set();

@@ -26,7 +26,8 @@ export function holding(...where: (number | PlaceFacts)[]): Place;
 export function inputRegister(...where: (number | PlaceFacts)[]): Place;
 /** A parameter by its number, or an element of one; a text lies in several. @param {...(number | PlaceFacts)} where */
 export function parameter(...where: (number | PlaceFacts)[]): Place;
-/** Words of a telegram, counted from 0. @param {string} name @param {...(number | PlaceFacts)} where @returns {Place} */
+/** Words of a telegram, counted from 0. @param {string} name @param {...(number | PlaceFacts)} where
+ * @returns {Place} */
 export function telegram(name: string, ...where: (number | PlaceFacts)[]): Place;
 /** The space, and what addresses in it count from: addresses of one area name the same words. @param {Place} at */
 export function areaOf(at: Place): string;

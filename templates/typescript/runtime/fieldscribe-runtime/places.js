@@ -55,7 +55,8 @@ export function parameter(...where) {
   return placeIn("parameter", where);
 }
 
-/** Words of a telegram, counted from 0. @param {string} name @param {...(number | PlaceFacts)} where @returns {Place} */
+/** Words of a telegram, counted from 0. @param {string} name @param {...(number | PlaceFacts)} where
+ * @returns {Place} */
 export function telegram(name, ...where) {
   return { ...placeIn("telegram", where), telegram: name };
 }
@@ -104,7 +105,8 @@ export function placesOverlap(one, other) {
 export function placeLabel(at) {
   const address = lowestOf(at);
   if (at.telegram !== undefined) return `${at.telegram} word ${address}`;
-  const number = at.space === "parameter" ? String(address) : `0x${address.toString(16).toUpperCase().padStart(4, "0")}`;
+  const number =
+    at.space === "parameter" ? String(address) : `0x${address.toString(16).toUpperCase().padStart(4, "0")}`;
   const index = at.index === undefined ? "" : ` index ${at.index}`;
   return `${at.space} ${number}${index}${at.base === undefined ? "" : ` from ${at.base}`}`;
 }

@@ -33,9 +33,11 @@ export class Session {
     _turn: Promise<unknown>;
     /** @type {Map<AnyPoint, any>} */
     _handles: Map<AnyPoint, any>;
-    /** Read the words or bits of a place, in ascending order of address. @param {Place} at @returns {Promise<number[]>} */
+    /** Read the words or bits of a place, in ascending order of address. @param {Place} at
+     * @returns {Promise<number[]>} */
     _get(at: Place): Promise<number[]>;
-    /** Write words or bits at a place, in ascending order of address. @param {Place} at @param {readonly number[]} words */
+    /** Write words or bits at a place, in ascending order of address. @param {Place} at
+     * @param {readonly number[]} words */
     _store(at: Place, words: readonly number[]): Promise<void>;
     /** Carry out an operation once those before it are done, before it the commands that come first.
      * @template T @param {() => Promise<T>} work @param {boolean} [prepares] @returns {Promise<T>} */
@@ -83,7 +85,8 @@ export class Session {
     /** Write a value, to another place than the usual one where one is named.
      * @param {AnyPoint} point @param {unknown} value @param {Place} [at] */
     _write(point: AnyPoint, value: unknown, at?: Place): Promise<void>;
-    /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw @param {Place} [at] */
+    /** Write a raw number that the range allows. @param {AnyPoint} point @param {number | bigint} raw
+     * @param {Place} [at] */
     _writeRaw(point: AnyPoint, raw: number | bigint, at?: Place): Promise<void>;
     /** Write a raw number that was checked; raises EchoError if the device confirms another one.
      * @param {AnyPoint} point @param {number | bigint} raw @param {Record<string, number | bigint>} raws

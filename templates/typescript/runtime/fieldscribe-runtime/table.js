@@ -25,7 +25,8 @@ import { camelName } from "./words.js";
 
 /**
  * What a point holds in a device, or in one of its variants: one of `values`, raw numbers or texts.
- * @typedef {{ point: string, values: readonly (number | string)[], variant?: readonly [string, string] }} Identification
+ * @typedef {{ point: string, values: readonly (number | string)[], variant?: readonly [string,
+ *   string] }} Identification
  */
 
 /** @param {string} point @param {readonly (number | string)[]} values @param {readonly [string, string]} [variant]
@@ -94,14 +95,17 @@ export class PointTable {
   /** A point by name, old name or code (`P0731[1]` is an element of an array); raises AccessError.
    * @param {unknown} what @param {Variants} variants @returns {AnyPoint} */
   resolved(what, variants) {
-    if (typeof what !== "string" || !what.trim()) throw new AccessError(`a point is named by a text, not ${shown(what)}`);
+    if (typeof what !== "string" || !what.trim())
+      throw new AccessError(`a point is named by a text, not ${shown(what)}`);
     const found = this.found(what, variants) ?? [...this.points.values()].find((point) => labelOf(point) === what);
     if (found) return found;
     const coded = this.coded(what);
     const there = coded.filter((point) => pointExists(point, variants));
     const points = there.length ? there : coded;
     if (points.length > 1 && new Set(points.map((point) => point.name)).size > 1) {
-      throw new AccessError(`${what} means several points: ${points.map((point) => this.attributes.get(point)).join(", ")}`);
+      throw new AccessError(
+        `${what} means several points: ${points.map((point) => this.attributes.get(point)).join(", ")}`,
+      );
     }
     if (points.length !== 1) {
       const name = points.length ? points[0].name : what;

@@ -51,7 +51,9 @@ export class TcpLine extends StreamLine {
   async _send(request) {
     if (!this._socket) await this._open(); // the other side closed it meanwhile
     await new Promise((resolve, reject) => {
-      this._socket.write(request, (/** @type {Error | undefined} */ error) => (error ? reject(error) : resolve(undefined)));
+      this._socket.write(request, (/** @type {Error | undefined} */ error) =>
+        error ? reject(error) : resolve(undefined),
+      );
     });
   }
 

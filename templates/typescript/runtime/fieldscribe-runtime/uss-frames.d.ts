@@ -41,7 +41,8 @@
  * @returns {UssProfile}
  */
 export function ussProfile(facts: Partial<UssProfile> & Pick<UssProfile, "units" | "pkw" | "pzd" | "tasks">): UssProfile;
-/** The task that writes a parameter of 1 or 2 words. @param {number} words @param {boolean} isElement @param {boolean} keep
+/** The task that writes a parameter of 1 or 2 words. @param {number} words @param {boolean} isElement
+ * @param {boolean} keep
  * @returns {number | undefined} */
 export function ussChangeTask(words: number, isElement: boolean, keep: boolean): number | undefined;
 /** How many words of the parameter part are sent. @param {UssLink} link @returns {number} */

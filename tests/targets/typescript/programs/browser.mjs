@@ -6,7 +6,10 @@ import { dirname, join, normalize } from "node:path";
 
 const [executablePath, tools, packages, ...devices] = process.argv.slice(2);
 const { chromium } = createRequire(join(tools, "x.js"))("playwright-core");
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"] });
+const browser = await chromium.launch({
+  executablePath,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
+});
 const HOST = "http://device.test/";
 const IMPORT = /^(?:import|export \*)[^;]*?from "([^"]+)";\n/gm;
 
@@ -30,7 +33,9 @@ function joined(file, seen = new Set()) {
 function classic(name) {
   const seen = new Set();
   const runner = joined("fieldscribe-conformance/vectors.js", seen);
-  const runtime = ["index", "modbus", "uss", "can"].map((one) => joined(`fieldscribe-runtime/${one}.js`, seen)).join("\n");
+  const runtime = ["index", "modbus", "uss", "can"]
+    .map((one) => joined(`fieldscribe-runtime/${one}.js`, seen))
+    .join("\n");
   const device = joined(`${name}/index.js`, seen);
   const [, kind] = /^class (\w+) extends \w+Device \{/m.exec(device);
   return `"use strict";\n${runner}\n${runtime}\nwindow.device = (() => {\n${device}\nreturn ${kind};\n})();\nwindow.run = runVectors;\n`;
@@ -51,9 +56,13 @@ for (const pair of devices) {
     page.on("pageerror", (error) => troubles.push(String(error)));
     await page.route(`${HOST}**`, (route) => {
       const path = new URL(route.request().url()).pathname;
-      if (path === "/") return route.fulfill({ contentType: "text/html", body: "<!doctype html><title>vectors</title>" });
+      if (path === "/")
+        return route.fulfill({ contentType: "text/html", body: "<!doctype html><title>vectors</title>" });
       const imports = /(from ")(fieldscribe-runtime[^"]*)"/g;
-      const body = readFileSync(join(packages, path), "utf8").replace(imports, (_, before, specifier) => `${before}${HOST}${located("", specifier)}"`);
+      const body = readFileSync(join(packages, path), "utf8").replace(
+        imports,
+        (_, before, specifier) => `${before}${HOST}${located("", specifier)}"`,
+      );
       return route.fulfill({ contentType: "text/javascript", body });
     });
     await page.goto(HOST);

@@ -15,7 +15,10 @@ class BridgeLine {
     this.socket.on("data", (data) => {
       this.held = Buffer.concat([this.held, data]);
       for (; this.held.length >= 13; this.held = this.held.subarray(13)) {
-        const frame = { id: this.held.readUInt32BE(0) & 0x1fffffff, data: new Uint8Array(this.held.subarray(5, 5 + this.held[4])) };
+        const frame = {
+          id: this.held.readUInt32BE(0) & 0x1fffffff,
+          data: new Uint8Array(this.held.subarray(5, 5 + this.held[4])),
+        };
         this.onFrame?.(frame);
       }
     });
@@ -60,14 +63,18 @@ async function opened({ kind, port, path, framing, timeout = 0.3 }) {
 
 function plain(value) {
   if (value === undefined) return { undefined: true };
-  if (value instanceof Error) return { error: { ...value, kind: value.name, message: value.message, status: value.status } };
+  if (value instanceof Error)
+    return { error: { ...value, kind: value.name, message: value.message, status: value.status } };
   if (typeof value === "bigint") return { bigint: String(value) };
   if (typeof value === "number" && !Number.isFinite(value)) return { number: String(value) };
   if (value instanceof Map) return plain(Object.fromEntries(value));
   if (Array.isArray(value)) return value.map(plain);
   if (value instanceof Date || value === null || typeof value !== "object") return value;
   const kind = Object.getPrototypeOf(value)?.constructor?.name;
-  return { ...(kind === "Object" ? {} : { kind }), ...Object.fromEntries(Object.entries(value).map(([name, one]) => [name, plain(one)])) };
+  return {
+    ...(kind === "Object" ? {} : { kind }),
+    ...Object.fromEntries(Object.entries(value).map(([name, one]) => [name, plain(one)])),
+  };
 }
 
 const [name, className, where, options] = process.argv.slice(2);
@@ -86,9 +93,18 @@ for await (const text of createInterface({ input: process.stdin })) {
   try {
     if (failure) throw failure;
     if (set) answer = { result: plain(Object.assign(device, set) && null) };
-    else if (call === "table") answer = { result: [...device.table.points].map(([attribute, { name, decode, encode, at }]) => ({ attribute, name, readable: Boolean(decode), writable: Boolean(encode), telegram: at.telegram })) };
+    else if (call === "table")
+      answer = {
+        result: [...device.table.points].map(([attribute, { name, decode, encode, at }]) => ({
+          attribute,
+          name,
+          readable: Boolean(decode),
+          writable: Boolean(encode),
+          telegram: at.telegram,
+        })),
+      };
     else {
-      const subject = on === undefined ? device : device[on] ?? device.point(on);
+      const subject = on === undefined ? device : (device[on] ?? device.point(on));
       answer = { result: plain(await subject[call](...given)) };
     }
   } catch (error) {
