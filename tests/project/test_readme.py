@@ -32,7 +32,7 @@ def test_the_point_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert "1 point (1 generated)" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("language", ["c", "python", "rust"])
+@pytest.mark.parametrize("language", ["c", "python", "rust", "typescript"])
 def test_the_first_program_is_that_of_its_page(language: str) -> None:
     """The page's own test runs it."""
     assert block(language) in (USING / f"{language}.md").read_text("utf-8")

@@ -21,8 +21,8 @@ export interface PointFacts {
   scale?: string;
   /** The names of further points whose raw numbers the limits need. */
   limits?: string;
-  /** The special codes of one raw number. */
-  special?: string;
+  /** The special codes of one raw number: how they are named here, and in the description. */
+  special?: object;
   /** What names numbers or flags. */
   names?: object;
 }
@@ -30,6 +30,7 @@ export interface PointFacts {
 type Fact<Facts, Key extends string, Usual> = Facts extends { [K in Key]: infer Found } ? Found : Usual;
 type Raw<Facts> = Fact<Facts, "raw", number>;
 type Names<Facts, Key extends string> = Extract<Fact<Facts, Key, never>, string>;
+type CodesOf<Codes> = { readonly [Name in keyof Codes]: SpecialCode<Extract<Codes[Name], string>> };
 /** The last argument of a conversion: needed where other points decide. */
 type Needs<Name extends string> = [Name] extends [never]
   ? [raws?: Raws]
@@ -70,7 +71,7 @@ export interface Point<Facts extends PointFacts = any, Device extends string = s
   readonly rawLimits: readonly [Raw<Facts>, Raw<Facts>];
   readonly names: Fact<Facts, "names", undefined>;
   /** The special codes of one raw number, by name. */
-  readonly special: { readonly [Name in Names<Facts, "special">]: SpecialCode };
+  readonly special: CodesOf<Fact<Facts, "special", {}>>;
   readonly scaleNeeds: readonly string[];
   readonly limitNeeds: readonly string[];
   /** What else the description says. */

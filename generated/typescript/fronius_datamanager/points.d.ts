@@ -45,221 +45,221 @@ export declare const version: ReadOnly<string, { raw: bigint }>;
 /** Serial number. */
 export declare const serialNumber: ReadOnly<string, { raw: bigint }>;
 /** Device address. Special code: FFFFh not_implemented. */
-export declare const deviceAddress: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const deviceAddress: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Ac current. Special code: FFFFh not_implemented. */
-export declare const acCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: "notImplemented" }>;
+export declare const acCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase a current. Special code: FFFFh not_implemented. */
-export declare const phaseACurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: "notImplemented" }>;
+export declare const phaseACurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase b current. Special code: FFFFh not_implemented. */
-export declare const phaseBCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: "notImplemented" }>;
+export declare const phaseBCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase c current. Special code: FFFFh not_implemented. */
-export declare const phaseCCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: "notImplemented" }>;
+export declare const phaseCCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Ac current exponent. Special code: 8000h not_implemented. */
-export declare const acCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const acCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Phase a to b voltage. Special code: FFFFh not_implemented. */
-export declare const phaseAToBVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseAToBVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase b to c voltage. Special code: FFFFh not_implemented. */
-export declare const phaseBToCVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseBToCVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase c to a voltage. Special code: FFFFh not_implemented. */
-export declare const phaseCToAVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseCToAVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase a voltage. Special code: FFFFh not_implemented. */
-export declare const phaseAVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseAVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase b voltage. Special code: FFFFh not_implemented. */
-export declare const phaseBVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseBVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Phase c voltage. Special code: FFFFh not_implemented. */
-export declare const phaseCVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: "notImplemented" }>;
+export declare const phaseCVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Ac voltage exponent. Special code: 8000h not_implemented. */
-export declare const acVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const acVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Ac power. Special code: 8000h not_implemented. */
-export declare const acPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acPowerExponent"; special: "notImplemented" }>;
+export declare const acPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "acPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Ac power exponent. Special code: 8000h not_implemented. */
-export declare const acPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const acPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Frequency. Special code: FFFFh not_implemented. */
-export declare const frequency: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "frequencyExponent"; special: "notImplemented" }>;
+export declare const frequency: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "frequencyExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Frequency exponent. Special code: 8000h not_implemented. */
-export declare const frequencyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const frequencyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Apparent power. Special code: 8000h not_implemented. */
-export declare const apparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "apparentPowerExponent"; special: "notImplemented" }>;
+export declare const apparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "apparentPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Apparent power exponent. Special code: 8000h not_implemented. */
-export declare const apparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const apparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Reactive power. Special code: 8000h not_implemented. */
-export declare const reactivePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerExponent"; special: "notImplemented" }>;
+export declare const reactivePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Reactive power exponent. Special code: 8000h not_implemented. */
-export declare const reactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const reactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Power factor. Special code: 8000h not_implemented. */
-export declare const powerFactor: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "powerFactorExponent"; special: "notImplemented" }>;
+export declare const powerFactor: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "powerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Power factor exponent. Special code: 8000h not_implemented. */
-export declare const powerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const powerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Lifetime energy. Special code: FFFFFFFFh not_implemented. */
-export declare const lifetimeEnergy: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "lifetimeEnergyExponent"; special: "notImplemented" }>;
+export declare const lifetimeEnergy: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "lifetimeEnergyExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Lifetime energy exponent. Special code: 8000h not_implemented. */
-export declare const lifetimeEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const lifetimeEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Dc current. Special code: FFFFh not_implemented. */
-export declare const dcCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcCurrentExponent"; special: "notImplemented" }>;
+export declare const dcCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Dc current exponent. Special code: 8000h not_implemented. */
-export declare const dcCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const dcCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Dc voltage. Special code: FFFFh not_implemented. */
-export declare const dcVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcVoltageExponent"; special: "notImplemented" }>;
+export declare const dcVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Dc voltage exponent. Special code: 8000h not_implemented. */
-export declare const dcVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const dcVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Dc power. Special code: 8000h not_implemented. */
-export declare const dcPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcPowerExponent"; special: "notImplemented" }>;
+export declare const dcPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "dcPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Dc power exponent. Special code: 8000h not_implemented. */
-export declare const dcPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const dcPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Cabinet temperature. Special code: 8000h not_implemented. */
-export declare const cabinetTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: "notImplemented" }>;
+export declare const cabinetTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Heat sink temperature. Special code: 8000h not_implemented. */
-export declare const heatSinkTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: "notImplemented" }>;
+export declare const heatSinkTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Transformer temperature. Special code: 8000h not_implemented. */
-export declare const transformerTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: "notImplemented" }>;
+export declare const transformerTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Other temperature. Special code: 8000h not_implemented. */
-export declare const otherTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: "notImplemented" }>;
+export declare const otherTemperature: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "temperatureExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Temperature exponent. Special code: 8000h not_implemented. */
-export declare const temperatureExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const temperatureExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Operating state. Special code: FFFFh not_implemented. */
-export declare const operatingState: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof OperatingState }>;
+export declare const operatingState: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof OperatingState }>;
 /** Vendor operating state. Special code: FFFFh not_implemented. */
-export declare const vendorOperatingState: ReadOnly<VendorOperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof VendorOperatingState }>;
+export declare const vendorOperatingState: ReadOnly<VendorOperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof VendorOperatingState }>;
 /** Events 1. Special code: FFFFFFFFh not_implemented. */
-export declare const events1: ReadOnly<Events1 | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof Events1 }>;
+export declare const events1: ReadOnly<Events1 | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof Events1 }>;
 /** Events 2. Special code: FFFFFFFFh not_implemented. */
-export declare const events2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const events2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Vendor events 1. Special code: FFFFFFFFh not_implemented. */
-export declare const vendorEvents1: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const vendorEvents1: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Vendor events 2. Special code: FFFFFFFFh not_implemented. */
-export declare const vendorEvents2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const vendorEvents2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Vendor events 3. Special code: FFFFFFFFh not_implemented. */
-export declare const vendorEvents3: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const vendorEvents3: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Vendor events 4. Special code: FFFFFFFFh not_implemented. */
-export declare const vendorEvents4: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const vendorEvents4: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Der type. Special code: FFFFh not_implemented. */
-export declare const derType: ReadOnly<DerType | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof DerType }>;
+export declare const derType: ReadOnly<DerType | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof DerType }>;
 /** Rated power. Special code: FFFFh not_implemented. */
-export declare const ratedPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerExponent"; special: "notImplemented" }>;
+export declare const ratedPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated power exponent. Special code: 8000h not_implemented. */
-export declare const ratedPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated apparent power. Special code: FFFFh not_implemented. */
-export declare const ratedApparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedApparentPowerExponent"; special: "notImplemented" }>;
+export declare const ratedApparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedApparentPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated apparent power exponent. Special code: 8000h not_implemented. */
-export declare const ratedApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated reactive power q1. Special code: 8000h not_implemented. */
-export declare const ratedReactivePowerQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: "notImplemented" }>;
+export declare const ratedReactivePowerQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated reactive power q2. Special code: 8000h not_implemented. */
-export declare const ratedReactivePowerQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: "notImplemented" }>;
+export declare const ratedReactivePowerQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated reactive power q3. Special code: 8000h not_implemented. */
-export declare const ratedReactivePowerQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: "notImplemented" }>;
+export declare const ratedReactivePowerQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated reactive power q4. Special code: 8000h not_implemented. */
-export declare const ratedReactivePowerQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: "notImplemented" }>;
+export declare const ratedReactivePowerQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated reactive power exponent. Special code: 8000h not_implemented. */
-export declare const ratedReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated current. Special code: FFFFh not_implemented. */
-export declare const ratedCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedCurrentExponent"; special: "notImplemented" }>;
+export declare const ratedCurrent: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated current exponent. Special code: 8000h not_implemented. */
-export declare const ratedCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated power factor q1. Special code: 8000h not_implemented. */
-export declare const ratedPowerFactorQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: "notImplemented" }>;
+export declare const ratedPowerFactorQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated power factor q2. Special code: 8000h not_implemented. */
-export declare const ratedPowerFactorQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: "notImplemented" }>;
+export declare const ratedPowerFactorQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated power factor q3. Special code: 8000h not_implemented. */
-export declare const ratedPowerFactorQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: "notImplemented" }>;
+export declare const ratedPowerFactorQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated power factor q4. Special code: 8000h not_implemented. */
-export declare const ratedPowerFactorQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: "notImplemented" }>;
+export declare const ratedPowerFactorQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated power factor exponent. Special code: 8000h not_implemented. */
-export declare const ratedPowerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedPowerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated energy. Special code: FFFFh not_implemented. */
-export declare const ratedEnergy: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedEnergyExponent"; special: "notImplemented" }>;
+export declare const ratedEnergy: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedEnergyExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated energy exponent. Special code: 8000h not_implemented. */
-export declare const ratedEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Rated charge. Special code: FFFFh not_implemented. */
-export declare const ratedCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedChargeExponent"; special: "notImplemented" }>;
+export declare const ratedCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "ratedChargeExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Rated charge exponent. Special code: 8000h not_implemented. */
-export declare const ratedChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const ratedChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum charge rate. Special code: FFFFh not_implemented. */
-export declare const maximumChargeRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargeRateExponent"; special: "notImplemented" }>;
+export declare const maximumChargeRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargeRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Maximum charge rate exponent. Special code: 8000h not_implemented. */
-export declare const maximumChargeRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumChargeRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum discharge rate. Special code: FFFFh not_implemented. */
-export declare const maximumDischargeRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumDischargeRateExponent"; special: "notImplemented" }>;
+export declare const maximumDischargeRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumDischargeRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Maximum discharge rate exponent. Special code: 8000h not_implemented. */
-export declare const maximumDischargeRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumDischargeRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum power. Special code: FFFFh not_implemented. */
-export declare const maximumPower: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "maximumPowerExponent"; special: "notImplemented"; takes: number }>;
+export declare const maximumPower: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "maximumPowerExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Reference voltage. Special code: FFFFh not_implemented. */
-export declare const referenceVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "referenceVoltageExponent"; special: "notImplemented"; takes: number }>;
+export declare const referenceVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "referenceVoltageExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Reference voltage offset. Special code: 8000h not_implemented. */
-export declare const referenceVoltageOffset: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "referenceVoltageOffsetExponent"; special: "notImplemented"; takes: number }>;
+export declare const referenceVoltageOffset: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "referenceVoltageOffsetExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Maximum voltage. Special code: FFFFh not_implemented. The manual leaves open whether a write does anything
  * (voltage_limits_written).
  */
-export declare const maximumVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "voltageLimitsExponent"; special: "notImplemented"; takes: number }>;
+export declare const maximumVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "voltageLimitsExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Minimum voltage. Special code: FFFFh not_implemented. The manual leaves open whether a write does anything
  * (voltage_limits_written).
  */
-export declare const minimumVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "voltageLimitsExponent"; special: "notImplemented"; takes: number }>;
+export declare const minimumVoltage: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "voltageLimitsExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Maximum apparent power. Special code: FFFFh not_implemented. The manual leaves open whether it can be written
  * (vamax_access).
  */
-export declare const maximumApparentPower: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "maximumApparentPowerExponent"; special: "notImplemented"; takes: number }>;
+export declare const maximumApparentPower: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "maximumApparentPowerExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Maximum reactive power q1. Special code: 8000h not_implemented. */
-export declare const maximumReactivePowerQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: "notImplemented" }>;
+export declare const maximumReactivePowerQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Maximum reactive power q2. Special code: 8000h not_implemented. */
-export declare const maximumReactivePowerQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: "notImplemented" }>;
+export declare const maximumReactivePowerQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Maximum reactive power q3. Special code: 8000h not_implemented. */
-export declare const maximumReactivePowerQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: "notImplemented" }>;
+export declare const maximumReactivePowerQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Maximum reactive power q4. Special code: 8000h not_implemented. */
-export declare const maximumReactivePowerQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: "notImplemented" }>;
+export declare const maximumReactivePowerQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /**
  * Power ramp rate. Special code: FFFFh not_implemented. The manual leaves open whether it counts per minute or per
  * second (wgra_unit).
  */
-export declare const powerRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "powerRampRateExponent"; special: "notImplemented" }>;
+export declare const powerRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "powerRampRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Minimum power factor q1. Special code: 8000h not_implemented. */
-export declare const minimumPowerFactorQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: "notImplemented" }>;
+export declare const minimumPowerFactorQ1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Minimum power factor q2. Special code: 8000h not_implemented. */
-export declare const minimumPowerFactorQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: "notImplemented" }>;
+export declare const minimumPowerFactorQ2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Minimum power factor q3. Special code: 8000h not_implemented. */
-export declare const minimumPowerFactorQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: "notImplemented" }>;
+export declare const minimumPowerFactorQ3: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Minimum power factor q4. Special code: 8000h not_implemented. */
-export declare const minimumPowerFactorQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: "notImplemented" }>;
+export declare const minimumPowerFactorQ4: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "minimumPowerFactorExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Reactive power action. Special code: FFFFh not_implemented. */
-export declare const reactivePowerAction: ReadOnly<ReactivePowerAction | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ReactivePowerAction }>;
+export declare const reactivePowerAction: ReadOnly<ReactivePowerAction | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ReactivePowerAction }>;
 /** Apparent power method. Special code: FFFFh not_implemented. */
-export declare const apparentPowerMethod: ReadOnly<ApparentPowerMethod | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ApparentPowerMethod }>;
+export declare const apparentPowerMethod: ReadOnly<ApparentPowerMethod | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ApparentPowerMethod }>;
 /** Maximum ramp rate. Special code: FFFFh not_implemented. */
-export declare const maximumRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumRampRateExponent"; special: "notImplemented" }>;
+export declare const maximumRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumRampRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Nominal frequency. Special code: FFFFh not_implemented. */
-export declare const nominalFrequency: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "nominalFrequencyExponent"; special: "notImplemented" }>;
+export declare const nominalFrequency: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "nominalFrequencyExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Connected phase. Special code: FFFFh not_implemented. */
-export declare const connectedPhase: ReadOnly<ConnectedPhase | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ConnectedPhase }>;
+export declare const connectedPhase: ReadOnly<ConnectedPhase | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ConnectedPhase }>;
 /** Maximum power exponent. Special code: 8000h not_implemented. */
-export declare const maximumPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Reference voltage exponent. Special code: 8000h not_implemented. */
-export declare const referenceVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const referenceVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Reference voltage offset exponent. Special code: 8000h not_implemented. */
-export declare const referenceVoltageOffsetExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const referenceVoltageOffsetExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Voltage limits exponent. Special code: 8000h not_implemented. */
-export declare const voltageLimitsExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const voltageLimitsExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum apparent power exponent. Special code: 8000h not_implemented. */
-export declare const maximumApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum reactive power exponent. Special code: 8000h not_implemented. */
-export declare const maximumReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Power ramp rate exponent. Special code: 8000h not_implemented. */
-export declare const powerRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const powerRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Minimum power factor exponent. Special code: 8000h not_implemented. */
-export declare const minimumPowerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const minimumPowerFactorExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum ramp rate exponent. Special code: 8000h not_implemented. */
-export declare const maximumRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Nominal frequency exponent. Special code: 8000h not_implemented. */
-export declare const nominalFrequencyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const nominalFrequencyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Pv connection. Special code: FFFFh not_implemented. */
-export declare const pvConnection: ReadOnly<PvConnection | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof PvConnection }>;
+export declare const pvConnection: ReadOnly<PvConnection | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof PvConnection }>;
 /** Storage connection. Special code: FFFFh not_implemented. */
-export declare const storageConnection: ReadOnly<StorageConnection | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof StorageConnection }>;
+export declare const storageConnection: ReadOnly<StorageConnection | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof StorageConnection }>;
 /** Grid connection. Special code: FFFFh not_implemented. */
-export declare const gridConnection: ReadOnly<GridConnection | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof GridConnection }>;
+export declare const gridConnection: ReadOnly<GridConnection | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof GridConnection }>;
 /** Active energy. */
 export declare const activeEnergy: ReadOnly<bigint, { raw: bigint }>;
 /** Apparent energy. */
@@ -273,195 +273,195 @@ export declare const reactiveEnergyQ3: ReadOnly<bigint, { raw: bigint }>;
 /** Reactive energy q4. */
 export declare const reactiveEnergyQ4: ReadOnly<bigint, { raw: bigint }>;
 /** Available reactive power. Special code: 8000h not_implemented. */
-export declare const availableReactivePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availableReactivePowerExponent"; special: "notImplemented" }>;
+export declare const availableReactivePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availableReactivePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Available reactive power exponent. Special code: 8000h not_implemented. */
-export declare const availableReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const availableReactivePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Available power. Special code: FFFFh not_implemented. */
-export declare const availablePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availablePowerExponent"; special: "notImplemented" }>;
+export declare const availablePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availablePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Available power exponent. Special code: 8000h not_implemented. */
-export declare const availablePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const availablePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Limits reached. Special code: FFFFFFFFh not_implemented. */
-export declare const limitsReached: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const limitsReached: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Active controls. Special code: FFFFFFFFh not_implemented. */
-export declare const activeControls: ReadOnly<ActiveControls | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ActiveControls }>;
+export declare const activeControls: ReadOnly<ActiveControls | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ActiveControls }>;
 /** Time source. */
 export declare const timeSource: ReadOnly<string, { raw: bigint }>;
 /** Time. Special code: FFFFFFFFh not_implemented. The manual leaves open whether the time can be set (tms_access). */
-export declare const time_: ReadOnly<Date | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const time_: ReadOnly<Date | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Ride through status. Special code: FFFFh not_implemented. */
-export declare const rideThroughStatus: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const rideThroughStatus: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Isolation resistance. Special code: FFFFh not_implemented. */
-export declare const isolationResistance: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "isolationResistanceExponent"; special: "notImplemented" }>;
+export declare const isolationResistance: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "isolationResistanceExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Isolation resistance exponent. Special code: 8000h not_implemented. */
-export declare const isolationResistanceExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const isolationResistanceExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Connection window: 0..65534 s. Special code: FFFFh not_implemented. */
-export declare const connectionWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const connectionWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Connection timeout: 0..65534 s. Special code: FFFFh not_implemented. */
-export declare const connectionTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const connectionTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Connection. Special code: FFFFh not_implemented. */
-export declare const connection: ReadWrite<Connection | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof Connection; takes: Connection }>;
+export declare const connection: ReadWrite<Connection | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof Connection; takes: Connection }>;
 /** Power limit. Special code: FFFFh not_implemented. */
-export declare const powerLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "powerLimitExponent"; special: "notImplemented"; takes: number }>;
+export declare const powerLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "powerLimitExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power limit window: 0..300 s. Special code: FFFFh not_implemented. */
-export declare const powerLimitWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerLimitWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power limit timeout: 0..28800 s. Special code: FFFFh not_implemented. */
-export declare const powerLimitTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerLimitTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Power limit ramp time: 0..65534 s. Special code: FFFFh not_implemented. The manual leaves open whether a ramp is
  * followed (ramp_times_supported).
  */
-export declare const powerLimitRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerLimitRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power limit enabled. Special code: FFFFh not_implemented. */
-export declare const powerLimitEnabled: ReadWrite<PowerLimitEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof PowerLimitEnabled; takes: PowerLimitEnabled }>;
+export declare const powerLimitEnabled: ReadWrite<PowerLimitEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof PowerLimitEnabled; takes: PowerLimitEnabled }>;
 /** Power factor setpoint. Special code: 8000h not_implemented. */
-export declare const powerFactorSetpoint: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "powerFactorSetpointExponent"; special: "notImplemented"; takes: number }>;
+export declare const powerFactorSetpoint: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "powerFactorSetpointExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power factor window: 0..300 s. Special code: FFFFh not_implemented. */
-export declare const powerFactorWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerFactorWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power factor timeout: 0..28800 s. Special code: FFFFh not_implemented. */
-export declare const powerFactorTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerFactorTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Power factor ramp time: 0..65534 s. Special code: FFFFh not_implemented. The manual leaves open whether a ramp is
  * followed (ramp_times_supported).
  */
-export declare const powerFactorRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const powerFactorRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Power factor enabled. Special code: FFFFh not_implemented. */
-export declare const powerFactorEnabled: ReadWrite<PowerFactorEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof PowerFactorEnabled; takes: PowerFactorEnabled }>;
+export declare const powerFactorEnabled: ReadWrite<PowerFactorEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof PowerFactorEnabled; takes: PowerFactorEnabled }>;
 /** Reactive power of maximum power. Special code: 8000h not_implemented. */
-export declare const reactivePowerOfMaximumPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: "notImplemented" }>;
+export declare const reactivePowerOfMaximumPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Reactive power of maximum. Special code: 8000h not_implemented. */
-export declare const reactivePowerOfMaximum: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: "notImplemented"; takes: number }>;
+export declare const reactivePowerOfMaximum: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Reactive power of available. Special code: 8000h not_implemented. */
-export declare const reactivePowerOfAvailable: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: "notImplemented" }>;
+export declare const reactivePowerOfAvailable: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "reactivePowerPercentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Reactive power window: 0..300 s. Special code: FFFFh not_implemented. */
-export declare const reactivePowerWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const reactivePowerWindow: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Reactive power timeout: 0..28800 s. Special code: FFFFh not_implemented. */
-export declare const reactivePowerTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const reactivePowerTimeout: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /**
  * Reactive power ramp time: 0..65534 s. Special code: FFFFh not_implemented. The manual leaves open whether a ramp is
  * followed (ramp_times_supported).
  */
-export declare const reactivePowerRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: "notImplemented"; takes: number }>;
+export declare const reactivePowerRampTime: ReadWrite<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Reactive power mode. Special code: FFFFh not_implemented. */
-export declare const reactivePowerMode: ReadOnly<ReactivePowerMode | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ReactivePowerMode }>;
+export declare const reactivePowerMode: ReadOnly<ReactivePowerMode | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ReactivePowerMode }>;
 /** Reactive power enabled. Special code: FFFFh not_implemented. */
-export declare const reactivePowerEnabled: ReadWrite<ReactivePowerEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ReactivePowerEnabled; takes: ReactivePowerEnabled }>;
+export declare const reactivePowerEnabled: ReadWrite<ReactivePowerEnabled | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ReactivePowerEnabled; takes: ReactivePowerEnabled }>;
 /** Power limit exponent. Special code: 8000h not_implemented. */
-export declare const powerLimitExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const powerLimitExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Power factor setpoint exponent. Special code: 8000h not_implemented. */
-export declare const powerFactorSetpointExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const powerFactorSetpointExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Reactive power percent exponent. Special code: 8000h not_implemented. */
-export declare const reactivePowerPercentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const reactivePowerPercentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module current exponent. Special code: 8000h not_implemented. */
-export declare const moduleCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleCurrentExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module voltage exponent. Special code: 8000h not_implemented. */
-export declare const moduleVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module power exponent. Special code: 8000h not_implemented. */
-export declare const modulePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const modulePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module energy exponent. Special code: 8000h not_implemented. */
-export declare const moduleEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleEnergyExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /**
  * Module global events. Special code: FFFFFFFFh not_implemented. The manual leaves open which events the bits stand for
  * (dcevt_bits).
  */
-export declare const moduleGlobalEvents: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleGlobalEvents: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Modules. Special code: FFFFh not_implemented. */
-export declare const modules: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const modules: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Timestamp period. Special code: FFFFh not_implemented. */
-export declare const timestampPeriod: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const timestampPeriod: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module input index 1. Special code: FFFFh not_implemented. */
-export declare const moduleInputIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleInputIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module input index 2. Special code: FFFFh not_implemented. */
-export declare const moduleInputIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleInputIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module name index 1. */
 export declare const moduleNameIndex1: ReadOnly<string, { raw: bigint }>;
 /** Module name index 2. */
 export declare const moduleNameIndex2: ReadOnly<string, { raw: bigint }>;
 /** Module current index 1. Special code: FFFFh not_implemented. */
-export declare const moduleCurrentIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleCurrentExponent"; special: "notImplemented" }>;
+export declare const moduleCurrentIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module current index 2. Special code: FFFFh not_implemented. */
-export declare const moduleCurrentIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleCurrentExponent"; special: "notImplemented" }>;
+export declare const moduleCurrentIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleCurrentExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module voltage index 1. Special code: FFFFh not_implemented. */
-export declare const moduleVoltageIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleVoltageExponent"; special: "notImplemented" }>;
+export declare const moduleVoltageIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module voltage index 2. Special code: FFFFh not_implemented. */
-export declare const moduleVoltageIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleVoltageExponent"; special: "notImplemented" }>;
+export declare const moduleVoltageIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "moduleVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module power index 1. Special code: FFFFh not_implemented. */
-export declare const modulePowerIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "modulePowerExponent"; special: "notImplemented" }>;
+export declare const modulePowerIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "modulePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module power index 2. Special code: FFFFh not_implemented. */
-export declare const modulePowerIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "modulePowerExponent"; special: "notImplemented" }>;
+export declare const modulePowerIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "modulePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Module energy index 1. */
 export declare const moduleEnergyIndex1: ReadOnly<number, { scale: "moduleEnergyExponent" }>;
 /** Module energy index 2. */
 export declare const moduleEnergyIndex2: ReadOnly<number, { scale: "moduleEnergyExponent" }>;
 /** Module timestamp index 1. Special code: FFFFFFFFh not_implemented. */
-export declare const moduleTimestampIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleTimestampIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module timestamp index 2. Special code: FFFFFFFFh not_implemented. */
-export declare const moduleTimestampIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleTimestampIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module temperature index 1. Special code: 8000h not_implemented. */
-export declare const moduleTemperatureIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleTemperatureIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module temperature index 2. Special code: 8000h not_implemented. */
-export declare const moduleTemperatureIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleTemperatureIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Module operating state index 1. Special code: FFFFh not_implemented. */
-export declare const moduleOperatingStateIndex1: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof OperatingState }>;
+export declare const moduleOperatingStateIndex1: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof OperatingState }>;
 /** Module operating state index 2. Special code: FFFFh not_implemented. */
-export declare const moduleOperatingStateIndex2: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof OperatingState }>;
+export declare const moduleOperatingStateIndex2: ReadOnly<OperatingState | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof OperatingState }>;
 /**
  * Module events index 1. Special code: FFFFFFFFh not_implemented. The manual leaves open which events the bits stand
  * for (dcevt_bits).
  */
-export declare const moduleEventsIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleEventsIndex1: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /**
  * Module events index 2. Special code: FFFFFFFFh not_implemented. The manual leaves open which events the bits stand
  * for (dcevt_bits).
  */
-export declare const moduleEventsIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const moduleEventsIndex2: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum charge power. Special code: FFFFh not_implemented. */
-export declare const maximumChargePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargePowerExponent"; special: "notImplemented" }>;
+export declare const maximumChargePower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargePowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Charge ramp rate. Special code: FFFFh not_implemented. */
-export declare const chargeRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "chargeRampRateExponent"; special: "notImplemented" }>;
+export declare const chargeRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "chargeRampRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Discharge ramp rate. Special code: FFFFh not_implemented. */
-export declare const dischargeRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "chargeRampRateExponent"; special: "notImplemented" }>;
+export declare const dischargeRampRate: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "chargeRampRateExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Storage control mode. Special code: FFFFh not_implemented. */
-export declare const storageControlMode: ReadWrite<StorageControlMode | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof StorageControlMode; takes: StorageControlMode | number }>;
+export declare const storageControlMode: ReadWrite<StorageControlMode | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof StorageControlMode; takes: StorageControlMode | number }>;
 /** Maximum charge apparent power. Special code: FFFFh not_implemented. */
-export declare const maximumChargeApparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargeApparentPowerExponent"; special: "notImplemented" }>;
+export declare const maximumChargeApparentPower: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "maximumChargeApparentPowerExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Minimum reserve. Special code: FFFFh not_implemented. */
-export declare const minimumReserve: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "minimumReserveExponent"; special: "notImplemented"; takes: number }>;
+export declare const minimumReserve: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "minimumReserveExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** State of charge. Special code: FFFFh not_implemented. */
-export declare const stateOfCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "stateOfChargeExponent"; special: "notImplemented" }>;
+export declare const stateOfCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "stateOfChargeExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Available charge. Special code: FFFFh not_implemented. */
-export declare const availableCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availableChargeExponent"; special: "notImplemented" }>;
+export declare const availableCharge: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "availableChargeExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Battery voltage. Special code: FFFFh not_implemented. */
-export declare const batteryVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "batteryVoltageExponent"; special: "notImplemented" }>;
+export declare const batteryVoltage: ReadOnly<number | SpecialCode<"not_implemented">, { scale: "batteryVoltageExponent"; special: { notImplemented: "not_implemented" } }>;
 /** Charge state. Special code: FFFFh not_implemented. */
-export declare const chargeState: ReadOnly<ChargeState | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof ChargeState }>;
+export declare const chargeState: ReadOnly<ChargeState | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof ChargeState }>;
 /** Discharge limit. Special code: 8000h not_implemented. */
-export declare const dischargeLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "storageLimitsExponent"; special: "notImplemented"; takes: number }>;
+export declare const dischargeLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "storageLimitsExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Charge limit. Special code: 8000h not_implemented. */
-export declare const chargeLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "storageLimitsExponent"; special: "notImplemented"; takes: number }>;
+export declare const chargeLimit: ReadWrite<number | SpecialCode<"not_implemented">, { scale: "storageLimitsExponent"; special: { notImplemented: "not_implemented" }; takes: number }>;
 /** Storage window. Special code: FFFFh not_implemented. */
-export declare const storageWindow: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const storageWindow: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Storage timeout. Special code: FFFFh not_implemented. */
-export declare const storageTimeout: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const storageTimeout: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Storage ramp time. Special code: FFFFh not_implemented. */
-export declare const storageRampTime: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const storageRampTime: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Grid charging. Special code: FFFFh not_implemented. */
-export declare const gridCharging: ReadWrite<GridCharging | UnknownNumber | SpecialCode<"not_implemented">, { special: "notImplemented"; names: typeof GridCharging; takes: GridCharging }>;
+export declare const gridCharging: ReadWrite<GridCharging | UnknownNumber | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" }; names: typeof GridCharging; takes: GridCharging }>;
 /** Maximum charge power exponent. Special code: 8000h not_implemented. */
-export declare const maximumChargePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumChargePowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Charge ramp rate exponent. Special code: 8000h not_implemented. */
-export declare const chargeRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const chargeRampRateExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Maximum charge apparent power exponent. Special code: 8000h not_implemented. */
-export declare const maximumChargeApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const maximumChargeApparentPowerExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Minimum reserve exponent. Special code: 8000h not_implemented. */
-export declare const minimumReserveExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const minimumReserveExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** State of charge exponent. Special code: 8000h not_implemented. */
-export declare const stateOfChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const stateOfChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Available charge exponent. Special code: 8000h not_implemented. */
-export declare const availableChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const availableChargeExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Battery voltage exponent. Special code: 8000h not_implemented. */
-export declare const batteryVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const batteryVoltageExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Storage limits exponent. Special code: 8000h not_implemented. */
-export declare const storageLimitsExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: "notImplemented" }>;
+export declare const storageLimitsExponent: ReadOnly<number | SpecialCode<"not_implemented">, { special: { notImplemented: "not_implemented" } }>;
 /** Delete data. */
 export declare const deleteData: ReadWrite<DeleteData | UnknownNumber, { names: typeof DeleteData; takes: DeleteData }>;
 /** Store data. */

@@ -333,25 +333,25 @@ export declare const dcBrakeTrigger: ReadWrite<DcBrakeTrigger | UnknownNumber, {
  * Upper frequency limit: lower_frequency_limit..min(400, maximum_frequency) Hz; while lower_frequency_limit.raw is 0:
  * from 0. `enter.send()` keeps it. Special code: 0 inactive (may be written).
  */
-export declare const upperFrequencyLimit: ReadWrite<number | SpecialCode<"inactive">, { limits: "lowerFrequencyLimit" | "maximumFrequency"; special: "inactive" }>;
+export declare const upperFrequencyLimit: ReadWrite<number | SpecialCode<"inactive">, { limits: "lowerFrequencyLimit" | "maximumFrequency"; special: { inactive: "inactive" } }>;
 /**
  * Upper frequency limit set 2: lower_frequency_limit_set_2..min(400, maximum_frequency_set_2) Hz; while
  * lower_frequency_limit_set_2.raw is 0: from 0. `enter.send()` keeps it. Special code: 0 inactive (may be written).
  */
-export declare const upperFrequencyLimitSet2: ReadWrite<number | SpecialCode<"inactive">, { limits: "lowerFrequencyLimitSet2" | "maximumFrequencySet2"; special: "inactive" }>;
+export declare const upperFrequencyLimitSet2: ReadWrite<number | SpecialCode<"inactive">, { limits: "lowerFrequencyLimitSet2" | "maximumFrequencySet2"; special: { inactive: "inactive" } }>;
 /**
  * Lower frequency limit: max(0.5, start_frequency)..min(400, upper_frequency_limit) Hz; while upper_frequency_limit.raw
  * is 0: to 400. `enter.send()` keeps it. Special code: 0 inactive (may be written). The manual leaves open what limits
  * it while the upper limit is inactive (a062_limit_when_a061_inactive).
  */
-export declare const lowerFrequencyLimit: ReadWrite<number | SpecialCode<"inactive">, { limits: "startFrequency" | "upperFrequencyLimit"; special: "inactive" }>;
+export declare const lowerFrequencyLimit: ReadWrite<number | SpecialCode<"inactive">, { limits: "startFrequency" | "upperFrequencyLimit"; special: { inactive: "inactive" } }>;
 /**
  * Lower frequency limit set 2: max(0.5, start_frequency)..min(400, upper_frequency_limit_set_2) Hz; while
  * upper_frequency_limit_set_2.raw is 0: to 400. `enter.send()` keeps it. Special code: 0 inactive (may be written). The
  * manual leaves open what limits it while the upper limit is inactive (a062_limit_when_a061_inactive), whether this
  * register is A262 or the high word of A292 (a262_or_a292).
  */
-export declare const lowerFrequencyLimitSet2: ReadWrite<number | SpecialCode<"inactive">, { limits: "startFrequency" | "upperFrequencyLimitSet2"; special: "inactive" }>;
+export declare const lowerFrequencyLimitSet2: ReadWrite<number | SpecialCode<"inactive">, { limits: "startFrequency" | "upperFrequencyLimitSet2"; special: { inactive: "inactive" } }>;
 /** Jump frequency 1: 0..400 Hz. `enter.send()` keeps it. */
 export declare const jumpFrequency1: ReadWrite<number>;
 /** Jump frequency 1 width: 0..10 Hz. `enter.send()` keeps it. */

@@ -148,13 +148,13 @@ export declare const ussPkwLengthIndex1: Stored<UssPkwLength | UnknownNumber, { 
  * EEPROM. Special code: 0 monitoring_off (may be written). The manual leaves open which values it takes
  * (parameter_limits).
  */
-export declare const ussTelegramOffTimeIndex0: Stored<number | SpecialCode<"monitoring_off">, { special: "monitoringOff" }>;
+export declare const ussTelegramOffTimeIndex0: Stored<number | SpecialCode<"monitoring_off">, { special: { monitoringOff: "monitoring_off" } }>;
 /**
  * Uss telegram off time index 1: 1..65535 ms. To write it takes: access level 3. `keep: true` keeps it and wears the
  * EEPROM. Special code: 0 monitoring_off (may be written). The manual leaves open which values it takes
  * (parameter_limits).
  */
-export declare const ussTelegramOffTimeIndex1: Stored<number | SpecialCode<"monitoring_off">, { special: "monitoringOff" }>;
+export declare const ussTelegramOffTimeIndex1: Stored<number | SpecialCode<"monitoring_off">, { special: { monitoringOff: "monitoring_off" } }>;
 /**
  * Uss rs232 answer source index 0. To write it takes: access level 3. `keep: true` keeps it and wears the EEPROM. The
  * manual leaves open where the sources of words 5 to 8 are set (answer_source_count).

@@ -68,7 +68,8 @@ def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]
     if point.specials:
         single = [special for special in point.specials if special.low == special.high]
         if single:
-            yield "special", " | ".join(js_string(code_attribute(special)) for special in single)
+            named = "; ".join(f"{code_attribute(special)}: {js_string(special.name)}" for special in single)
+            yield "special", f"{{ {named} }}"
     if (numbers and point.form != "flags") or numbers:
         yield "names", f"typeof {numbers}"
 
