@@ -20,9 +20,23 @@ _POINTS = "TypeScript, the points"
 _CLASSES = "TypeScript, the names of numbers and flags"
 
 
+NODE_MODULES = frozenset(
+    {"assert", "buffer", "child_process", "cluster", "console", "constants", "crypto", "dgram", "dns", "domain"}
+    | {"events", "fs", "http", "http2", "https", "inspector", "module", "net", "os", "path", "perf_hooks", "process"}
+    | {"punycode", "querystring", "readline", "repl", "stream", "string_decoder", "sys", "timers", "tls"}
+    | {"trace_events", "tty", "url", "util", "v8", "vm", "wasi", "worker_threads", "zlib"}
+)
+"""The modules of Node that programs import by a plain name."""
+
+_PACKAGES = frozenset({"fieldscribe_runtime", "modbus_serial", "node_modules", "serialport"})
+"""What lies beside the package: the runtime, its optional peers, and the folder of npm itself."""
+
+
 def device_name_taken(name: str) -> str:
     """Return why no package may have that name; empty if it may."""
-    return "is the folder in which npm keeps packages" if name == "node_modules" else ""
+    if name in NODE_MODULES:
+        return "is a module of Node's own, which a program would get instead of the package"
+    return "is a package of npm that the generated one needs beside it" if name in _PACKAGES else ""
 
 
 def identifiers(device: Device) -> Iterator[Names]:

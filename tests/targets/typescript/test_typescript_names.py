@@ -1,0 +1,117 @@
+"""Names and texts of descriptions in generated TypeScript: what is taken, what clashes, and what stays text."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from fieldscribe.targets.typescript.identifiers import DEVICE_MEMBERS, MAKERS, OBJECT_MEMBERS, attribute
+from fieldscribe.targets.typescript.namespaces import NODE_MODULES
+from fieldscribe.text import camel, js_comment, js_string
+from support.described import compile_in, described, loaded_in
+from support.rust_crates import HOSTILE, rare_device
+from support.toolchains import succeed, tool
+from support.typescript_packages import RUNTIME, compile_types, install
+
+OF_POINTS_MODULES = {"allCommands", "allPoints", "oldNames"}
+BREAKING = (
+    *('"', "\\", "\\u0022", "</script><script>", "<!--", "-->", "]]>", "${x}", "`", "'", "*/ x /*", "// x"),
+    *("\u2028 \u2029", "\u202e", "\ud800", "\x00 \x1b[0m", "a\nb\r", "@ts-nocheck {@link x}", "\U0001f600"),
+)
+
+
+def in_node(program: str, folder: Path) -> str:
+    (folder / "program.mjs").write_text(program, "utf-8")
+    return succeed([tool("node"), "program.mjs"], cwd=folder).strip()
+
+
+def test_literals_are_their_texts_again(tmp_path: Path) -> None:
+    """But for control and format characters, which no target writes; and nothing ends the script of a page."""
+    literals = [js_string(text) for text in BREAKING]
+    cleaned = ['"', "\\", "\\u0022", "</script><script>", "<!--", "-->", "]]>", "${x}", "`", "'", "*/ x /*", "// x"]
+    cleaned += ["", "", "", "[0m", "a b", "@ts-nocheck {@link x}", "\U0001f600"]
+    assert json.loads(in_node(f"console.log(JSON.stringify([{', '.join(literals)}]))", tmp_path)) == cleaned
+    assert not re.search(r"</|<!|-->", "".join(literals))
+
+
+@pytest.mark.parametrize("text", BREAKING)
+def test_comments_end_where_they_end(text: str) -> None:
+    comment = js_comment(text)
+    assert "*/" not in comment
+    assert not re.search(r"[\n\r\u2028\u2029\u202e@]|</", comment)
+
+
+def test_a_hostile_description_is_text(tmp_path: Path) -> None:
+    """Its package compiles, and a code is the text that it was."""
+    modules = install(tmp_path, [rare_device()])
+    options = {"module": "nodenext", "lib": ["ES2020"], "strict": True, "types": [], "noEmit": True}
+    (tmp_path / "tsconfig.json").write_text(
+        json.dumps({"compilerOptions": options, "files": ["node_modules/rare/index.d.ts"]})
+    )
+    assert compile_types(tmp_path) == ""
+    program = 'import { allPoints } from "rare";\nconsole.log(JSON.stringify(Object.values(allPoints)[0].code));'
+    assert json.loads(in_node(program, tmp_path)) == " ".join(HOSTILE.replace("\u202e", "").split())
+    assert not any("</script" in path.read_text("utf-8") for path in (modules / "rare").iterdir())
+
+
+def test_names_of_the_runtime_are_those_that_points_leave() -> None:
+    sources = "".join(path.read_text("utf-8") for path in (RUNTIME / "fieldscribe-runtime").glob("*.js"))
+    defined = set(re.findall(r"^export (?:async )?(?:function|const|class) (\w+)", sources, re.MULTILINE))
+    assert defined >= MAKERS - OF_POINTS_MODULES
+    for name in MAKERS | DEVICE_MEMBERS | OBJECT_MEMBERS:
+        assert attribute(re.sub(r"([A-Z])", r"_\1", name).lower()) == f"{name}_"
+
+
+def test_members_of_devices_are_those_of_the_runtime(tmp_path: Path) -> None:
+    """What the classes of all families have, and no underscore before it."""
+    install(tmp_path)
+    program = """
+const found = new Set();
+for (const name of ["ModbusDevice modbus", "UssDevice uss", "CanDevice can"].map((one) => one.split(" "))) {
+  const made = (await import(`fieldscribe-runtime/${name[1]}`))[name[0]];
+  for (let kind = made.prototype; kind !== Object.prototype; kind = Object.getPrototypeOf(kind)) {
+    Object.getOwnPropertyNames(kind).forEach((one) => found.add(one));
+  }
+  const source = String(made) + String(Object.getPrototypeOf(made));
+  for (const [, one] of source.matchAll(/this\\.(\\w+) = /g)) found.add(one);
+}
+console.log([...found].filter((one) => !one.startsWith("_") && one !== "constructor").join(" "));
+"""
+    assert set(in_node(program, tmp_path).split()) == DEVICE_MEMBERS
+
+
+def test_modules_of_node_are_no_devices(tmp_path: Path) -> None:
+    listed = in_node('import { builtinModules } from "node:module";\nconsole.log(builtinModules.join(" "));', tmp_path)
+    plain = {name for name in listed.split() if re.fullmatch("[a-z][a-z0-9_]*", name)}
+    assert plain - NODE_MODULES <= {"async_hooks", "diagnostics_channel"}
+
+
+@pytest.mark.parametrize(
+    ("name", "constant"),
+    [
+        ("base_frequency", "baseFrequency"),
+        ("a_1_2", "a1_2"),
+        ("trip_1", "trip1"),
+        ("class", "class_"),
+        ("read_many", "readMany_"),
+    ],
+)
+def test_constants(name: str, constant: str) -> None:
+    assert attribute(name) == constant
+
+
+def test_names_that_differ_by_an_underscore_alone_are_findings(tmp_path: Path) -> None:
+    _, report = compile_in(tmp_path, described("- {name: trip_1, at: 1}\n- {name: trip1, at: 2}\n"))
+    messages = [one.message for one in report.diagnostics]
+    assert any("TypeScript" in message and "trip1" in message for message in messages), messages
+
+
+def test_a_name_never_sets_a_prototype(tmp_path: Path) -> None:
+    """Keys of objects come from descriptions: names of codes, references, exceptions."""
+    device = loaded_in(tmp_path, described("- {name: constructor, at: 1, flags: {0: then, 1: to_string, 2: raw}}\n"))
+    install(tmp_path, [device])
+    program = 'import { Constructor } from "made-up";\nconsole.log(Object.keys(Constructor.flags).join(" "));'
+    assert in_node(program, tmp_path) == "then_ toString_ raw_"
+    assert camel("__proto__") != "__proto__"
