@@ -15,7 +15,7 @@ function picture(width, height, label, ...children) {
 
 /** Return a text that is cut where it would be wider than `width`; the whole text is its title. */
 function label(x, y, text, width, facts = {}) {
-  const most = Math.max(1, Math.floor(width / 6.4));
+  const most = Math.max(1, Math.floor(width / (facts.class === "inside" ? 5.8 : 6.7)));
   const shown = [...text].length > most ? [...text].slice(0, most - 1).join("") + "…" : text;
   const made = drawn("text", { x, y, ...facts }, shown);
   if (shown !== text) made.append(drawn("title", {}, text));
@@ -84,18 +84,24 @@ function drawRows(boxes, { columns, cell, height, head, caption, rowName }) {
     parts.push(drawn("text", { x: 0, y: y + height / 2 + 4, class: "name" }, rowName(row * columns)));
     const stacks = new Map();
     for (const box of rows.get(row)) stacks.set(box.from, [...(stacks.get(box.from) ?? []), box]);
-    for (const [from, stack] of stacks) {
+    for (const [from, whole] of stacks) {
+      const stack = height / whole.length < 12 ? [together(whole)] : whole;
       stack.forEach((box, place) => {
         const share = height / stack.length;
         const shape = drawn("rect", { x: head + from * cell + 0.5, y: y + place * share + 0.5, width: box.count * cell - 1, height: Math.max(share - 1, 1), class: `box ${box.style}`, "data-point": box.point ?? "" }, drawn("title", {}, box.title));
         parts.push(shape);
-        if (share >= 13) parts.push(label(head + from * cell + 5, y + place * share + share / 2 + 4, box.text, box.count * cell - 8, { class: "inside" }));
+        if (share >= 12) parts.push(label(head + from * cell + 3, y + place * share + share / 2 + 3.5, box.text, box.count * cell - 4, { class: "inside" }));
       });
     }
     last = row;
     y += height + 2;
   }
   return picture(head + columns * cell + 1, y + 1, caption, ...parts);
+}
+
+/** Return one box for many at the same place, such as the elements of an array. */
+function together(boxes) {
+  return { ...boxes[0], text: `${boxes[0].text} +${boxes.length - 1}`, title: boxes.map((box) => box.title).join("\n") };
 }
 
 /** Draw the map of a space: a box for the words of each point, at its address. */

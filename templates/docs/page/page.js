@@ -162,7 +162,7 @@ function extendList(count) {
   for (const point of ui.shown.slice(ui.listed, count)) {
     if (grouped && point.group !== ui.lastGroup) {
       const [name, title] = device.groups[point.group] ?? [""];
-      rows.push(element("tr", { className: "group" }, element("th", { colSpan: 7, scope: "rowgroup", id: `group=${name}` }, titlesOf(title)[0] ?? name)));
+      rows.push(element("tr", { className: "group" }, element("th", { colSpan: 3, scope: "colgroup", id: `group=${name}` }, titlesOf(title)[0] ?? name), element("td", { colSpan: 4 })));
       ui.lastGroup = point.group;
     }
     rows.push(listRow(point));
@@ -198,13 +198,21 @@ function build() {
   ui.table = element("table", { className: "points" }, element("caption", { className: "unseen" }, "Points"), element("thead", {}, element("tr", {}, ...["Code", "Name", "Address", "Type", "R/W", "Range", "Unit"].map((head) => element("th", { scope: "col" }, head)))), ui.rows);
   ui.nothing = element("p", { hidden: true }, "Nothing has all these words. Try fewer words, or clear the filters.");
   ui.list = element("section", { id: "list", ariaLabel: "List of points" }, ui.status, ui.places, ui.nothing, ui.table);
-  ui.detail = element("main", { id: "detail", tabIndex: -1 });
+  ui.detail = element("div", { id: "detail", tabIndex: -1 });
   ui.tabs = element("nav", { ariaLabel: "Sections" }, ...Object.entries(SECTIONS).filter(([name]) => hasSection(name)).map(([name, text]) => element("a", { href: `#${name}` }, text)));
   const filters = element("details", { className: "filters" }, element("summary", {}, "Filters"), element("div", {}, ...filterFields()));
   filters.open = matchMedia("(min-width: 60rem)").matches;
   const header = element("header", {}, element("h1", {}, element("a", { href: "#points" }, device.name), element("span", { className: "soft" }, ` ${titlesOf(device.title)[0] ?? ""}`)),
     element("div", { className: "search", role: "search" }, element("label", { htmlFor: "find" }, "Search ", element("kbd", {}, "/")), search_), schemeButton(), ui.tabs, filters);
-  document.body.prepend(element("a", { className: "skip", href: "#detail" }, "Skip to the content"), header, element("div", { className: "split" }, ui.list, ui.detail), element("footer", {}, element("p", {}, device.made), element("p", {}, "A write can move a machine. Hold what matters against the manual of your own device.")));
+  document.body.prepend(element("a", { className: "skip", href: "#detail" }, "Skip to the content"), header, element("main", { className: "split" }, ui.list, ui.detail), element("footer", {}, element("p", {}, device.made), element("p", {}, "A write can move a machine. Hold what matters against the manual of your own device.")));
+}
+
+/** Keep what stands below the header in sight, however many lines that has. */
+function followHeader() {
+  const header = document.querySelector("header");
+  const measure = () => document.documentElement.style.setProperty("--top", `${header.offsetHeight}px`);
+  measure();
+  new ResizeObserver(measure).observe(header);
 }
 
 function hasSection(name) {
@@ -278,6 +286,7 @@ function show() {
     if (place) place.scrollIntoView({ block: "center" });
     else scrollTo(0, 0);
     place?.classList.add("found");
+    if (place?.tagName === "DETAILS") place.open = true;
   }
 }
 
@@ -339,13 +348,17 @@ function isWide() {
 
 function start() {
   build();
+  followHeader();
   ui.index = searchIndex(device);
   showList();
   show();
   ui.find.addEventListener("input", typed);
   addEventListener("hashchange", () => { show(); if (ui.detail.firstChild && !ui.list.contains(document.activeElement)) ui.detail.querySelector("h2")?.focus({ preventScroll: true }); });
   addEventListener("keydown", keys);
-  addEventListener("beforeprint", () => extendList(ui.shown.length));
+  addEventListener("beforeprint", () => {
+    extendList(ui.shown.length);
+    for (const box of document.querySelectorAll("article details")) box.open = true;
+  });
   ui.detail.addEventListener("click", (event) => {
     const name = event.target.closest?.("[data-point]")?.dataset.point;
     if (name) location.hash = `#point=${encodeURIComponent(name)}`;

@@ -68,15 +68,15 @@ function errataOf(device, point) {
   return element("div", {}, ...point.errata.map((at) => erratumBox(device, device.errata[at])));
 }
 
-/** Return an erratum as a box: what is printed, what is taken, and why. */
+/** Return an erratum as a box: what is taken, and opened, what is printed, why, and where. */
 function erratumBox(device, erratum, withPoints = false) {
-  const rows = [["Printed", erratum.printed], ["Taken", erratum.taken], ["Why", erratum.why], ["Open", erratum.open.map((text) => `the manual leaves open ${text}`).join("; ")], ["Place", placeText(device, erratum.source)]];
-  const box = element("div", { className: `erratum ${erratum.certainty}`, id: withPoints ? `erratum=${erratum.id}` : "" },
-    element("p", {}, element("strong", {}, "Erratum "), element("a", { href: `#erratum=${encodeURIComponent(erratum.id)}` }, erratum.id), ` (${erratum.certainty})`));
-  if (withPoints && erratum.points.length) box.append(element("p", {}, "About ", ...listed(erratum.points.map((name) => pointLink(name)))));
-  if (withPoints && erratum.where) box.append(element("p", {}, `About ${erratum.where}`));
-  box.append(factList(rows.filter((row) => row[1])));
-  return box;
+  const open = erratum.open.map((text) => `the manual leaves open ${text}`).join("; ");
+  const rows = [["Printed", erratum.printed], ["Taken", erratum.taken], ["Why", erratum.why], ["Open", open], ["Place", placeText(device, erratum.source)]];
+  const about = erratum.points.length ? listed(erratum.points.map((name) => pointLink(name))) : [erratum.where];
+  if (withPoints) rows.unshift(["About", ...about]);
+  else rows.push(["Link", element("a", { href: `#erratum=${encodeURIComponent(erratum.id)}` }, "among all errata")]);
+  const summary = element("summary", {}, element("strong", {}, "Erratum "), element("code", {}, erratum.id), ` (${erratum.certainty}): ${withPoints ? erratum.printed : erratum.taken}`);
+  return element("details", { className: "erratum", id: withPoints ? `erratum=${erratum.id}` : "", open: withPoints }, summary, factList(rows.filter((row) => row[1])));
 }
 
 function factList(rows) {
