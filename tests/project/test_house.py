@@ -74,6 +74,7 @@ NAMES_A_FAMILY = {
     "simulation.bench": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
     "targets.python.namespaces": "a library of Python is called as one",
+    "targets.typescript.namespaces": "a package of npm is called as one",
 }
 """Modules outside the folders of families that name one, with the reason."""
 

@@ -103,8 +103,8 @@ def test_constants(name: str, constant: str) -> None:
 
 
 def test_names_that_differ_by_an_underscore_alone_are_findings(tmp_path: Path) -> None:
-    _, report = compile_in(tmp_path, described("- {name: trip_1, at: 1}\n- {name: trip1, at: 2}\n"))
-    messages = [one.message for one in report.diagnostics]
+    _, found = compile_in(tmp_path, described("- {name: state, at: 1, flags: {0: trip_1, 1: trip1}}\n"))
+    messages = [one.message for one in found]
     assert any("TypeScript" in message and "trip1" in message for message in messages), messages
 
 

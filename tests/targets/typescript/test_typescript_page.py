@@ -35,7 +35,7 @@ def test_the_programs_run(tmp_path: Path) -> None:
     assert "500n" in printed
     assert "run 1" in printed
     assert printed[-1].startswith(
-        "out_of_range A020 base_frequency 1000 A020 base_frequency: 1000 Hz is outside 0..400 Hz"
+        "out_of_range A020 base_frequency 1000 A020 base_frequency: 1000 Hz is outside 0..400"
     )
 
 

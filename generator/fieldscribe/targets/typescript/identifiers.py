@@ -30,8 +30,9 @@ MAKERS = frozenset(
 """The functions of the runtime that make points, and what the module of points has beside them."""
 
 DEVICE_MEMBERS = frozenset(
-    {"broadcast", "dropProcessData", "findBlocks", "forget", "identify", "line", "link", "point", "readAt", "readMany"}
-    | {"retries", "retryPause", "setBase", "table", "take", "traffic", "unit", "variants", "writeAt"}
+    {"broadcast", "dropProcessData", "findBlocks", "forget", "freshFor", "identify", "line", "link", "patience"}
+    | {"point", "readAt", "readMany", "repeats", "retries", "retryPause", "setBase", "table", "take", "traffic"}
+    | {"unit", "variants", "writeAt"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 
