@@ -329,7 +329,7 @@ function keys(event) {
   if (event.key === "/" && !isTyping) { ui.find.focus(); ui.find.select(); }
   else if (event.key === "Escape" && isInput && ui.find.value) { ui.find.value = ""; typed(); }
   else if (event.key === "Escape" && !isInput && (at >= 0 || !isTyping)) ui.find.focus();
-  else if (event.key === "Enter" && isInput) links[0]?.click();
+  else if (event.key === "Enter" && isInput) (ui.rows.querySelector("a") ?? links[0])?.click();
   else if (event.key === "ArrowDown" && (isInput || at >= 0)) links[at + 1]?.focus();
   else if (event.key === "ArrowUp" && at >= 0) (links[at - 1] ?? ui.find).focus();
   else return;

@@ -38,9 +38,15 @@ const SNIPPETS = {
     const tail = point.shared.counts >= 0 ? "_count" : "";
     const remark = countUnit(point) && ` /* ${countUnit(point)} */`;
     const head = `#include "${device.id}_${device.family}.h"\n`;
-    if (isCyclic(point) || device.family === "can") {
-      const frame = isCyclic(point) ? "" : `const fieldscribe_can_point *frame = &${prefix}_${name}_frame;`;
-      return [head, frame, reads(point) && `${prefix}_${name}_decode${tail}(raw${remark && ","}`, ""].slice(0, 2);
+    const address = `${prefix}_${name}`.toUpperCase() + "_ADDRESS";
+    if (isCyclic(point)) return [head, `raw = words[${address}];${remark}`];
+    if (point.shared.form === "text") return [head, `const uint16_t address = ${address}; /* read its words, then call ${prefix}_${name}_decode */`];
+    if (device.family === "can") {
+      return [
+        head,
+        reads(point) && `status = fieldscribe_can_read(&${prefix}_can_dialogue, unit, &${prefix}_${name}_frame.read, &frame);`,
+        writes(point) && `status = fieldscribe_can_write(&${prefix}_can_dialogue, unit, &${prefix}_${name}_frame.write, raw, &frame);`,
+      ];
     }
     return [
       head,

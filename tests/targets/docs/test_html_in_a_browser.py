@@ -1,0 +1,122 @@
+"""The page of a device in Chromium, from the file system: search, filters, links, keyboard, widths, schemes, axe."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fieldscribe.model import Device
+from fieldscribe.resources import render
+from fieldscribe.targets.docs import html_files
+from fieldscribe.targets.docs.scope import scope_of
+from support.described import shipped
+from support.places import ROOT
+from support.toolchains import NODE_MODULES, npm_package, succeed, tool
+
+FINDS = {
+    "A020": "base_frequency",
+    "0x1028": "base_frequency",
+    "1028h": "base_frequency",
+    "4136": "base_frequency",
+    "4137": "base_frequency",
+    "404137": "base_frequency",
+    "basisfrequenz": "base_frequency",
+}
+"""What people type, with the point that Enter opens; the addresses are those that the manual prints for A020."""
+HASHES = ("", "#point=base_frequency", "#point=run_source", "#maps", "#bus", "#frames", "#errata", "#device")
+
+pytestmark = pytest.mark.full(seconds=60)
+
+
+def _visited(device: Device, folder: Path, queries: list[str], hashes: list[str]) -> dict[str, Any]:
+    npm_package("playwright-core"), npm_package("axe-core")
+    [(path, text)] = html_files(scope_of(device), render)
+    page = folder / path
+    page.write_text(text, "utf-8")
+    visit = Path(__file__).with_name("visit_device.mjs")
+    wanted = json.dumps({"queries": queries, "hashes": hashes})
+    return dict(json.loads(succeed([tool("node"), visit, page, tool("chromium-headless-shell"), NODE_MODULES, wanted])))
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """What a reader meets on the page of the L200."""
+    queries = [*FINDS, "a020_start_value", "illegal_function"]
+    return _visited(shipped("hitachi_l200"), tmp_path_factory.mktemp("page"), queries, list(HASHES))
+
+
+def test_nothing_is_wrong_and_nothing_leaves_the_page(seen: dict[str, Any]) -> None:
+    assert seen["troubles"] == []
+
+
+def test_nothing_scrolls_sideways(seen: dict[str, Any]) -> None:
+    assert seen["wide"] == []
+
+
+def test_axe_finds_nothing(seen: dict[str, Any]) -> None:
+    assert seen["axe"] == {}
+
+
+@pytest.mark.parametrize("query", FINDS)
+def test_the_search_leads_to_the_point(query: str, seen: dict[str, Any]) -> None:
+    assert seen["searches"][query]["points"][0] == FINDS[query]
+    assert seen["searches"][query]["at"] == f"#point={FINDS[query]}"
+
+
+def test_the_search_finds_errata(seen: dict[str, Any]) -> None:
+    assert "a020_start_value" in seen["searches"]["a020_start_value"]["places"]
+
+
+def test_filters_and_the_choices_that_stay(seen: dict[str, Any]) -> None:
+    assert seen["filtered"][0] > 0
+    assert seen["filtered"][1] == ["r"]
+    assert seen["variant"] == ["400V", 0]
+
+
+def test_escape_clears_what_finds_nothing(seen: dict[str, Any]) -> None:
+    assert seen["nothing"].startswith("0 of ")
+    assert seen["cleared"] == ""
+
+
+def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:
+    light, dark, again = seen["papers"]
+    assert light != dark == again
+
+
+def test_print_shows_the_list_alone(seen: dict[str, Any]) -> None:
+    assert seen["printed"] == [False, True]
+
+
+def test_the_code_of_a_point_has_the_names_of_the_generated_code(seen: dict[str, Any]) -> None:
+    folder = ROOT / "generated"
+    generated = {
+        "c": [*folder.glob("c/hitachi_l200*.h"), *folder.glob("c/fieldscribe*.h")],
+        "python": [*folder.glob("python/hitachi_l200/*.py")],
+        "rust": [*folder.glob("rust/hitachi_l200/src/*.rs")],
+    }
+    known = {
+        language: {word for file in files for word in re.findall(r"\w+", file.read_text("utf-8"))}
+        for language, files in generated.items()
+    }
+    names = {"c": r"\bhitachi_l200_(?!modbus\b)\w+", "python": r"device\.(\w+)", "rust": r"p::(\w+)"}
+    assert seen["snippets"]
+    for language, pattern in names.items():
+        used = {name for _, snippets in seen["snippets"] for name in re.findall(pattern, snippets[language])}
+        assert used, language
+        assert used - known[language] == set()
+
+
+def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:
+    hostile = f"<img src=x onerror=alert(1)></script><script>alert(2)</script>\u202e{'long' * 99}"
+    device = shipped("jumo_controller")
+    points = tuple(replace(point, title={"en": hostile}, note={"en": hostile}) for point in device.points)
+    device = replace(device, vendor=hostile, model="-->", title={"en": hostile}, points=points)
+    first = next(point.item for point in points if point.generated)
+    seen = _visited(device, tmp_path, ["onerror"], ["", f"#point={first}"])
+    assert (seen["troubles"], seen["wide"]) == ([], [])
+    assert seen["searches"]["onerror"]["points"]
+    assert seen["elements"] == 2  # the data and the script of the page

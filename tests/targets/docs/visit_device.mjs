@@ -1,0 +1,76 @@
+// Visits the page of a device in a real browser, from the file system, and prints as JSON what a reader meets.
+// Usage: node visit_device.mjs PAGE BROWSER NODE_MODULES {"queries": [], "hashes": []}
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [file, executablePath, modules, wanted] = process.argv.slice(2);
+const { queries, hashes } = JSON.parse(wanted);
+const require = createRequire(join(modules, "x.js"));
+const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
+const browser = await require("playwright-core").chromium.launch({
+  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
+});
+const page = await (await browser.newContext()).newPage();
+const seen = { troubles: [], wide: [], axe: {}, searches: {}, papers: [] };
+page.on("console", (message) => message.type() === "error" && seen.troubles.push(message.text()));
+page.on("pageerror", (error) => seen.troubles.push(String(error)));
+page.on("dialog", (dialog) => { seen.troubles.push(dialog.message()); dialog.dismiss(); });
+page.on("request", (request) => request.url().startsWith("file:") || seen.troubles.push(request.url()));
+
+async function open(hash = "") {
+  await page.goto("about:blank");
+  await page.goto(pathToFileURL(file).href + hash);
+}
+const titles = () => page.$$eval("#list tbody a", (links) => links.map((link) => link.closest("tr").dataset.point));
+
+for (const hash of hashes) {
+  for (const [colorScheme, width] of [["light", 360], ["dark", 360], ["light", 1280], ["dark", 1280]]) {
+    await page.emulateMedia({ colorScheme });
+    await page.setViewportSize({ width, height: 800 });
+    await open(hash);
+    const over = await page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth");
+    if (over > 0) seen.wide.push(`${hash} at ${width}: ${over}`);
+    const found = await page.evaluate(`${axe}; axe.run({ preload: false })`);
+    const nodes = found.violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.html.slice(0, 200)}`));
+    if (nodes.length) seen.axe[`${hash} ${colorScheme} ${width}`] = nodes;
+  }
+}
+await page.emulateMedia({ colorScheme: "light" });
+for (const query of queries) {
+  await open();
+  await page.keyboard.press("/");
+  await page.keyboard.type(query);
+  const places = await page.$$eval(".places a", (links) => links.map((link) => link.textContent));
+  const points = await titles();
+  await page.keyboard.press("Enter");
+  seen.searches[query] = { points, places, at: decodeURIComponent(await page.evaluate("location.hash")) };
+}
+await open();
+const all = (await titles()).length;
+await page.selectOption("label:has-text('Access') select", "r");
+seen.filtered = [all, await page.$$eval("#list tbody tr[data-point] td:nth-child(5)", (cells) => [...new Set(cells.map((cell) => cell.textContent))])];
+const axis = page.locator("label:has-text('Voltage class') select");
+if (await axis.count()) {
+  await axis.selectOption("400V");
+  await open();
+  seen.variant = [await axis.inputValue(), (await page.$$eval("#list tbody tr", (rows) => rows.map((row) => row.textContent))).filter((text) => text.includes("200V")).length];
+}
+await page.keyboard.press("/");
+await page.keyboard.type("zzyzx");
+seen.nothing = await page.textContent(".status");
+await page.keyboard.press("Escape");
+seen.cleared = await page.inputValue("#find");
+const paper = () => page.evaluate("getComputedStyle(document.body).backgroundColor");
+seen.papers.push(await paper());
+await page.click(".scheme");
+seen.papers.push(await paper());
+await open();
+seen.papers.push(await paper());
+await page.emulateMedia({ media: "print" });
+seen.printed = [await page.isVisible("header"), await page.isVisible("#list")];
+seen.snippets = await page.evaluate("device.points.filter((point) => point.shared.generated).map((point) => [point.name, snippetsOf(device, point)])");
+seen.elements = await page.$$eval("body img, body iframe, script", (made) => made.length);
+console.log(JSON.stringify(seen));
+await browser.close();
