@@ -25,6 +25,7 @@ from python_bench import print_python
 from simulation_bench import print_simulation
 from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_listening, print_streams
 from synthetic import write_dbc, write_device
+from typescript_bench import print_typescript
 
 ROOT = Path(__file__).resolve().parents[2]
 MANY, FEW = 10_000, 1_000
@@ -181,6 +182,7 @@ def main() -> None:
     print_lines(3 * arguments.runs)
     print_simulation(3 * arguments.runs)
     print_python(3 * arguments.runs)
+    print_typescript()
     print_streams(STREAMED)
     print_listening(STREAMED)
     print_m0()
