@@ -26,7 +26,7 @@ HOSTILE = [
 FORBIDDEN = re.compile("[\x00-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]")
 ENCODERS = [
     *(text.line, text.c_comment, text.c_string, text.python_string, text.python_doc),
-    *(text.rust_code, text.rust_string, text.markdown, text.csv_cell),
+    *(text.rust_code, text.rust_string, text.markdown, text.csv_cell, text.js_string, text.js_comment),
 ]
 
 
