@@ -80,6 +80,7 @@ def _meaning(item: str, raw: int, **settings: int) -> str:
         ("analog_filter", "3", 3),
         ("run_command", "on", 1),
         ("run_command", "OFF", 0),
+        ("running", "on", 1),  # read only: only frames that write it are refused
         ("run_command", "1", 1),
         ("upper_limit", "inactive", 0),
     ],
@@ -98,7 +99,6 @@ def test_typed_values(item: str, value: str, raw: int) -> None:
         ("frequency_source", "7", "unknown_value", "does not take 7"),
         ("analog_filter", "18", "out_of_range", "does not take 18"),
         ("run_command", "2", "out_of_range", "raw 2 is outside"),
-        ("running", "on", "read_only", "read only"),
         ("baud_rate", "5", "not_generated", "not reachable over the bus"),
         ("upper_limit", "50", "missing", "its range depends on lower_limit"),
         ("voltage_setpoint", "50", "missing", "its scale depends on voltage_ratio"),

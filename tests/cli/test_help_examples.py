@@ -268,6 +268,7 @@ CLAIMS = {
         ),
         "python woodward_mpu2s --out tools": Claim(0, "", made="tools/woodward_mpu2s/__init__.py"),
         'rust siemens_mm4 --out crates --points "P10*,status_word"': Claim(0, "", made="crates/siemens_mm4/Cargo.toml"),
+        "typescript nord_sk5xxe --out drivers": Claim(0, "", made="drivers/nord_sk5xxe/index.js"),
         "--check": Claim(1, r"missing: vendored/hitachi_l200\.h"),
     },
     "docs": {

@@ -45,7 +45,12 @@ def test_json(diff: Diff) -> None:
     ]
     entry = told["changes"][2]
     assert entry["places"] == {"old": "old/device.yaml:18", "new": "new/device.yaml:18"}
-    assert entry["symbols"] == {"c": ["MADE_UP_STATE_WAIT"], "python": ["WAIT"], "rust": ["Wait"]}
+    assert entry["symbols"] == {
+        "c": ["MADE_UP_STATE_WAIT"],
+        "python": ["WAIT"],
+        "rust": ["Wait"],
+        "typescript": ["WAIT"],
+    }
 
 
 TEXT = """\
@@ -56,17 +61,20 @@ made_up 1.0.0
       c: MADE_UP_SPEED_ADDRESS, MADE_UP_SPEED_RAW_MIN, MADE_UP_SPEED_RAW_MAX and 7 more
       python: speed
       rust: Speed
+      typescript: speed
   changes behaviour
     state: range 0..1 -> 0..2
       old/device.yaml:18 -> new/device.yaml:18
       c: MADE_UP_STATE_ADDRESS, MADE_UP_STATE_RAW_MIN, MADE_UP_STATE_RAW_MAX and 7 more
       python: state
       rust: State
+      typescript: state
     state: entry wait is new
       old/device.yaml:18 -> new/device.yaml:18
       c: MADE_UP_STATE_WAIT
       python: WAIT
       rust: Wait
+      typescript: WAIT
   the version must take a major step: 2.0.0 or more, it says 1.0.0
 
 3 differences
@@ -80,7 +88,7 @@ a major step of the version: 1.0.0 \N{RIGHTWARDS ARROW} 2.0.0
 
 - `speed`: address 16 \\(0010h\\) \N{RIGHTWARDS ARROW} 17 \\(0011h\\) \
 (c `MADE_UP_SPEED_ADDRESS`, `MADE_UP_SPEED_RAW_MIN`, \
-`MADE_UP_SPEED_RAW_MAX` and 7 more; python `speed`; rust `Speed`)
+`MADE_UP_SPEED_RAW_MAX` and 7 more; python `speed`; rust `Speed`; typescript `speed`)
 
 """
 

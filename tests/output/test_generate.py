@@ -20,7 +20,8 @@ from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool
 
 DOCS = [
-    *("docs/jumo_controller.csv", "docs/jumo_controller.md", "docs/jumo_controller_meanings.csv"),
+    *("docs/jumo_controller.csv", "docs/jumo_controller.html", "docs/jumo_controller.md"),
+    "docs/jumo_controller_meanings.csv",
     "manifest/jumo_controller.json",
 ]
 

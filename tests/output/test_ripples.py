@@ -69,9 +69,10 @@ COUNTS = {
 
 
 def lines_of(device: Device) -> Lines:
-    """The lines of each file of a device, without its digest."""
+    """The lines of each file of a device, without its digest; HTML pages number what points share."""
     digest = re.compile("|".join((device.digest, device.digest[:16], device.digest[:8])))
-    return {path: Counter(digest.sub("", text).split("\n")) for _, path, text in outputs(device, TARGETS)}
+    files = [(path, text) for _, path, text in outputs(device, TARGETS) if not path.endswith(".html")]
+    return {path: Counter(digest.sub("", text).split("\n")) for path, text in files}
 
 
 def lost(old: Lines, new: Lines, also: Lines | None = None) -> list[tuple[str, str]]:

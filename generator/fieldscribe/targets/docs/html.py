@@ -136,8 +136,20 @@ def _digest(text: str) -> str:
     return "sha256-" + b64encode(sha256(f"\n{text}".encode()).digest()).decode()
 
 
-def _json(data: object) -> str:
-    """Return JSON that cannot end the element in which it stands."""
+def _json(data: Mapping[str, object]) -> str:
+    """Return JSON that cannot end the element in which it stands, with a line for each member and item of lists."""
+    members = [
+        f"{_json_line(key)}:{_items(value) if isinstance(value, list) else _json_line(value)}"
+        for key, value in data.items()
+    ]
+    return "{" + ",\n".join(members) + "}"
+
+
+def _items(values: list[object]) -> str:
+    return "[" + ",\n".join(map(_json_line, values)) + "]"
+
+
+def _json_line(data: object) -> str:
     return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 

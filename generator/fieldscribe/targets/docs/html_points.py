@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Any
@@ -39,18 +40,21 @@ Row = tuple[int, str, str]
 
 
 class Pool:
-    """Keeps one of each thing, by key, and gives its number."""
+    """Keeps one of each thing and gives its number."""
 
     def __init__(self) -> None:
         self.things: list[Any] = []
-        self._numbers: dict[Hashable, int] = {}
+        self._by_key: dict[Hashable, int] = {}
+        self._by_content: dict[str, int] = {}
 
     def number(self, key: Hashable, made: Callable[[], Any]) -> int:
-        """Return the number of the thing with that key; it is made the first time."""
-        number = self._numbers.get(key)
+        """Return the number of a thing, made once for each key; those with the same content have one number."""
+        number = self._by_key.get(key)
         if number is None:
-            number = self._numbers[key] = len(self.things)
-            self.things.append(made())
+            thing = made()
+            number = self._by_key[key] = self._by_content.setdefault(json.dumps(thing), len(self.things))
+            if number == len(self.things):
+                self.things.append(thing)
         return number
 
 
