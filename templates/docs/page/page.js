@@ -279,7 +279,7 @@ function show() {
   for (const row of ui.rows.querySelectorAll("[aria-current]")) row.removeAttribute("aria-current");
   if (point) markRow(point);
   ui.detail.replaceChildren(...(isList ? [] : [point ? withNeighbours(point) : sectionArticle(section)]));
-  if (point) globalThis.fillCalculator?.(document.getElementById("calculator"), point, device);
+  if (point) fillCalculator(document.getElementById("calculator"), point);
   document.title = point ? `${point.code || point.name} · ${device.name}` : device.name;
   if (kind === "group") { state.group = ""; showGroup(name); } else if (!isList) {
     const place = document.getElementById(`${kind}=${name}`);

@@ -27,7 +27,7 @@ def _written() -> dict[str, str]:
 
 
 def _page(device: Device | None = None) -> str:
-    return (_written() if device is None else dict(outputs(device, render)))["docs/sample_drive.md"]
+    return next(text for path, text in outputs(device or DEVICE, render) if path == "docs/sample_drive.md")
 
 
 def _cells(line: str) -> list[str]:

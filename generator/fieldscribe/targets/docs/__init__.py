@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
@@ -25,7 +26,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.docs.scope import scope_of
 
     scope = scope_of(device)
-    for path, text in (*markdown_files(scope, render), *csv_files(scope), *html_files(scope, render)):
+    for path, text in chain(markdown_files(scope, render), csv_files(scope), html_files(scope, render)):
         yield f"docs/{path}", text
 
 

@@ -12,6 +12,7 @@ from fieldscribe.model import Device, Erratum, Message
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
+from fieldscribe.targets.docs.html_code import code_of
 from fieldscribe.targets.docs.html_points import Points
 from fieldscribe.targets.docs.marks import MARKED
 from fieldscribe.targets.docs.scope import DocsScope
@@ -21,7 +22,16 @@ from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
 from fieldscribe.text import html_code, line
 
-_SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "point.js", "page.js")
+_SCRIPTS = (
+    "shared.js",
+    "search.js",
+    "drawings.js",
+    "snippets.js",
+    "exchange.js",
+    "calculator.js",
+    "point.js",
+    "page.js",
+)
 _STYLES = ("shared.css", "page.css")
 
 Section = tuple[str, list[tuple[str, str]]]
@@ -32,12 +42,15 @@ def html_of(scope: DocsScope, render: Render) -> str:
     """Return the page of a device."""
     made, command, licence = head_lines(scope.device, "docs", line)
     style, script = source(_STYLES), source(_SCRIPTS)
+    code = code_of(scope.device, render)
+    digests = " ".join(f"'{_digest(text)}'" for text in filter(None, (code, script)))
     context = {
         "head": [_comment(text) for text in (made, command, licence)],
         "title": html_code(f"{line(scope.device.vendor)} {line(scope.device.model)}"),
         "style": style,
         "script": script,
-        "policy": f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; "
+        "code": code,
+        "policy": f"default-src 'none'; style-src '{_digest(style)}'; script-src {digests}; "
         "base-uri 'none'; form-action 'none'",
         "data": _json(page_data(scope, made)),
     }

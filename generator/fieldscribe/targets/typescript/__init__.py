@@ -24,26 +24,37 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     """Yield the files of the device's package, as paths below the output folder and their text."""
     import json  # `check` starts without it
 
+    del tests  # they are not generated
+    names = Identifiers(device)
+    folder = f"typescript/{names.folder}"
+    yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
+    for name, text in _modules(device, render, ("js", "d.ts")):
+        yield f"{folder}/{name}", text
+
+
+def scripts(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """Yield the modules of the device's package by their names, without their types."""
+    return _modules(device, render, ("js",))
+
+
+def _modules(device: Device, render: Render, kinds: Iterable[str]) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.typescript.device import device_context
     from fieldscribe.targets.typescript.enums import enums_context
     from fieldscribe.targets.typescript.points import points_context
 
-    del tests  # they are not generated
     names = Identifiers(device)
     head = {
         "head": head_lines(device, "typescript", js_comment),
         "product": js_comment(f"{device.vendor} {device.model}"),
     }
-    folder = f"typescript/{names.folder}"
     views = {
         "enums": enums_context(device, names, render),
         "points": points_context(device, names, render),
         "index": {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)},
     }
-    yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
     for name, view in views.items():
-        for kind in ("js", "d.ts"):
-            yield f"{folder}/{name}.{kind}", render(f"typescript/{name}.{kind}.j2", {**head, "view": view})
+        for kind in kinds:
+            yield f"{name}.{kind}", render(f"typescript/{name}.{kind}.j2", {**head, "view": view})
 
 
 def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
@@ -71,4 +82,4 @@ def _package(device: Device, names: Identifiers) -> dict[str, object]:
     }
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "scripts"]

@@ -1,0 +1,86 @@
+"""The generated TypeScript of a device as one classic script: a page from a file system may run no modules.
+
+All modules of the runtime share one scope, as their names differ; those of the device have a scope inside it, as points
+may be called like a part of the runtime. Nothing runs before the page asks for the code.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import cache
+from posixpath import dirname, join, normpath
+
+from fieldscribe.code_view import for_code
+from fieldscribe.model import Device
+from fieldscribe.resources import Render, templates_dir
+from fieldscribe.targets import knows
+from fieldscribe.targets.typescript import scripts
+from fieldscribe.targets.typescript.identifiers import Identifiers
+
+_RUNTIME = "typescript/runtime"
+_IMPORT = re.compile(r'^(?:import|export \*)[^;]*?from "([^"]+)";\n', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:async )?(?:const|function|class) (\w+))", re.MULTILINE)
+_LEFT_OUT = re.compile(
+    r"^[ \t]*/\*\*(?:(?!\*/).)*\*/\n|^[ \t]*//[^\n]*\n|^export \{\};\n|/\* @__PURE__ \*/ ", re.MULTILINE | re.DOTALL
+)
+"""Comments, and what makes a module of a file without exports."""
+_SCRIPT = """"use strict";
+globalThis.openCode = () => {{
+{runtime}const generatedDevice = (() => {{
+{device}return {kind};
+}})();
+return {{ Device: generatedDevice, {names} }};
+}};
+"""
+
+
+def code_of(device: Device, render: Render) -> str:
+    """Return the script that gives the page the code of a device; empty for a family without TypeScript."""
+    if not knows("typescript", device):
+        return ""
+    plain = for_code(device)
+    texts = dict(scripts(plain, render))
+    runtime = _runtime(tuple(sorted({found for text in texts.values() for found in _IMPORT.findall(text)})))
+    script = _SCRIPT.format(
+        runtime=_EXPORT.sub("", runtime),
+        device=_EXPORT.sub("", _joined("index.js", texts.__getitem__, set())),
+        kind=Identifiers(plain).device_class,
+        names=", ".join(dict.fromkeys(_EXPORT.findall(runtime))),
+    )
+    return _safe(script)
+
+
+@cache
+def _runtime(imported: tuple[str, ...]) -> str:
+    """Return the modules of the runtime that a device imports."""
+    root, seen = templates_dir() / _RUNTIME, set[str]()
+
+    def text(path: str) -> str:
+        return (root / path).read_text("utf-8")
+
+    packages = [_located("", name) for name in imported if not name.startswith(".")]
+    return "".join(_joined(path, text, seen) for path in packages)
+
+
+def _joined(path: str, text_of: Callable[[str], str], seen: set[str]) -> str:
+    """Return a module after those that it imports, without what makes them modules, and without comments."""
+    if path in seen:
+        return ""
+    seen.add(path)
+    text = text_of(path)
+    before = (_located(path, name) for name in _IMPORT.findall(text) if name.startswith(".") or "/" in path)
+    return "".join(_joined(each, text_of, seen) for each in before) + _LEFT_OUT.sub("", _IMPORT.sub("", text))
+
+
+def _located(path: str, imported: str) -> str:
+    """Return where a module lies that another one imports."""
+    if imported.startswith("."):
+        return normpath(join(dirname(path), imported))
+    package, _, part = imported.partition("/")
+    return f"{package}/{part or 'index'}.js"
+
+
+def _safe(script: str) -> str:
+    """Return a script that neither ends nor hides the element in which it stands: inside texts, the same."""
+    return script.replace("</", "<\\/").replace("<!--", "<\\!--")

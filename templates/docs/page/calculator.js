@@ -1,0 +1,388 @@
+/* The calculator of a point: value, raw number, words, bits and frames, each from any other, by the generated code. */
+
+/** Fill the calculator of a point; it stays hidden for what has no code. */
+function fillCalculator(place, point) {
+  const codec = codecOf(point);
+  if (!place || !codec || !codec.access) return;
+  place.hidden = false;
+  place.replaceChildren(...new Calculator(point, codec).parts());
+}
+
+/** What was entered last stays for a visit: the unit, the framing, and the raw numbers of other points. */
+const entered = { unit: null, framing: "", raws: {}, bases: {} };
+
+class Calculator {
+  constructor(point, codec) {
+    this.point = point;
+    this.codec = codec;
+    this.isCyclic = codec.at.telegram !== undefined || codec.at.space === "signal"; // nobody asks for it by itself
+    this.isBig = codec.form.wire.isBig;
+    this.entries = codec.names && !codec.facts.bits && point.shared.enum !== undefined && !point.shared.digits ? device.enums[point.shared.enum].entries : null;
+    this.needs = [...new Set([...codec.scaleNeeds, ...(codec.limitNeeds ?? [])])];
+    this.status = element("p", { className: "calculated", role: "status" });
+    this.settle();
+    this.raw = this.start();
+  }
+
+  /** The default, else an allowed number near 0. */
+  start() {
+    const { codec } = this;
+    const starts = [...startsOf(codec)];
+    return firstGood(starts, (raw) => this.test(raw)) ?? starts[0];
+  }
+
+  /** Give the line its usual settings, and other points raw numbers with which the scale gives a value. */
+  settle() {
+    const { profile } = generatedCode().Device.table.facts;
+    const [low, high] = profile.units;
+    entered.unit ??= low <= 1 && high >= 1 ? 1 : low;
+    entered.framing ||= device.framings[0] ?? device.family;
+    const open = this.needs.filter((name) => entered.raws[name] === undefined);
+    let choices = [{}];
+    for (const name of open) {
+      const starts = [...startsOf(this.other(name), 1)];
+      choices = choices.flatMap((made) => starts.map((raw) => ({ ...made, [name]: String(raw) }))).slice(0, MOST_CHOICES);
+    }
+    const tried = (test) => firstGood(choices, (made) => {
+      Object.assign(entered.raws, made);
+      if (firstGood(startsOf(this.codec), test) === undefined) throw new SyntaxError();
+    });
+    Object.assign(entered.raws, tried((raw) => this.test(raw)) ?? tried((raw) => this.codec.form.decode(raw, this.raws())) ?? choices[0]);
+  }
+
+  /** Raise what is wrong with a raw number. */
+  test(raw) {
+    this.codec.check?.(raw, this.raws());
+    shownValue(this.codec, raw, this.raws());
+  }
+
+  other(name) {
+    const { table } = generatedCode().Device;
+    return table.found(name, this.variants()) ?? table.byName.get(name)[0];
+  }
+
+  parts() {
+    const { codec, point } = this;
+    this.value = this.field("Value", (text) => this.rawOfValue(text), point.shared.unit);
+    this.rawField = this.field("Raw", (text) => this.rawOfNumber(text));
+    this.words = this.field(codec.size > 1 ? "Words" : "Word", (text) => this.rawOfWords(text));
+    const fields = [this.value, this.rawField, this.words];
+    if (this.entries) fields.unshift(this.chooser());
+    this.frames = element("div", { className: "exchanges" });
+    this.bits = codec.width <= 32 && codec.width > 1 && point.shared.form !== "float" && point.shared.form !== "text" ? this.bitButtons() : null;
+    const others = this.needs.map((name) => this.need(name));
+    this.show();
+    return [element("h3", {}, "Calculator"),
+      element("div", { className: "fields" }, ...fields.map((each) => each.box ?? each)),
+      others.length ? element("div", { className: "fields", role: "group", ariaLabel: "Raw numbers of other points" }, element("span", { className: "soft" }, "with raw"), ...others) : "",
+      this.bits?.box, this.status, this.line(), this.frames].filter(Boolean);
+  }
+
+  field(label, read, unit = "") {
+    const input = element("input", { type: "text", spellcheck: false, autocomplete: "off" });
+    input.addEventListener("input", () => this.take(() => read(input.value.trim()), input));
+    return { input, box: element("label", {}, element("span", {}, label), input, unit ? element("span", { className: "unit" }, unit) : "") };
+  }
+
+  chooser() {
+    const list = element("select", {}, element("option", { value: "" }, "…"), ...this.entries.map(([raw, name]) => element("option", { value: raw }, `${raw} ${name}`)));
+    list.addEventListener("input", () => list.value && this.take(() => this.rawOfNumber(list.value.replace(/.*\(([0-9A-F]+h)\)$/, "$1")), list));
+    this.list = list;
+    return element("label", {}, element("span", {}, "Name"), list);
+  }
+
+  /** A field for the raw number of another point, with what it means. */
+  need(name) {
+    const other = this.other(name);
+    const input = element("input", { type: "text", value: entered.raws[name], spellcheck: false, autocomplete: "off" });
+    const told = element("span", { className: "unit" });
+    const say = () => { try { told.textContent = other.told(wholeText(input.value, other.form.wire.isBig)); } catch { told.textContent = ""; } };
+    input.addEventListener("input", () => { entered.raws[name] = input.value.trim(); say(); this.show(); });
+    say();
+    return element("label", {}, pointLink(other.item), element("span", { className: "unseen" }, ` raw number of ${other.name}`), input, told);
+  }
+
+  raws() {
+    return Object.fromEntries(this.needs.map((name) => [name, wholeText(entered.raws[name], this.other(name).form.wire.isBig)]));
+  }
+
+  /** The variant of the point, and those that the reader chose; of other axes the first. */
+  variants() {
+    const [axis, value] = this.point.variant.split("=");
+    const chosen = Object.entries(device.variants).map(([name, values]) => [name, (name === axis && value) || state.variants[name] || values[0]]);
+    return Object.fromEntries(chosen);
+  }
+
+  take(read, source) {
+    try {
+      this.raw = read();
+      this.show(source);
+    } catch (error) {
+      this.fail(error, source);
+    }
+  }
+
+  fail(error, source) {
+    if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
+    this.raw = null;
+    this.status.textContent = error.message;
+    this.status.classList.add("wrong");
+    for (const field of [this.value, this.rawField, this.words]) if (field.input !== source) field.input.value = "";
+    if (this.list && this.list !== source) this.list.value = "";
+    this.frames.replaceChildren();
+  }
+
+  rawOfValue(text) {
+    const { codec } = this;
+    const { form } = this.point.shared;
+    const special = codec.special[Object.keys(codec.special).find((name) => folded(name) === folded(text).replaceAll(" ", "_")) ?? ""];
+    if (special) return codec.form.wire.raw(special.raw);
+    const named = this.entries?.find(([raw, name]) => folded(name) === folded(text) || raw === text);
+    if (named) return this.rawOfNumber(named[0].replace(/.*\(([0-9A-F]+h)\)$/, "$1"));
+    const typed = form === "text" ? text : numberText(text);
+    if (codec.encode && codec.form.encodes) return codec.encode(typed, this.raws());
+    return codec.form.wire.raw(codec.form.converted(typed, this.raws()));
+  }
+
+  rawOfNumber(text) {
+    const number = wholeText(text, this.isBig);
+    const [low, high] = this.codec.form.wire.limits(this.codec.width);
+    if (number >= low && number <= high) return number;
+    throw new SyntaxError(`${text} is outside ${low}..${high}`);
+  }
+
+  rawOfWords(text) {
+    const words = (text.match(/[0-9a-f]+/gi) ?? []).map((word) => parseInt(word, 16));
+    return this.codec.fromWords(words);
+  }
+
+  /** Show what follows from the raw number in all fields but the one that is edited. */
+  show(source) {
+    const { codec, raw } = this;
+    if (raw === null) return;
+    const set = (field, text) => { if (field.input !== source) field.input.value = text; };
+    let raws = {};
+    const problems = [];
+    const attempt = (work, other) => {
+      try { return work(); } catch (error) {
+        if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
+        if (!problems.includes(error.message)) problems.push(error.message);
+        return other;
+      }
+    };
+    raws = attempt(() => this.raws(), {});
+    set(this.value, attempt(() => shownValue(codec, raw, raws), ""));
+    set(this.rawField, String(raw));
+    set(this.words, attempt(() => hexWords(this.wordsOf(raw)), ""));
+    if (this.list && this.list !== source) this.list.value = this.entries.find(([number]) => number.replace(/ \(.*/, "") === String(raw))?.[0] ?? "";
+    if (codec.check) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); });
+    const told = attempt(() => codec.told(raw, raws), "");
+    const name = codec.nameOf(raw);
+    this.status.textContent = [told, typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
+    this.status.classList.toggle("wrong", problems.length > 0);
+    this.bits?.show();
+    void this.exchange(raws, problems.length === 0);
+  }
+
+  /** What the set flags are called, and the numbers of those of several bits. */
+  flagNames() {
+    if (this.point.shared.word === undefined) return "";
+    const now = this.bitsNow();
+    const told = device.words[this.point.shared.word].map(([low, width, name, , active, values]) => {
+      const number = Number((now >> BigInt(low)) & ((1n << BigInt(width)) - 1n));
+      if (width === 1) return number === active ? name : "";
+      return `${name} ${values.find(([raw]) => raw === number)?.[1] ?? number}`;
+    });
+    return told.filter(Boolean).join(", ");
+  }
+
+  wordsOf(raw) {
+    return this.codec.facts.bits ? [this.codec.insert(0, raw)] : this.codec.toWords(raw);
+  }
+
+  bitButtons() {
+    const { codec, point } = this;
+    const low = point.shared.low ?? 0;
+    const flags = point.shared.word === undefined ? [] : device.words[point.shared.word];
+    const buttons = Array.from({ length: codec.width }, (_, at) => codec.width - 1 - at).map((bit) => {
+      const flag = flags.find(([from, size]) => bit >= from && bit < from + size);
+      const button = element("button", { type: "button", title: flag ? flag[2] : "" }, element("span", { className: "unseen" }, "Bit "), element("small", {}, String(bit + low)), flag ? element("span", { className: "unseen" }, ` ${flag[2]} `) : null, element("b", {}));
+      button.dataset.bit = bit;
+      button.addEventListener("click", () => this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit)))));
+      return button;
+    });
+    const show = () => {
+      const now = this.bitsNow();
+      for (const button of buttons) {
+        const on = (now >> BigInt(button.dataset.bit)) & 1n;
+        button.setAttribute("aria-pressed", String(on === 1n));
+        button.lastChild.textContent = String(on);
+      }
+    };
+    const bytes = [];
+    for (let end = buttons.length; end > 0; end -= 8) bytes.unshift(element("span", {}, ...buttons.slice(Math.max(0, end - 8), end)));
+    return { box: element("div", { className: "bit-row", role: "group", ariaLabel: "Bits of the raw number" }, ...bytes), show };
+  }
+
+  bitsNow() {
+    const { codec, raw } = this;
+    const pattern = BigInt(codec.form.wire.pattern(raw ?? codec.form.wire.raw(0), codec.width, Math.ceil(codec.form.wire.bits / 16)));
+    return BigInt.asUintN(codec.width, pattern);
+  }
+
+  pattern(bits) {
+    const { wire } = this.codec.form;
+    return wire.number(wire.raw(bits), this.codec.width);
+  }
+
+  /** The settings of the line: unit, framing, and what addresses count from. */
+  line() {
+    if (this.isCyclic) return "";
+    const { profile, bases } = generatedCode().Device.table.facts;
+    const [low, high] = profile.units;
+    const unit = element("input", { type: "number", min: low, max: high, value: String(entered.unit) });
+    unit.addEventListener("input", () => { entered.unit = Number(unit.value); this.show(unit); });
+    const fields = [element("label", {}, element("span", {}, "Unit"), unit)];
+    if (device.framings.length > 1) {
+      const list = element("select", {}, ...device.framings.map((name) => element("option", { value: name, selected: name === entered.framing }, name)));
+      list.addEventListener("input", () => { entered.framing = list.value; this.show(list); });
+      fields.push(element("label", {}, element("span", {}, "Framing"), list));
+    }
+    const base = this.codec.at.base;
+    if (base !== undefined && bases) {
+      entered.bases[base] ??= 0;
+      const address = element("input", { type: "number", min: 0, max: 65535, value: String(entered.bases[base]) });
+      address.addEventListener("input", () => { entered.bases[base] = Number(address.value); this.show(address); });
+      fields.push(element("label", {}, element("span", {}, `Address of ${base}`), address));
+    }
+    return element("div", { className: "fields" }, ...fields);
+  }
+
+  /** Show the requests and replies that read and write this number. */
+  async exchange(raws, isAllowed) {
+    const turn = (this.turn = {});
+    const { codec, raw } = this;
+    if (this.isCyclic || !codec.at.addresses.length) return;
+    const boxes = [];
+    if (codec.decode) boxes.push(this.readBox(await this.sent(raw, raws, (point) => point.readRaw())));
+    if (codec.encode && isAllowed) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (point) => point.writeRaw(raw))));
+    if (this.turn === turn && !this.frames.contains(document.activeElement)) this.frames.replaceChildren(...boxes);
+  }
+
+  /** The exchanges of an operation on a device that holds this number; `reply` is answered instead of its own. */
+  async sent(raw, raws, work, reply = null) {
+    const { codec } = this;
+    const { FieldscribeError, Device } = generatedCode();
+    let line = { exchanges: [] };
+    try {
+      const bases = codec.at.base === undefined ? {} : { [codec.at.base]: entered.bases[codec.at.base] ?? 0 };
+      const opened = answeringDevice({ unit: entered.unit, framing: device.family === "modbus" ? entered.framing : device.family, variants: this.variants(), bases });
+      line = opened.line;
+      for (const [name, number] of Object.entries(raws)) {
+        const other = this.other(name);
+        hold(line, other, other.facts.bits ? [other.insert(0, number)] : other.toWords(number));
+      }
+      hold(line, codec, this.wordsOf(raw));
+      line.answer = reply;
+      const result = await work(opened.made[Device.table.attributes.get(codec)]);
+      return { exchanges: line.exchanges, result };
+    } catch (error) {
+      if (!(error instanceof FieldscribeError)) throw error;
+      return { exchanges: line.exchanges, error };
+    }
+  }
+
+  /** The exchange that reads, with a reply that can be edited: what a device sent says what it means. */
+  readBox(done) {
+    const box = exchangeBox("Read", done);
+    const reply = box.querySelector(".reply input");
+    reply?.addEventListener("input", async () => {
+      const frame = frameOf(reply.value, device.family === "can");
+      if (!frame) { this.fail(new SyntaxError("this is no frame in hexadecimal"), reply); return; }
+      const { result, error } = await this.sent(this.codec.form.wire.raw(0), this.raws(), (point) => point.readRaw(), frame);
+      if (error) this.failReply(error); else this.take(() => result, reply);
+    });
+    return box;
+  }
+
+  failReply(error) {
+    this.status.textContent = error.message;
+    this.status.classList.add("wrong");
+  }
+}
+
+function hold(line, codec, words) {
+  line.hold(codec.at, line.framing === "uss" && words.length > 1 ? [words] : words);
+}
+
+function exchangeBox(what, { exchanges, error }) {
+  const rows = exchanges.flatMap(({ request, reply }, at) => {
+    const isLast = at === exchanges.length - 1;
+    const name = exchanges.length > 1 ? `${what} ${at + 1}` : what;
+    return [frameRow(`${name}: request`, frameText(request)), reply ? frameRow(`${name}: reply`, frameText(reply), what === "Read" && isLast) : ""];
+  });
+  return element("div", {}, ...rows, error ? element("p", { className: "wrong" }, error.message) : "");
+}
+
+function frameRow(name, text, isEdited = false) {
+  if (!isEdited) return element("p", { className: "frame" }, element("span", {}, name), element("code", {}, text), copyButton("Copy", () => text));
+  const input = element("input", { type: "text", value: text, spellcheck: false, autocomplete: "off" });
+  return element("label", { className: "frame reply" }, element("span", {}, name), input);
+}
+
+/** Return the value of a raw number as a field has it: without its unit. */
+function shownValue(codec, raw, raws) {
+  const special = codec.specialOf(raw);
+  if (special) return special.name;
+  const value = codec.form.decode(raw, raws);
+  return typeof value === "object" && value !== null && !(value instanceof Date) ? codec.told(raw, raws) : value instanceof Date ? value.toISOString() : String(value);
+}
+
+const MOST_CHOICES = 400;
+
+/** Yield raw numbers to begin with: the default, then `first`, 0, and the ends of what is allowed and named. */
+function* startsOf(codec, first = 0) {
+  const { form, facts, rawLimits: [low, high], names } = codec;
+  const raws = [facts.default, () => codec.encode(facts.default), facts.fixed && !facts.bits ? facts.fixed[1] : first, 0, () => codec.encode(""), () => form.converted(codec.minimum, {}), () => form.converted(100, {}), () => form.converted(50, {}), low, high];
+  for (const bounds of facts.allowed ?? []) raws.push(...bounds);
+  if (names && !facts.bits) raws.push(...Object.values(names));
+  for (const each of raws) {
+    try {
+      const raw = form.wire.raw(typeof each === "function" ? each() : each);
+      if (raw >= codec.least && raw <= codec.greatest) yield raw;
+    } catch { /* it has no such number */ }
+  }
+}
+
+/** Return the first of these for which a test raises nothing; undefined if there is none. */
+function firstGood(candidates, test) {
+  for (const each of candidates) {
+    try {
+      test(each);
+      return each;
+    } catch (error) {
+      if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
+    }
+  }
+  return undefined;
+}
+
+function hexWords(words) {
+  return words.map((word) => word.toString(16).toUpperCase().padStart(4, "0")).join(" ");
+}
+
+/** Return a whole number, decimal, or hexadecimal as `1F4h` and `0x1F4`. */
+function wholeText(text, isBig) {
+  const hexadecimal = /^(?:0x|\$)([0-9a-f]+)$|^([0-9a-f]+)h$/i.exec(text);
+  const plain = hexadecimal ? `0x${hexadecimal[1] ?? hexadecimal[2]}` : text;
+  if (!hexadecimal && !/^[+-]?\d+$/.test(text)) throw new SyntaxError(`${text || "nothing"} is no whole number`);
+  return isBig ? BigInt(plain) : Number(plain);
+}
+
+/** Return a number, with a point or a comma. */
+function numberText(text) {
+  const plain = text.replace(",", ".").replace(/\s+/g, "");
+  if (/^[+-]?\d{16,}$/.test(plain)) return BigInt(plain);
+  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) throw new SyntaxError(`${text || "nothing"} is no number`);
+  return Number(plain);
+}

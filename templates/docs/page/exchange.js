@@ -1,0 +1,136 @@
+/* A line that answers by itself: it shows what generated code sends, and what a device would reply. */
+
+/** Return the code of the device, which is made when it is first needed; null for a family without it. */
+function generatedCode() {
+  if (generatedCode.made === undefined) generatedCode.made = globalThis.openCode?.() ?? null;
+  return generatedCode.made;
+}
+
+/** Return the generated point of a point of the page. */
+function codecOf(point) {
+  const code = generatedCode();
+  if (!code || !point.shared.generated) return null;
+  codecOf.byItem ??= new Map([...code.Device.table.points.values()].map((codec) => [codec.item, codec]));
+  return codecOf.byItem.get(point.name) ?? null;
+}
+
+/** A line on which everything holds what `memory` has by place; `exchanges` are the frames that went over it. */
+class AnsweringLine {
+  constructor(framing) {
+    this.framing = framing;
+    this.memory = new Map();
+    this.exchanges = [];
+    this.answer = null; // what is answered instead, to the last request
+  }
+
+  hold(at, words) {
+    const ascending = [...at.addresses].sort((one, other) => one - other);
+    ascending.forEach((address, each) => this.memory.set(this.key(at.space, address, at.index), words[each] ?? 0));
+  }
+
+  key(space, address, index) {
+    return `${space} ${address} ${index ?? 0}`;
+  }
+
+  async exchange(request, shape) {
+    const reply = request && (this.answer ?? ANSWERS[this.framing === "can" || this.framing === "uss" ? this.framing : "modbus"](this, request, shape));
+    if (request) this.exchanges.push({ request, reply: shape.broadcast ? null : reply });
+    if (this.framing === "can" && !(reply && shape.accepts(reply)) && !shape.broadcast) throw new (generatedCode().NoReplyError)("this frame answers nothing");
+    return reply;
+  }
+}
+
+const MODBUS_SPACES = { 1: "coil", 2: "discrete", 3: "holding", 4: "input", 5: "coil", 6: "holding", 15: "coil", 16: "holding" };
+
+const ANSWERS = {
+  modbus(line, request) {
+    const tcp = line.framing === "tcp";
+    const body = tcp ? request.subarray(6) : request.subarray(0, -2);
+    const [, code] = body;
+    const [address, count] = [body[2] * 256 + body[3], body[4] * 256 + body[5]];
+    const space = MODBUS_SPACES[code];
+    const held = (at) => line.memory.get(line.key(space, at)) ?? line.memory.get(line.key(code === 4 ? "holding" : "input", at)) ?? 0;
+    let reply = [...body.subarray(0, 6)];
+    if (code <= 2) {
+      const bits = new Array(Math.ceil(count / 8)).fill(0);
+      for (let at = 0; at < count; at += 1) if (held(address + at)) bits[at >> 3] |= 1 << (at & 7);
+      reply = [body[0], code, bits.length, ...bits];
+    } else if (code <= 4) {
+      const words = Array.from({ length: count }, (_, at) => held(address + at));
+      reply = [body[0], code, 2 * count, ...words.flatMap((word) => [word >> 8, word & 255])];
+    }
+    if (tcp) return Uint8Array.of(...request.subarray(0, 4), reply.length >> 8, reply.length & 255, ...reply);
+    const check = generatedCode().modbusCrc(Uint8Array.from(reply));
+    return Uint8Array.of(...reply, check & 255, check >> 8);
+  },
+  can(line, frame) {
+    const { Device, carriesRole, canFrameFault, parseCanFrame, buildCanFrame } = generatedCode();
+    const { profile } = Device.table.facts;
+    const request = profile.messages.find((each) => each.direction === "request" && each.roles.length && !canFrameFault(each, line.unit, frame));
+    const answer = request && profile.messages.find((each) => each.answers === request.name);
+    if (!answer) return null;
+    const { address, raw } = parseCanFrame(request, line.unit, frame);
+    const writes = carriesRole(request, "raw");
+    return buildCanFrame(answer, profile, line.unit, address, writes ? raw : line.memory.get(line.key("parameter", address)) ?? 0);
+  },
+  uss(line, request) {
+    const { profile } = generatedCode().Device.table.facts;
+    const reply = Uint8Array.from(request);
+    const task = request[3] >> 4;
+    const page = [15, 12, 13, 14].reduce((bits, place, at) => bits | (((request[5] << 8 >> place) & 1) << at), 0);
+    const parameter = ((request[3] & 7) << 8 | request[4]) + 2000 * page;
+    const words = line.wordsOf(parameter, request[6]);
+    const wide = (words?.length ?? 1) > 1;
+    const responses = profile.tasks[task] ?? [0];
+    const response = responses.find((each) => [2, 5].includes(each) === wide) ?? responses[0] ?? 0;
+    reply[3] = response << 4 | request[3] & 15;
+    if (task && responses.length && words && !writesValue(task)) {
+      const [high, low] = wide ? words : line.isSingleLast ? [0, words[0]] : [words[0], 0];
+      reply.set([high >> 8, high & 255, low >> 8, low & 255].slice(0, 2 * (line.pkw - 2)), 7);
+    }
+    reply[reply.length - 1] = reply.subarray(0, -1).reduce((check, byte) => check ^ byte, 0);
+    return reply;
+  },
+};
+
+/** Return true for a task of USS that brings a value. */
+function writesValue(task) {
+  return [2, 3, 7, 8, 11, 12, 13, 14].includes(task);
+}
+
+/** Return the device on a line that answers by itself; `facts` may have unit, framing, variants and numbers of bases. */
+function answeringDevice({ unit, framing, variants, bases = {} }) {
+  const { Device } = generatedCode();
+  const line = new AnsweringLine(framing);
+  line.unit = unit;
+  const link = framing === "uss" ? { pkw: Math.max(...Device.table.facts.profile.pkw.filter((words) => words <= 4)), pzd: 2 } : undefined;
+  line.pkw = link?.pkw ?? 0;
+  line.isSingleLast = line.pkw === 4;
+  line.wordsOf = (parameter, index) => {
+    const words = [parameter].map((address) => line.memory.get(line.key("parameter", address, index)));
+    return words[0] === undefined ? undefined : [words[0]].flat();
+  };
+  const made = new Device(line, { unit, ...(link && { link }), ...variants, ...bases });
+  for (const [name, address] of Object.entries(bases)) made.setBase?.(name, address, 0xffff);
+  return { made, line };
+}
+
+/** Return bytes as people print them. */
+function hexBytes(bytes) {
+  return [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
+}
+
+/** Return the frame as text: bytes, for CAN behind the identifier. */
+function frameText(frame) {
+  if (frame instanceof Uint8Array) return hexBytes(frame);
+  return frame ? `${frame.id.toString(16).toUpperCase().padStart(frame.extended ? 8 : 3, "0")}#${hexBytes(frame.data).replaceAll(" ", "")}` : "";
+}
+
+/** Return the frame that a text says, written as `frameText` does or with other signs between the bytes; null if it says none. */
+function frameOf(text, isCan) {
+  const can = /^\s*([0-9a-f]{3,8})\s*#\s*([0-9a-f\s]*)$/i.exec(text);
+  const digits = (can ? can[2] : text).replaceAll(/0x|[\s,;:-]/gi, "");
+  if (!/^([0-9a-f]{2})*$/i.test(digits) || isCan !== Boolean(can)) return null;
+  const data = Uint8Array.from(digits.match(/../g) ?? [], (pair) => parseInt(pair, 16));
+  return can ? { id: parseInt(can[1], 16), extended: can[1].length > 3, data } : data;
+}
