@@ -80,6 +80,7 @@ class Points:
     def data(self) -> dict[str, object]:
         """Return the rows of the points, and the pools that they refer to."""
         rows = list(map(self._row, self._scope.device.points))
+        self._rank_facts(rows)
         pools = {"kinds": self._kinds, "limits": self._limits, "enums": self._enums}
         pools |= {"words": self._words, "codes": self._codes}
         return {
@@ -128,6 +129,16 @@ class Points:
                 identifiers,
             ]
         )
+
+    def _rank_facts(self, rows: list[list[Any]]) -> None:
+        """Number the facts among those that the device has: a new fact that nobody states changes no page."""
+        own = FIELDS.index("rows")
+        holders: list[tuple[Any, Any]] = [(kind, "rows") for kind in self._kinds.things if "rows" in kind]
+        holders += [(row, own) for row in rows if len(row) > own]
+        used = sorted({place for holder, key in holders for place, _, _ in holder[key]})
+        ranks = {place: rank for rank, place in enumerate(used)}
+        for holder, key in holders:
+            holder[key] = [(ranks[place], label, text) for place, label, text in holder[key]]
 
     def _own_rows(self, point: Point) -> list[Row]:
         values = zip(_OWN, _OWN_VALUES(point), strict=True)
