@@ -64,8 +64,9 @@ COUNTS = {
     "vectors": r"(kind|left_out|group)\t",
     "c": r"#define \w+_GROUP_COUNT ",
     "python": r'    """All points of ',
+    "typescript": r"import \{ ",
 }
-"""Lines that count points or list them: they may change when there is one more."""
+"""Lines that count points or list names: they may change when there is one more."""
 
 
 def lines_of(device: Device) -> Lines:
