@@ -29,7 +29,7 @@ FINDS = {
 }
 """What people type, with the first place found, and the start of where Enter leads."""
 
-pytestmark = pytest.mark.full(seconds=20)
+pytestmark = pytest.mark.full(seconds=0.2)  # but for the first, which visits the pages for all
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +51,7 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     return dict(json.loads(succeed([tool("node"), visit, site, tool("chromium-headless-shell"), NODE_MODULES, *words])))
 
 
+@pytest.mark.full(seconds=20)
 def test_nothing_is_wrong_and_nothing_leaves_the_pages(seen: dict[str, Any]) -> None:
     assert seen["troubles"] == []
 
