@@ -12,6 +12,7 @@ from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import docstring, laid_out
 from fieldscribe.targets.runtime_calls.expressions import Hex, Name, Node, call
+from fieldscribe.targets.runtime_calls.remarks import entry_text, flag_text, sentence
 from fieldscribe.text import python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
@@ -95,12 +96,15 @@ class _Classes:
 
 
 def _enum(name: str, sentence: str, entries: tuple[Entry, ...]) -> EnumClass:
-    members = tuple((upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
+    members = tuple((upper(entry.name), str(entry.raw), python_doc(entry_text(entry))) for entry in entries)
     return EnumClass(name, f"class {name}(NamedNumber):", docstring((sentence,)), members)
 
 
 def _word(name: str, sentence: str, point: Point, classes: tuple[str, ...]) -> EnumClass:
-    bits = tuple((upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", _flag_doc(flag)) for flag in point.flags)
+    bits = tuple(
+        (upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", python_doc(flag_text(flag)))
+        for flag in point.flags
+    )
     readers = tuple(
         laid_out(reader(flag, named), 4, f"{word_attribute(flag.name)} = ")
         for flag, named in zip(point.flags, classes, strict=True)
@@ -134,25 +138,5 @@ def reader(flag: Flag, named: str) -> Node:
     return call("Field", flag.low, flag.width, *([Name(named)] if named else ()))
 
 
-def _entry_doc(entry: Entry) -> str:
-    quantity = f" ({entry.quantity})" if entry.quantity else ""
-    return "" if not quantity and _says_the_same(entry.title, entry.name) else _sentence(entry.title["en"] + quantity)
-
-
-def _flag_doc(flag: Flag) -> str:
-    """Return the docstring of a flag; it says so if the bit is 0 while the name is true."""
-    meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
-    if not meaning and flag.active and _says_the_same(flag.title, flag.name):
-        return ""
-    text = _sentence(f"{flag.title['en']} ({meaning})" if meaning else flag.title["en"])
-    return text if flag.active else f"{text} True while the bit is 0."
-
-
-def _says_the_same(title: Titles, name: str) -> bool:
-    return title["en"].casefold() == name.replace("_", " ")
-
-
 def _sentence(text: str) -> str:
-    """Return docstring text that ends with a full stop."""
-    clean = python_doc(text)
-    return clean if clean.endswith(".") else f"{clean}."
+    return sentence(python_doc(text))

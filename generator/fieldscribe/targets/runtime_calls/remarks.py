@@ -1,8 +1,8 @@
-"""What the documentation of a point in code says beside its title."""
+"""What the documentation in code says of points beside their titles, of named numbers and of flags."""
 
 from __future__ import annotations
 
-from fieldscribe.model import Point
+from fieldscribe.model import Entry, Flag, Point
 from fieldscribe.targets.runtime_calls.point_call import keeps
 from fieldscribe.targets.runtime_calls.scope import Scope
 from fieldscribe.wording import codes_text, condition_text, overflow_texts, range_text, write_texts
@@ -33,6 +33,31 @@ def remarks_text(point: Point, scope: Scope, keep: str) -> str:
         text += f" {codes_text(point)}."
     text += "".join(f" O{each[1:]}." for each in overflow_texts(point))
     return text
+
+
+def sentence(text: str) -> str:
+    """Return the text with a full stop at its end."""
+    return text if text.endswith(".") else f"{text}."
+
+
+def entry_text(entry: Entry) -> str:
+    """Return a sentence about a named number; empty where its name says it all."""
+    if entry.quantity:
+        return sentence(f"{entry.title['en']} ({entry.quantity})")
+    return "" if _says_the_same(entry.title["en"], entry.name) else sentence(entry.title["en"])
+
+
+def flag_text(flag: Flag) -> str:
+    """Return sentences about a flag, also whether it is true while its bit is 0; empty where its name says it all."""
+    meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
+    if not meaning and flag.active and _says_the_same(flag.title["en"], flag.name):
+        return ""
+    text = sentence(f"{flag.title['en']} ({meaning})" if meaning else flag.title["en"])
+    return text if flag.active else f"{text} True while the bit is 0."
+
+
+def _says_the_same(title: str, name: str) -> bool:
+    return title.casefold() == name.replace("_", " ")
 
 
 def _kept(point: Point, scope: Scope, keep: str) -> str:

@@ -48,8 +48,8 @@ def _modules(device: Device, render: Render, kinds: Iterable[str]) -> Iterable[t
         "product": js_comment(f"{device.vendor} {device.model}"),
     }
     views = {
-        "enums": enums_context(device, names, render),
-        "points": points_context(device, names, render),
+        "enums": enums_context(device, names),
+        "points": points_context(device, names),
         "index": {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)},
     }
     for name, view in views.items():

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
-from fieldscribe.resources import Render
 from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, call
+from fieldscribe.targets.runtime_calls.remarks import entry_text, flag_text, sentence
 from fieldscribe.targets.typescript.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
 from fieldscribe.targets.typescript.types import is_big
@@ -33,9 +33,8 @@ class WordOfFlags(NamedTuple):
     is_written: bool
 
 
-def enums_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
+def enums_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the module: numbers in the order of the device, then words of flags by their points."""
-    del render
     numbers = [Numbers(*_numbers(names.enum_class(enum.name), enum.title["en"], enum.entries)) for enum in device.enums]
     layout, words, known = Layout({}, camel), list[WordOfFlags](), {one.name for one in numbers}
     for point in device.points:
@@ -58,7 +57,11 @@ def _fields(point: Point, names: Identifiers) -> Iterator[tuple[Flag, str]]:
 def _numbers(
     name: str, title: str, entries: tuple[Entry, ...]
 ) -> tuple[str, tuple[str, ...], tuple[tuple[str, str, str], ...]]:
-    return name, _sentence(title), tuple((upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
+    return (
+        name,
+        _sentence(title),
+        tuple((upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries),
+    )
 
 
 def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
@@ -72,7 +75,8 @@ def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
     name = names.word_class(point)
     made = call("wordOf", name, readers, *([facts] if facts else []))
     flags = tuple(
-        (word_attribute(flag), _type(flag, classes), _flag_doc(flag), flag.name in free) for flag in point.flags
+        (word_attribute(flag), _type(flag, classes), js_comment(flag_text(flag)), flag.name in free)
+        for flag in point.flags
     )
     text = f"export const {name} = {lazily(layout.laid_out(made, 0))};"
     return WordOfFlags(name, _sentence(point.title["en"]), text, flags, point.writable and not is_big(point))
@@ -90,20 +94,5 @@ def _type(flag: Flag, classes: dict[str, str]) -> str:
     return f"{classes[flag.name]} | UnknownNumber" if flag.name in classes else "number"
 
 
-def _entry_doc(entry: Entry) -> str:
-    quantity = f" ({entry.quantity})" if entry.quantity else ""
-    title = entry.title["en"]
-    same = title.casefold() == entry.name.replace("_", " ")
-    return "" if not quantity and same else js_comment(f"{title}{quantity}".rstrip(".") + ".")
-
-
-def _flag_doc(flag: Flag) -> str:
-    meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
-    if not meaning and flag.active and flag.title["en"].casefold() == flag.name.replace("_", " "):
-        return ""
-    text = f"{flag.title['en']} ({meaning})." if meaning else flag.title["en"].rstrip(".") + "."
-    return js_comment(text if flag.active else f"{text} True while the bit is 0.")
-
-
 def _sentence(text: str) -> tuple[str, ...]:
-    return doc_lines(js_comment(text.rstrip(".") + "."))
+    return doc_lines(js_comment(sentence(text)))

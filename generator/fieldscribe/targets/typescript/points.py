@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
-from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.runtime_calls.class_facts import commands_of
 from fieldscribe.targets.runtime_calls.expressions import Call, Name, Node
@@ -37,13 +36,12 @@ class Declared(NamedTuple):
     old_names: tuple[str, ...] = ()
 
 
-def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
+def points_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the points module.
 
     `constants` are the texts of the points and commands, `imports` names of the runtime, `numbers` those of the module
     of enums, `codes` the special codes that several points share; `declared` says all of it to type checkers.
     """
-    del render
     points = Points(device, names)
     made = [point for point in device.points if point.terms.generated]
     constants = list(map(points.text, made))

@@ -70,7 +70,7 @@ def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]
         if single:
             named = "; ".join(f"{code_attribute(special)}: {js_string(special.name)}" for special in single)
             yield "special", f"{{ {named} }}"
-    if (numbers and point.form != "flags") or numbers:
+    if numbers:
         yield "names", f"typeof {numbers}"
 
 
