@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from fieldscribe.cli import main
 from support.described import shipped
+from support.made_once import made_once
 from support.own_pages import HOSTILE, made
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
@@ -35,7 +36,12 @@ pytestmark = pytest.mark.full(seconds=0.2)  # but for the first, which visits th
 @pytest.fixture(scope="module")
 def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What a reader meets, of our pages with two devices, and of hostile ones."""
-    site = tmp_path_factory.mktemp("site")
+    site = made_once(tmp_path_factory, "site", visit)
+    return dict(json.loads((site / "seen.json").read_text("utf-8")))
+
+
+def visit(site: Path) -> None:
+    """Write the pages into a folder, visit them, and keep what was seen beside them."""
     assert main(["docs", "hitachi_l200", "jumo_controller", "--pages", "--format", "html", "--out", str(site)]) == 0
     title = {"en": f"<img src=x onerror=alert(1)>\u202e{'long' * 99}"}
     device = replace(
@@ -47,8 +53,9 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         (site / "hostile" / path).write_text(text, "utf-8")
     npm_package("playwright-core"), npm_package("axe-core")
     words = [*(f"{path}.html" for path in FOR_AXE), "--", *FINDS, "zzyzx"]
-    visit = Path(__file__).with_name("visit.mjs")
-    return dict(json.loads(succeed([tool("node"), visit, site, tool("chromium-headless-shell"), NODE_MODULES, *words])))
+    script = Path(__file__).with_name("visit.mjs")
+    seen = succeed([tool("node"), script, site, tool("chromium-headless-shell"), NODE_MODULES, *words])
+    (site / "seen.json").write_text(seen, "utf-8")
 
 
 @pytest.mark.full(seconds=20)

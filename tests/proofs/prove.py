@@ -3,7 +3,7 @@
     .venv/bin/python tests/proofs/prove.py [--machine x86_16 gcc_x86_32 x86_64] [--family modbus can uss shipped]
 
 Each function of a family's header has a harness in <family>.c, which Frama-C's value analysis (EVA) follows for all
-arguments, bytes, lengths, requests and profiles of their types at once. One run follows a few harnesses, each
+arguments, bytes, lengths, requests and profiles of their types at once. One run follows all harnesses of a family, each
 from the same beginning; where it does not hold, each harness has a run of its own, which names it. No alarm means: no
 access outside of an array, nothing read that was not set, no division by zero, no shift too far, no signed overflow,
 and no cast that loses bits.
@@ -41,8 +41,6 @@ OPTIONS = (
 )
 MORE = {"cores": ("-warn-special-float", "none", "-eva-precision", "3")}
 """Values may be infinite and NaN, as IEEE 754 has it; what a function stores is known by what it returns."""
-AT_ONCE = {"modbus": 12}
-"""So many harnesses share a run; all do in other families. All of Modbus in one run take nearly twice as long."""
 LIMIT = 600
 """Seconds after which an analysis is taken to hang."""
 
@@ -136,16 +134,10 @@ def prove(family: str, names: Sequence[str], machine: str, runtime: Path = RUNTI
 
 
 def prove_family(family: str, machine: str, runtime: Path = RUNTIME) -> list[Proof]:
-    """Follow all harnesses of a family, a few in each run; where one does not hold, follow each of it alone too."""
+    """Follow all harnesses of a family in one run; if it does not hold, follow each alone too."""
     names = harnesses(HERE / f"{family}.c")
-    proofs: list[Proof] = []
-    at_once = AT_ONCE.get(family, len(names))
-    for few in [names[at : at + at_once] for at in range(0, len(names), at_once)]:
-        proof = prove(family, few, machine, runtime)
-        proofs.append(proof)
-        if not proof.holds and len(few) > 1:
-            proofs += [prove(family, [name], machine, runtime) for name in few]
-    return proofs
+    proof = prove(family, names, machine, runtime)
+    return [proof] if proof.holds else [proof, *(prove(family, [name], machine, runtime) for name in names)]
 
 
 def prove_all(wanted: Iterable[tuple[str, str]], runtime: Path = RUNTIME) -> list[Proof]:
