@@ -14,11 +14,11 @@ from fieldscribe.conversation.encoding import family_part
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
 from fieldscribe.families.frame_results import FrameResult, Item, Options
-from fieldscribe.model import Device, Frame
+from fieldscribe.model import Device
 from fieldscribe.text import line
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import spaced
+from fieldscribe.wording.frames import misprint_text
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     decoded_frame.Span: span_items,
@@ -128,7 +128,7 @@ class StreamDecoder:
                 yield from _off_by_one(self._directory, content)
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
-            yield _misprint_text(misprint)
+            yield misprint_text(misprint)
 
 
 def logged_frame(text: str) -> str | None:
@@ -153,9 +153,3 @@ def _off_by_one(directory: Directory, span: decoded_frame.Span) -> Iterator[str]
             f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {named}on "
             "the wire addresses count from 0, so this frame may be one too high"
         )
-
-
-def _misprint_text(frame: Frame) -> str:
-    """Return the note for a frame that the manual prints with this very error."""
-    known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
-    return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from fieldscribe.model import Bus, Code
+from fieldscribe.model import Bus, Code, Frame
+from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 
 ALL_ELEMENTS = 255
@@ -87,3 +88,9 @@ def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -
         return f"word {place + 1} of {count}, the first characters first"
     name = {0: "high word", count - 1: "low word"}.get(place, "word")
     return f"{name} ({place + 1} of {count}, the high part first)"
+
+
+def misprint_text(frame: Frame) -> str:
+    """Return the note for a frame that the manual prints with this very error."""
+    known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
+    return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

@@ -69,13 +69,14 @@ function markedTable(text, caption) {
   return tableOf(heads, rows.map((row) => row.map((cell) => element("span", { className: "lines" }, ...marked(cell)))), caption);
 }
 
-const SECTIONS = { points: "Points", maps: "Maps", bus: "Bus", frames: "Frames", errata: "Errata", device: "Device" };
+const SECTIONS = { points: "Points", decoder: "Decoder", maps: "Maps", bus: "Bus", frames: "Frames", errata: "Errata", device: "Device" };
 /** The sections by their addresses, with their names. */
 
 function sectionArticle(name) {
   const article = element("article", {}, element("h2", { tabIndex: -1 }, SECTIONS[name]));
   const width = Math.max(280, ui.detail.clientWidth - 24);
   if (name === "maps") article.append(...mapParts(width));
+  else if (name === "decoder") article.append(...decoderParts());
   else if (name === "errata") article.append(...device.errata.map((erratum) => erratumBox(device, erratum, true)));
   else article.append(...device.sections[name].map(([heading, table]) => (heading ? part(heading, markedTable(table, heading)) : element("p", {}, ...marked(table)))));
   return article;
@@ -217,6 +218,7 @@ function followHeader() {
 
 function hasSection(name) {
   if (name === "points" || name === "maps") return true;
+  if (name === "decoder") return typeof globalThis.openCode === "function";
   return name === "errata" ? device.errata.length > 0 : device.sections[name].length > 0;
 }
 

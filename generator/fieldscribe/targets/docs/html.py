@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from hashlib import sha256
 
-from fieldscribe.model import Device, Erratum, Message
+from fieldscribe.model import Device, Erratum, Frame, Message
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
@@ -21,17 +21,11 @@ from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
 from fieldscribe.text import html_code, line
+from fieldscribe.wording.frames import misprint_text, spaced
 
-_SCRIPTS = (
-    "shared.js",
-    "search.js",
-    "drawings.js",
-    "snippets.js",
-    "exchange.js",
-    "calculator.js",
-    "point.js",
-    "page.js",
-)
+_SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "exchange.js", "calculator.js", "point.js")
+_DECODER = ("pasted.js", "meanings.js", "decoding.js", "decoding_{}.js", "decoder.js")
+"""Scripts of devices with generated code; frames are decoded by their family."""
 _STYLES = ("shared.css", "page.css")
 
 Section = tuple[str, list[tuple[str, str]]]
@@ -41,8 +35,9 @@ Section = tuple[str, list[tuple[str, str]]]
 def html_of(scope: DocsScope, render: Render) -> str:
     """Return the page of a device."""
     made, command, licence = head_lines(scope.device, "docs", line)
-    style, script = source(_STYLES), source(_SCRIPTS)
     code = code_of(scope.device, render)
+    decoder = [name.format(scope.device.family) for name in _DECODER] if code else []
+    style, script = source(_STYLES), source((*_SCRIPTS, *decoder, "page.js"))
     digests = " ".join(f"'{_digest(text)}'" for text in filter(None, (code, script)))
     context = {
         "head": [_comment(text) for text in (made, command, licence)],
@@ -83,6 +78,12 @@ def page_data(scope: DocsScope, made: str) -> dict[str, object]:
         "messages": [_message(message, points) for message in device.messages],
         "errata": [_erratum(erratum, points, items_of(device)) for erratum in device.errata],
         "sections": dict(_sections(scope)),
+        "bus": _bus(device),
+        "frames": [_frame(frame) for frame in device.frames],
+        "commands": [
+            [line(each.name), each.space, each.address, each.value, points.titles(each.title)]
+            for each in device.commands
+        ],
         **points.data(),
         "names": {
             "c": device.id,
@@ -96,6 +97,24 @@ def page_data(scope: DocsScope, made: str) -> dict[str, object]:
 def _languages(device: Device) -> list[str]:
     """Return the languages of the titles, English first."""
     return list(dict.fromkeys(["en", *(language for point in device.points for language in point.title)]))
+
+
+def _bus(device: Device) -> dict[str, object]:
+    """Return what the decoder says of the protocol: closed addresses, and codes with their names and titles."""
+    codes = {kind: device.bus.codes(kind) for kind in ("functions", "exceptions", "responses")}
+    return {
+        "gaps": {line(space): gaps for space, gaps in device.bus.gaps.items()},
+        **{
+            kind: {str(code.number): [line(code.name), line(code.title["en"])] for code in each}
+            for kind, each in codes.items()
+        },
+    }
+
+
+def _frame(frame: Frame) -> list[str]:
+    """Return the bytes of a worked frame, and what to say where they are misprinted."""
+    note = "" if frame.valid or frame.family_facts is not None else misprint_text(frame)
+    return [spaced(frame.printed), note] if note else [spaced(frame.printed)]
 
 
 def _message(message: Message, points: Points) -> list[object]:

@@ -1,0 +1,189 @@
+/* The section that decodes pasted frames and logs: it reads line by line in slices, so that the page stays responsive. */
+
+/** A decoded frame with the line that it stood in. @typedef {Decoded & { text: string, time: number | null }} Heard */
+
+const MOST_LINES = 100_000;
+const SHOWN_AT_ONCE = 100;
+const SLICE_TIME = 20; // milliseconds between two looks at what the reader does
+
+const USS_FRAMINGS = { pkw: "parameter part alone", pzd: "process data of the master", "pzd response": "process data of the device", broadcast: "broadcast alone" };
+
+/** What a reader pasted and set stays for a visit. */
+const pastedBefore = { text: "", known: "", framing: "", pkw: "", pzd: "", onlyWrong: false };
+
+/** Yield the frames in pasted text, one after the other. @param {string} text @param {FrameDecoder} decoder @returns {Generator<Heard>} */
+function* decodedFrames(text, decoder) {
+  for (const line of linesOf(text)) {
+    const pasted = pastedLine(line, device.family === "can");
+    if (!pasted) continue;
+    if (pasted.problem) yield { ...decodedFrame({ kind: "no frame", summary: "no frame", notes: [pasted.problem] }), text: pasted.text, time: pasted.time };
+    else for (const frame of decoder.frames(pasted)) yield { ...decoder.decode(frame), text: pastedText(frame), time: pasted.time };
+  }
+}
+
+/** Yield the lines of a text, at most `MOST_LINES`. @param {string} text @returns {Generator<string>} */
+function* linesOf(text) {
+  let start = 0;
+  for (let count = 0; start < text.length && count < MOST_LINES; count += 1) {
+    const end = text.indexOf("\n", start);
+    yield text.slice(start, end < 0 ? text.length : end);
+    start = end < 0 ? text.length : end + 1;
+  }
+}
+
+/** @param {Pasted} pasted */
+function pastedText({ id, data, remote }) {
+  if (id === undefined) return hexBytes(data);
+  return `${id.toString(16).toUpperCase().padStart(id > 0x7ff ? 8 : 3, "0")}#${remote ? "R" : hexBytes(data).replaceAll(" ", "")}`;
+}
+
+/** Whether a frame is damaged, or against the manual. @param {Heard} heard */
+function isWrong({ faults, findings, said, kind }) {
+  return kind === "exception" || faults.length + findings.length > 0 || said.some(({ finding }) => finding);
+}
+
+/** Return numbers by name out of `P2009=0, PGNEXPO=3h`. @param {string} text @returns {Record<string, number>} */
+function knownNumbers(text) {
+  /** @type {Record<string, number>} */
+  const known = {};
+  for (const [, name, number] of text.matchAll(/([\w.[\]]+)\s*=\s*([^\s,;]+)/g)) {
+    try { known[name] = Number(wholeText(number, false)); } catch { /* it is typed on */ }
+  }
+  return known;
+}
+
+/** The decoder on the page. */
+class DecoderView {
+  constructor() {
+    /** @type {Heard[]} */
+    this.heard = [];
+    this.shown = 0;
+    this.run = 0;
+    this.area = element("textarea", { rows: 8, spellcheck: false, value: pastedBefore.text, placeholder: device.family === "can" ? "321#DD00051513880064" : "one frame a line, in hexadecimal" });
+    this.status = element("p", { className: "status", role: "status" });
+    this.results = element("div", { className: "heard" });
+    this.more = element("button", { type: "button", hidden: true }, "Show more");
+    this.more.addEventListener("click", () => this.extend());
+    this.area.addEventListener("input", () => { pastedBefore.text = this.area.value; void this.decode(); });
+  }
+
+  parts() {
+    const example = element("button", { type: "button" }, "Frames of the manual");
+    example.addEventListener("click", () => { this.area.value = pastedBefore.text = device.frames.map((/** @type {string[]} */ frame) => frame[0]).join("\n"); void this.decode(); });
+    const clear = element("button", { type: "button" }, "Clear");
+    clear.addEventListener("click", () => { this.area.value = pastedBefore.text = ""; void this.decode(); this.area.focus(); });
+    const onlyWrong = element("input", { type: "checkbox", checked: pastedBefore.onlyWrong });
+    onlyWrong.addEventListener("input", () => { pastedBefore.onlyWrong = onlyWrong.checked; this.show(); });
+    void this.decode();
+    return [
+      element("p", {}, device.family === "can" ? "Paste frames as candump prints or logs them, or identifier and data; one a line, with times or without." : "Paste frames in hexadecimal, one a line, with times or without. A reply is read with the request before it."),
+      element("label", { className: "paste" }, element("span", {}, "Frames or a log"), this.area),
+      element("div", { className: "fields" }, device.frames.length ? example : null, clear, element("label", {}, onlyWrong, element("span", {}, "only what is wrong")), ...this.settings()),
+      this.status, this.results, this.more,
+    ];
+  }
+
+  settings() {
+    const fields = [];
+    const { facts } = generatedCode().Device.table;
+    if (device.family === "uss") {
+      const lengths = facts.profile.pkw.map((/** @type {number} */ length) => [String(length), length === 127 ? "127, variable" : `${length} words`]);
+      const [low, high] = facts.profile.pzd;
+      const words = Array.from({ length: high - low + 1 }, (_, at) => [String(low + at), countedText(low + at, "word")]);
+      fields.push(this.choice("Framing", "framing", Object.entries(USS_FRAMINGS), "by its bytes"), this.choice("Parameter part", "pkw", lengths), this.choice("Process data", "pzd", words));
+    }
+    const needed = [...new Places({}).needed].map((name) => neededCode(name));
+    if (needed.length || facts.bases) {
+      const input = element("input", { type: "text", value: pastedBefore.known, spellcheck: false, placeholder: `${needed[0] ?? Object.keys(facts.bases)[0]}=1` });
+      input.addEventListener("input", () => { pastedBefore.known = input.value; void this.decode(); });
+      fields.push(element("label", {}, element("span", {}, facts.bases ? "Known addresses of bases, and raw numbers" : "Known raw numbers"), input));
+    }
+    return fields;
+  }
+
+  /** @param {string} text @param {"framing" | "pkw" | "pzd"} key @param {string[][]} options @param {string} [usual] */
+  choice(text, key, options, usual = "by its length") {
+    return choiceField(text, options, pastedBefore[key], (/** @type {string} */ value) => { pastedBefore[key] = value; void this.decode(); }, usual);
+  }
+
+  /** Decode all that is pasted; what is typed meanwhile begins anew. */
+  async decode() {
+    const run = (this.run += 1);
+    const number = (/** @type {string} */ text) => (text === "" ? undefined : Number(text));
+    const { text, known, framing, pkw, pzd } = pastedBefore;
+    this.heard = [];
+    this.show();
+    let sliced = performance.now();
+    const decoder = new FamilyDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
+    for (const heard of decodedFrames(text, decoder)) {
+      this.heard.push(heard);
+      if (performance.now() - sliced < SLICE_TIME) continue;
+      this.tell(true);
+      if (this.shown < SHOWN_AT_ONCE) this.extend();
+      await new Promise((done) => { setTimeout(done); });
+      if (this.run !== run) return;
+      sliced = performance.now();
+    }
+    this.tell(false);
+    this.extend();
+  }
+
+  /** Say how many frames there are. @param {boolean} isGoing */
+  tell(isGoing) {
+    const unread = this.heard.filter(({ kind }) => kind === "no frame").length;
+    const wrong = this.heard.filter(isWrong).length;
+    const count = countedText(this.heard.length - unread, "frame");
+    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : ""].filter(Boolean).join(", ") : "";
+  }
+
+  show() {
+    this.shown = 0;
+    this.results.replaceChildren();
+    this.tell(false);
+    this.extend();
+  }
+
+  /** Show the next frames. */
+  extend() {
+    const rows = pastedBefore.onlyWrong ? this.heard.filter(isWrong) : this.heard;
+    const next = rows.slice(this.shown, this.shown + SHOWN_AT_ONCE);
+    this.results.append(...next.map(heardBox));
+    this.shown += next.length;
+    this.more.hidden = this.shown >= rows.length;
+  }
+}
+
+/** @param {string} name */
+function neededCode(name) {
+  const codec = generatedCode().Device.table.byName.get(name)?.[0];
+  return codec?.code ?? codec?.name ?? name;
+}
+
+/** Return a decoded frame as a box. @param {Heard} heard */
+function heardBox(heard) {
+  const { faults, findings, notes, checks, said, summary, time, text } = heard;
+  /** @type {any[]} */
+  const rows = [["Frame", summary]];
+  for (const each of said) {
+    const point = each.point === undefined ? undefined : device.byName.get(each.point);
+    rows.push(["Says", ...(point ? [element("a", { href: `#point=${encodeURIComponent(point.name)}` }, each.label ?? pointLabel(point))] : []), each.finding ? element("span", { className: "wrong" }, each.text) : each.text]);
+    rows.push(...(each.bits ?? []));
+    if (each.doubt) rows.push(["Doubt", element("span", { className: "wrong" }, each.doubt)]);
+  }
+  if (checks) rows.push([summary.startsWith("TCP") ? "Header" : "Checksum", checks]);
+  for (const each of [...faults, ...findings]) rows.push(["Wrong", element("strong", { className: "wrong" }, each)]);
+  for (const each of notes) rows.push(["Note", each]);
+  const head = element("p", { className: "frame-text" }, time === null ? "" : element("span", { className: "soft" }, `${timeText(time)} `), element("code", {}, text));
+  return element("section", { className: isWrong(heard) ? "one wrong-one" : "one" }, head, factList(rows));
+}
+
+/** @param {number} time seconds of a day, or since 1970 */
+function timeText(time) {
+  if (time >= 86400) return new Date(time * 1000).toISOString().replace("T", " ").replace("Z", "");
+  return new Date(time * 1000).toISOString().slice(11, 23);
+}
+
+/** Return what the section of the decoder shows. */
+function decoderParts() {
+  return new DecoderView().parts();
+}

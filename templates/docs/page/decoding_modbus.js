@@ -1,0 +1,260 @@
+/* Frames of Modbus in words: requests, replies, echoes and exceptions. The request before a reply tells what it holds. */
+
+/** The functions: what each is called, its space, and the most items of the protocol. @type {Record<number, [string, string, number]>} */
+const FUNCTIONS = {
+  1: ["read coils", "coil", 2000], 2: ["read discrete inputs", "discrete", 2000], 3: ["read holding registers", "holding", 125],
+  4: ["read input registers", "input", 125], 5: ["write one coil", "coil", 1], 6: ["write one register", "holding", 1],
+  8: ["loopback test", "", 1], 15: ["write several coils", "coil", 1968], 16: ["write several registers", "holding", 123],
+};
+const EXCEPTIONS = { 1: "illegal function", 2: "illegal data address", 3: "illegal data value", 4: "device failure", 5: "acknowledged, still working", 6: "device busy", 8: "memory parity error", 10: "gateway path unavailable", 11: "gateway target did not answer" };
+
+/** A frame around what follows the unit. @typedef {{ framing: string, data: Uint8Array, unit: number, pdu: Uint8Array, transaction: number, fault: string, checks: string }} Unwrapped */
+
+/** @param {string} framing @param {Uint8Array} data @returns {Unwrapped} */
+function unwrapModbus(framing, data) {
+  const least = framing === "tcp" ? 8 : 4;
+  const bare = { framing, data, unit: data[0], pdu: new Uint8Array(0), transaction: 0, fault: "", checks: "none" };
+  if (data.length < least) {
+    return { ...bare, fault: `${framing === "tcp" ? "a TCP" : "an RTU"} frame has at least ${least} bytes, here ${data.length === 1 ? "is" : "are"} ${data.length}` };
+  }
+  if (framing === "rtu") {
+    const right = generatedCode().modbusCrc(data.subarray(0, -2));
+    const [due, here] = [[right & 255, right >> 8], data.subarray(-2)];
+    const isSwapped = here[0] === due[1] && here[1] === due[0] && here[0] !== due[0];
+    const isRight = here[0] === due[0] && here[1] === due[1];
+    const fault = isRight ? "" : isSwapped ? "the bytes of the checksum are swapped" : "the checksum is wrong";
+    const checks = isSwapped ? `its two bytes are swapped: ${hexBytes(here)}, the low byte ${hexBytes(due)} travels first` : checkText(here, due);
+    return { ...bare, pdu: data.subarray(1, -2), fault, checks };
+  }
+  const [transaction, protocol, size] = generatedCode().wordsOfBytes(data.subarray(0, 6));
+  const made = { ...bare, unit: data[6], pdu: data.subarray(7), transaction, checks: `ok (transaction ${transaction})` };
+  if (protocol) return { ...made, fault: "the header does not say Modbus", checks: `wrong: protocol number ${hexBytes(data.subarray(2, 4))} in place of 00 00` };
+  if (size === data.length - 6) return made;
+  return { ...made, fault: "the length in the header is wrong", checks: `wrong: it says ${size} bytes follow, ${data.length - 6} do` };
+}
+
+/** The length of a request or of a reply from the function on; 0 if it is none. @param {Uint8Array} pdu */
+function requestSize(pdu) {
+  if (!FUNCTIONS[pdu[0]]) return 0;
+  return pdu[0] < 15 ? 5 : pdu.length > 5 ? 6 + pdu[5] : 0;
+}
+
+/** @param {Uint8Array} pdu */
+function replySize(pdu) {
+  if (pdu[0] & 0x80) return 2;
+  return pdu[0] <= 4 ? (pdu.length > 1 ? 2 + pdu[1] : 0) : FUNCTIONS[pdu[0]] ? 5 : 0;
+}
+
+/** @param {Uint8Array} pdu */
+function isWhole(pdu) {
+  return pdu.length > 0 && [requestSize(pdu), replySize(pdu)].includes(pdu.length);
+}
+
+/** Return bits or words of the data of a function. @param {number} code @param {Uint8Array} data @returns {number[]} */
+function valuesIn(code, data) {
+  if (code <= 2 || code === 15) return Array.from({ length: 8 * data.length }, (_, at) => (data[at >> 3] >> (at & 7)) & 1);
+  return generatedCode().wordsOfBytes(data.subarray(0, data.length & ~1));
+}
+
+/** Return the request in bytes from the function on, or why it is none. @param {number} unit @param {Uint8Array} pdu @returns {any} */
+function modbusRequestIn(unit, pdu) {
+  const code = pdu[0];
+  const name = hexText(code, 2);
+  if (!FUNCTIONS[code]) return `function ${name} is not one of the Modbus functions known here`;
+  if (pdu.length < 5) return `a request of function ${name} has at least 5 bytes from the function on, here are ${pdu.length}`;
+  const [address, number] = generatedCode().wordsOfBytes(pdu.subarray(1, 5));
+  if (code < 15 && pdu.length > 5) return `a request of function ${name} has 5 bytes from the function on, here are ${pdu.length}`;
+  const isSingle = code === 5 || code === 6 || code === 8;
+  if (code === 5 && number & 0xff) return `a coil is written with FF00h or 0000h, here is ${shortAddress(number)}`;
+  const count = isSingle ? 1 : number;
+  if (count < 1 || count > FUNCTIONS[code][2]) return `a count of ${count} is outside 1 to ${FUNCTIONS[code][2]}`;
+  if (code < 15) return { unit, function: code, address, count, values: isSingle ? [code === 5 ? number >> 15 : number] : [] };
+  const data = pdu.subarray(6);
+  const size = code === 15 ? (count + 7) >> 3 : 2 * count;
+  if (pdu.length < 6) return "the byte count is missing, here are 0 bytes of data";
+  if (pdu[5] !== data.length) return `the byte count says ${pdu[5]}, here are ${data.length} bytes of data`;
+  if (data.length !== size && !(code === 15 && data.length === size + (size & 1))) return `${count} ${code === 15 ? "coils" : "words"} are ${size} bytes, here are ${data.length}`;
+  return { unit, function: code, address, count, values: valuesIn(code, data).slice(0, count) };
+}
+
+class FamilyDecoder extends FrameDecoder {
+  /** @param {Pasted} pasted @returns {Pasted[]} */
+  frames(pasted) {
+    const { data } = pasted;
+    if (["rtu", "tcp"].some((framing) => !unwrapModbus(framing, data).fault)) return [pasted];
+    const soundRtu = (/** @type {Uint8Array} */ rest) => {
+      const pdu = rest.subarray(1);
+      const sizes = pdu.length ? [requestSize(pdu), replySize(pdu)].sort((one, other) => one - other) : [];
+      return 3 + (sizes.find((size) => size > 0 && size + 3 <= rest.length && !unwrapModbus("rtu", rest.subarray(0, size + 3)).fault) ?? -3);
+    };
+    const soundTcp = (/** @type {Uint8Array} */ rest) => {
+      const size = 6 + rest[4] * 256 + rest[5];
+      return size <= rest.length && !unwrapModbus("tcp", rest.subarray(0, size)).fault ? size : 0;
+    };
+    const found = cutApart(data, soundRtu, 4);
+    return (found.length > 1 ? found : cutApart(data, soundTcp, 8)).map((each) => ({ ...pasted, data: each }));
+  }
+
+  /** @param {Uint8Array} data @returns {Unwrapped} */
+  recognised(data) {
+    const tried = [unwrapModbus("rtu", data), unwrapModbus("tcp", data)];
+    const sound = tried.find((each) => !each.fault);
+    const likely = sound ?? tried[device.framings[0] === "tcp" ? 1 : 0];
+    if (sound || likely.framing === "tcp" || isWhole(likely.pdu) || !isWhole(data.subarray(1))) return likely;
+    const right = generatedCode().modbusCrc(data);
+    return { ...likely, pdu: data.subarray(1), fault: "the checksum is missing", checks: checkText([], [right & 255, right >> 8]) };
+  }
+
+  /** @param {Pasted} pasted @returns {Decoded} */
+  decode({ data }) {
+    const unwrapped = this.recognised(data);
+    const decoded = this.read(unwrapped);
+    const misprint = device.frames.find((/** @type {string[]} */ [bytes, note]) => note && bytes === hexBytes(data));
+    if (misprint) decoded.notes.push(misprint[1]);
+    if (unwrapped.fault) decoded.faults.unshift(unwrapped.fault);
+    else if (data.length > (unwrapped.framing === "tcp" ? 260 : 256)) decoded.faults.unshift(`the frame has ${data.length} bytes, ${unwrapped.framing === "tcp" ? 260 : 256} are the most`);
+    if (device.framings.length && !device.framings.includes(unwrapped.framing) && !unwrapped.fault && !this.isToldOfFraming) {
+      this.isToldOfFraming = true;
+      decoded.notes.push(`the manual knows only ${device.framings.join(" and ").toUpperCase()} frames; ${unwrapped.framing.toUpperCase()} takes a gateway`);
+    }
+    const code = unwrapped.pdu.length ? unwrapped.pdu[0] & (decoded.kind === "exception" ? 0x7f : 0xff) : undefined;
+    const named = code === undefined ? "" : `, ${hexText(code, 2)} ${FUNCTIONS[code]?.[0] ?? "(not a function known here)"}`;
+    const { unit } = unwrapped;
+    return { ...decoded, unit: unit ?? null, checks: unwrapped.checks, summary: `${unwrapped.framing.toUpperCase()}, ${unit === undefined ? "no unit" : `unit ${unit}`}${named}: ${decoded.summary}` };
+  }
+
+  /** @param {Unwrapped} unwrapped @returns {Decoded} */
+  read(unwrapped) {
+    const { unit, pdu } = unwrapped;
+    if (!pdu.length) return decodedFrame({});
+    const open = this.open.get("");
+    const { values, status } = this.answer(unwrapped, open);
+    if (pdu[0] & 0x80) return this.exception(unwrapped, open, status);
+    if (values) {
+      this.open.delete("");
+      const isRead = open.function <= 4;
+      return decodedFrame({ kind: "reply", summary: `reply${isRead ? "" : ", the device has taken the request"}, ${this.spanOf(open)}`, said: this.said(open, isRead ? values : open.values, true) });
+    }
+    const parsed = modbusRequestIn(unit, pdu);
+    return typeof parsed === "string" ? this.unmatched(unwrapped, parsed, open, status) : this.request({ ...parsed, transaction: unwrapped.transaction });
+  }
+
+  /** What a frame brings as the answer to the open request, or why it is none. @param {Unwrapped} unwrapped @param {any} open
+   * @returns {{ values?: number[], status: string }} */
+  answer({ framing, unit, pdu, transaction }, open) {
+    const { FrameError, parseModbusReply } = generatedCode();
+    if (!open) return { status: "" };
+    if (framing === "tcp" && transaction !== open.transaction) return { status: "wrong_transaction" };
+    try {
+      return { values: parseModbusReply(open, Uint8Array.of(unit, ...pdu), this.profile, "pdu"), status: "ok" };
+    } catch (error) {
+      if (!(error instanceof FrameError)) throw error;
+      return { status: error.status };
+    }
+  }
+
+  /** @param {any} request @returns {Decoded} */
+  request(request) {
+    const { unit, function: code, count, address } = request;
+    const { functions, broadcast, broadcasts } = this.profile;
+    const findings = [];
+    if (functions[code] === undefined) findings.push(`the device does not know function ${hexText(code, 2)}`);
+    else if (count > functions[code]) findings.push(`the device takes at most ${functions[code]} of them in one request`);
+    if (unit !== broadcast) findings.push(...this.strangeUnit(unit));
+    else if (code <= 4 || code === 8) findings.push("broadcast: only writes may be sent to all units");
+    else if (!broadcasts.includes(code)) findings.push(`broadcast: the device does not accept function ${hexText(code, 2)} as a broadcast`);
+    if (address + count > 0x10000) findings.push("it reaches beyond the last address");
+    if (unit === broadcast) this.open.delete("");
+    else this.open.set("", request);
+    const isEcho = (code === 5 || code === 6 || code === 8) && unit !== broadcast;
+    return decodedFrame({
+      kind: "request", summary: `${isEcho ? "request, or the reply that repeats it" : "request"}, ${this.spanOf(request)}`, findings,
+      said: this.said(request, request.values.length ? request.values : undefined, false),
+      notes: [...(unit === broadcast && !findings.length ? ["broadcast: no unit answers"] : []), ...this.offByOne(request)],
+    });
+  }
+
+  /** @param {Unwrapped} unwrapped @param {any} open @param {string} status @returns {Decoded} */
+  exception({ pdu }, open, status) {
+    if (pdu.length !== 2) return decodedFrame({ faults: [`an exception has 2 bytes from the function on, here are ${pdu.length}`] });
+    const code = pdu[1];
+    const common = EXCEPTIONS[/** @type {keyof EXCEPTIONS} */ (code)];
+    const meaning = common ? `: ${common} (the protocol's meaning; the manual does not list it)` : ": the manual does not list it";
+    const summary = `exception ${device.bus.exceptions[code] ? codeText("exceptions", code, hexText(code, 2)) : hexText(code, 2) + meaning}`;
+    const made = decodedFrame({ kind: "exception", exception: code, summary });
+    if (!open) return { ...made, notes: ["which request it refuses is not in the frame"] };
+    if (status !== "exception") return { ...made, faults: [`it does not answer the request before: ${noAnswer(status)}`] };
+    this.open.delete("");
+    return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, said: this.said(open) };
+  }
+
+  /** A reply that does not fit the open request, with what can be known of it.
+   * @param {Unwrapped} unwrapped @param {string} why @param {any} open @param {string} status @returns {Decoded} */
+  unmatched({ unit, pdu }, why, open, status) {
+    const faults = open ? [`it does not answer the request: ${noAnswer(status)}`] : [];
+    const [code] = pdu;
+    if (code <= 4 && pdu.length === replySize(pdu)) {
+      const data = pdu.subarray(2);
+      if (open?.function !== code) {
+        return decodedFrame({ kind: "reply", summary: `reply with ${countedText(data.length, "byte")} of data: ${hexBytes(data)}`, faults, notes: ["which addresses these are, only the request says: give it before this frame"] });
+      }
+      this.open.delete("");
+      const values = valuesIn(code, data);
+      const came = { ...open, count: Math.min(open.count, values.length) };
+      const due = code <= 2 ? (open.count + 7) >> 3 : 2 * open.count;
+      if (data.length !== due) faults.splice(0, 1, `it brings ${countedText(data.length, "byte")}, the request asks for ${due} (${countedText(open.count, "item")})`);
+      return decodedFrame({ kind: "reply", summary: `reply, ${this.spanOf(came)}`, faults, said: this.said(came, values.slice(0, came.count), true) });
+    }
+    if (code >= 15 && pdu.length === 5 && FUNCTIONS[code]) {
+      const [address, count] = generatedCode().wordsOfBytes(pdu.subarray(1));
+      const confirmed = { unit, function: code, address, count, values: [] };
+      const isPossible = count > 0 && count <= FUNCTIONS[code][2];
+      return decodedFrame({ kind: "reply", summary: `reply, the device has taken the request, ${this.spanOf(confirmed)}`, faults, said: isPossible ? this.said(confirmed) : [] });
+    }
+    const follow = `${countedText(pdu[1], "byte")} of data ${pdu[1] === 1 ? "follows" : "follow"}`;
+    const isRead = code <= 4 && pdu.length > 1;
+    return decodedFrame({ faults: [isRead ? `as a request: ${why}; as a reply: it says that ${follow}, here ${pdu.length === 3 ? "is" : "are"} ${pdu.length - 2}` : why] });
+  }
+
+  /** @param {any} request */
+  spanOf({ function: code, address, count }) {
+    if (code === 8) return `sub-function ${shortAddress(address)}`;
+    const [, space] = FUNCTIONS[code];
+    const last = address + Math.max(count, 1) - 1;
+    return `${space} ${spanText(address, last)}, ${countedText(count, space === "coil" || space === "discrete" ? "bit" : "word")}`;
+  }
+
+  /** What a request names, writes, or its reply brings. @param {any} request @param {number[]} [words] @param {boolean} [isReply] @returns {Said[]} */
+  said({ unit, function: code, address, count }, words, isReply = false) {
+    if (code === 8) return [{ text: `test data ${hexNumbers(words ?? [])}; the device sends it back unchanged` }];
+    const written = code > 4;
+    const span = { space: FUNCTIONS[code][1], address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
+    return [...commandsAt(span), ...spanSaid(this.places, this.state(unit), span)];
+  }
+
+  /** Whether an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
+  offByOne({ function: code, address, count }) {
+    const space = FUNCTIONS[code][1];
+    const starting = (/** @type {number} */ at) => this.places.at(space, at).filter((spot) => Math.min(...spot.addresses) === at);
+    if (!address || starting(address).length) return [];
+    const below = starting(address - 1).find((spot) => spot.addresses.length <= count);
+    if (!below) return [];
+    const at = device.numberings.findIndex((_, place) => below.point.numbers[place] === address);
+    const named = at >= 0 ? `${address} is its ${capital(device.numberings[at])} number; ` : "";
+    return [`no point starts at ${shortAddress(address)}, but one less, ${shortAddress(address - 1)}, is ${pointLabel(below.point)}: ${named}on the wire addresses count from 0, so this frame may be one too high`];
+  }
+}
+
+/** @param {string} status @returns {string} */
+function noAnswer(status) {
+  return NO_ANSWER[/** @type {keyof NO_ANSWER} */ (status)] ?? status;
+}
+
+/** The commands that are written here. @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {Said[]} */
+function commandsAt({ space, address, words, written }) {
+  const named = written ? device.commands.filter((/** @type {any[]} */ command) => command[1] === space && command[2] === address) : [];
+  return named.map((/** @type {any[]} */ [name, , , value, title]) => {
+    const finding = words && value !== null && words[0] !== value ? `it takes ${value}, here is ${words[0]}` : "";
+    return { text: `command ${name}: ${[allTitles(title), finding].filter(Boolean).join("; ")}`, finding };
+  });
+}

@@ -1,0 +1,268 @@
+/* What numbers in frames mean: points at their addresses with values, bits, special codes, and what is wrong with them. */
+
+/** One thing that a frame says: a point or what is no point, the text, a finding against the manual, bits by label.
+ * @typedef {{ point?: string, name?: string, label?: string, raw?: any, value?: string, text: string, finding?: string, doubt?: string, bits?: [string, string][] }} Said */
+
+/** Where a point lies for frames that read or write it.
+ * @typedef {{ point: any, codec: any, addresses: number[], reads: boolean, writes: boolean }} Spot */
+
+/** What the frames of a unit brought: raw numbers that scales and limits need, and words of parameters.
+ * @typedef {{ raws: Record<string, any>, words: Map<number, number> }} UnitState */
+
+/** Finds points by their addresses; `known` has raw numbers of points and addresses of bases that the reader gives. */
+class Places {
+  /** @param {Record<string, number>} known */
+  constructor(known) {
+    /** @type {Map<string, Spot[]>} */
+    this.spots = new Map();
+    /** The points that scales and limits need. @type {Set<string>} */
+    this.needed = new Set();
+    /** @type {Record<string, any>} */
+    this.given = {};
+    for (const point of device.points.filter(hasVariant)) this.add(point, known);
+  }
+
+  /** @param {any} point @param {Record<string, number>} known */
+  add(point, known) {
+    const codec = codecOf(point);
+    for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? [])] : []) this.needed.add(name);
+    const given = known[point.name] ?? known[point.code];
+    if (codec && given !== undefined) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(given);
+    const start = point.shared.base ? known[point.shared.base] : 0;
+    if (start === undefined) return;
+    const read = codec?.at ?? { space: point.shared.space, telegram: point.shared.telegram, addresses: point.addresses };
+    const write = codec?.facts.writeAt ?? read;
+    const can = { reads: !codec || Boolean(codec.decode), writes: !codec || Boolean(codec.encode) };
+    if (write === read) this.put(read, start, { point, codec, ...can, addresses: [] });
+    else {
+      this.put(read, start, { point, codec, reads: can.reads, writes: false, addresses: [] });
+      this.put(write, start, { point, codec, reads: false, writes: can.writes, addresses: [] });
+    }
+  }
+
+  /** @param {any} at @param {number} start @param {Spot} spot */
+  put(at, start, spot) {
+    spot.addresses = at.addresses.map((/** @type {number} */ address) => address + start);
+    const index = device.family === "uss" && !at.telegram ? ` ${at.index ?? 0}` : "";
+    const space = at.telegram ?? MODBUS_SPACES[at.function] ?? at.space;
+    for (const address of spot.addresses) {
+      const key = `${space} ${address}${index}`;
+      this.spots.set(key, [...(this.spots.get(key) ?? []), spot]);
+    }
+  }
+
+  /** @param {string} space @param {number} address @param {string} [index] @returns {Spot[]} */
+  at(space, address, index = "") {
+    return this.spots.get(`${space} ${address}${index}`) ?? [];
+  }
+
+  /** Keep a number that the device reported, if a scale or a limit needs it. @param {UnitState} state @param {any} codec @param {any} raw */
+  learn(state, codec, raw) {
+    const name = codec && generatedCode().camelName(codec.name);
+    if (this.needed.has(name) && !(name in this.given)) state.raws[name] = raw;
+  }
+}
+
+/** Return the label of a point: `A020 base_frequency`. @param {any} point */
+function pointLabel(point) {
+  return point.code ? `${point.code} ${point.name}` : point.name;
+}
+
+/** Return a title in all its languages, English first. @param {string | string[]} title */
+function allTitles(title) {
+  return typeof title === "string" ? title : [...new Set(title)].filter(Boolean).join(" / ");
+}
+
+/** Return the English title. @param {string | string[]} title */
+function englishTitle(title) {
+  return typeof title === "string" ? title : title[0];
+}
+
+/** Return a named point without a number. @param {any} point @param {string} [text] @param {string} [finding] @returns {Said} */
+function namedPoint(point, text = "", finding = "") {
+  return { point: point.name, name: codecOf(point)?.name, finding, text: `: ${[text || englishTitle(point.title), finding].filter(Boolean).join("; ")}` };
+}
+
+/** Return a point with its raw number, and if it is written, why the device refuses that.
+ * @param {any} point @param {any} codec @param {any} raw @param {UnitState} state @param {boolean} [written] @returns {Said} */
+function pointValue(point, codec, raw, state, written = false) {
+  const value = meaningOf(point, codec, raw, state.raws);
+  const bits = point.shared.word === undefined ? [] : bitRows(point, codec, raw);
+  const refused = outside(codec, raw, state.raws);
+  const finding = written ? (codec.encode ? refused : "it is read only") : "";
+  const number = rawText(point, codec, raw);
+  const text = bits.length ? ` = ${number}` : ` = ${value} (${number})`;
+  return { point: point.name, name: codec.name, raw, value, bits, finding, doubt: written ? "" : refused, text: `${text}: ${[englishTitle(point.title), finding].filter(Boolean).join("; ")}` };
+}
+
+/** Return the value of a raw number with its unit, or its name. @param {any} point @param {any} codec @param {any} raw @param {any} raws @returns {string} */
+function meaningOf(point, codec, raw, raws) {
+  const { shared } = point;
+  const special = codec.specialOf(raw);
+  if (special) {
+    const title = device.codes[shared.codes]?.find((/** @type {any} */ code) => code[1] === special.name)?.[2] ?? "";
+    return `${special.name} (${allTitles(title)})${special.noValue ? ", no value" : ""}`;
+  }
+  if (shared.enum !== undefined && !shared.digits) {
+    const entry = device.enums[shared.enum].entries.find((/** @type {any} */ each) => each[0].replace(/ \(.*/, "") === String(raw));
+    return entry ? `${entry[1]} (${allTitles(entry[2] ?? "")}${entry[3] && !allTitles(entry[2] ?? "").includes(entry[3]) ? `, ${entry[3]}` : ""})` : `${raw}, a number without a name in the manual`;
+  }
+  if (codec.width === 1 && shared.form !== "scaled") return raw ? "on" : "off";
+  try {
+    codec.form.decode(raw, raws);
+    return shared.form === "text" ? JSON.stringify(codec.told(raw, raws)) : codec.told(raw, raws);
+  } catch (error) {
+    if (!(error instanceof generatedCode().FieldscribeError)) throw error;
+    const missing = codec.scaleNeeds.filter((/** @type {string} */ name) => raws[name] === undefined);
+    return missing.length ? `not known: its scale depends on ${missing.map(neededLabel).join(" and ")}` : `not known: ${error.text}`;
+  }
+}
+
+/** @param {string} name */
+function neededLabel(name) {
+  const codec = generatedCode().Device.table.byName.get(name)?.[0];
+  return codec ? codec.label : name;
+}
+
+/** Return why a raw number may not be written; empty if it may, or if nothing says so.
+ * @param {any} codec @param {any} raw @param {any} raws @returns {string} */
+function outside(codec, raw, raws) {
+  if (!codec.check) return "";
+  const { FieldscribeError } = generatedCode();
+  try {
+    codec.requireRaw(raw);
+    codec.check(raw, raws);
+    return "";
+  } catch (error) {
+    if (!(error instanceof FieldscribeError)) throw error;
+    if (error.status === "missing" || (codec.limitNeeds ?? []).some((/** @type {string} */ name) => raws[name] === undefined)) return "";
+    try { codec.encode(codec.form.decode(raw, raws), raws); } catch (other) { if (other instanceof FieldscribeError && other.status === error.status) return other.text; }
+    return error.text;
+  }
+}
+
+/** Return the raw number in both notations: `raw 500 = 01F4h`. @param {any} point @param {any} codec @param {any} raw */
+function rawText(point, codec, raw) {
+  if (codec.form.wire.bits === 1 || codec.width === 1) return `raw ${raw}`;
+  if (point.shared.form === "text") return `words ${hexNumbers(codec.toWords(raw))}`;
+  const pattern = BigInt.asUintN(codec.width, BigInt(codec.form.wire.pattern(raw, codec.width, codec.size)));
+  return `raw ${raw} = ${pattern.toString(16).toUpperCase().padStart(Math.ceil(codec.width / 4), "0")}h`;
+}
+
+/** Return the bits of a word with what each means. @param {any} point @param {any} codec @param {any} raw @returns {[string, string][]} */
+function bitRows(point, codec, raw) {
+  const pattern = BigInt.asUintN(codec.width, BigInt(codec.form.wire.pattern(raw, codec.width, codec.size)));
+  const lowest = point.shared.low ?? 0;
+  let named = 0n;
+  /** @type {[string, string][]} */
+  const rows = device.words[point.shared.word].map((/** @type {any} */ [low, width, name, , active, values]) => {
+    const mask = (1n << BigInt(width)) - 1n;
+    named |= mask << BigInt(low);
+    const number = Number((pattern >> BigInt(low)) & mask);
+    const entry = values.find((/** @type {any} */ [of]) => of === number);
+    const title = entry ? englishTitle(entry[2] ?? "") : "";
+    const means = entry && !["zero", "one"].includes(entry[1]) ? `${entry[1]} (${title})` : title;
+    const repeats = ["", name].includes(means.toLowerCase().replaceAll(" ", "_"));
+    return [bitsLabel(low + width - 1 + lowest, low + lowest), `${number}  ${name}${width === 1 && !active ? " (true when 0)" : ""}${repeats ? "" : `: ${means}`}`];
+  });
+  for (let bit = 0; bit < codec.width; bit += 1) {
+    if ((pattern & ~named) >> BigInt(bit) & 1n) rows.push([bitsLabel(bit + lowest, bit + lowest), "1  not named by the manual"]);
+  }
+  return rows;
+}
+
+/** @param {number} high @param {number} low */
+function bitsLabel(high, low) {
+  return high === low ? `Bit ${low}` : `Bits ${high}..${low}`;
+}
+
+/** Return words as manuals print them: `0001h FFFFh`. @param {Iterable<number>} words */
+function hexNumbers(words) {
+  return [...words].map(shortAddress).join(" ");
+}
+
+/** Return addresses in both notations: `1028h (4136)`. @param {number} low @param {number} high */
+function spanText(low, high) {
+  return low === high ? `${shortAddress(low)} (${low})` : `${shortAddress(low)} to ${shortAddress(high)} (${low} to ${high})`;
+}
+
+/** Return what consecutive addresses hold; neighbours without a point are one.
+ * @param {Places} places @param {UnitState} state
+ * @param {{ space: string, address: number, count: number, words?: number[], written?: boolean, learned?: boolean }} span @returns {Said[]} */
+function spanSaid(places, state, { space, address, count, words, written = false, learned = false }) {
+  /** @type {Said[]} */
+  const said = [];
+  /** @type {number[]} */
+  let unknown = [];
+  const isInside = (/** @type {number} */ at) => at >= address && at < address + count;
+  const own = { raws: learned ? state.raws : { ...state.raws }, words: state.words };
+  const rawOf = (/** @type {Spot} */ spot) => {
+    const sorted = [...spot.addresses].sort((one, other) => one - other);
+    return words && spot.codec && (written ? spot.writes || !spot.codec.encode : spot.reads) && sorted.every((at) => isInside(at) && at - address < words.length)
+      ? spot.codec.fromWords(sorted.map((at) => words[at - address])) : undefined;
+  };
+  for (let at = address; at < address + count; at += 1) {
+    for (const spot of places.at(space, at)) {
+      const raw = Math.min(...spot.addresses) === at ? rawOf(spot) : undefined;
+      if (raw !== undefined) places.learn(own, spot.codec, raw);
+    }
+  }
+  const flush = () => {
+    if (unknown.length) said.push(unknownSaid(space, unknown, words?.slice(unknown[0] - address, unknown[unknown.length - 1] + 1 - address)));
+    unknown = [];
+  };
+  for (let at = address; at < address + count; at += 1) {
+    const spots = places.at(space, at);
+    if (!spots.length) { unknown.push(at); continue; }
+    flush();
+    const here = spots.filter((spot) => Math.min(...spot.addresses.filter(isInside)) === at);
+    said.push(...withoutRepeats(here.map((spot) => spotSaid(spot, rawOf(spot), own, { written, words, address, isInside }))));
+  }
+  flush();
+  return said;
+}
+
+/** @param {Spot} spot @param {any} raw @param {UnitState} state @param {any} span @returns {Said} */
+function spotSaid({ point, codec, addresses, reads, writes }, raw, state, { written, words, address, isInside }) {
+  const inside = addresses.filter(isInside).sort((one, other) => one - other);
+  if (raw !== undefined) return pointValue(point, codec, raw, state, written);
+  if (codec && !(written ? writes : reads) && codec.encode && codec.decode) {
+    const right = written ? codec.facts.writeAt : codec.at;
+    return namedPoint(point, "", `it is ${written ? "written" : "read"} at ${spanText(Math.min(...right.addresses), Math.min(...right.addresses))}`);
+  }
+  if (codec && inside.length < addresses.length) {
+    const parts = inside.map((at) => `word ${addresses.indexOf(at) + 1} of ${addresses.length}, the high part first${words ? ` = ${shortAddress(words[at - address])}` : ""}`);
+    return namedPoint(point, `only the ${parts.join(", ")}`);
+  }
+  if (codec) return namedPoint(point, "", !written && !codec.decode ? "it is write only" : written && !codec.encode ? "it is read only" : "");
+  const carried = words ? `carries ${hexNumbers(inside.map((at) => words[at - address]))}; ` : "";
+  return namedPoint(point, `${carried}${englishTitle(point.title)}, documented only`);
+}
+
+/** Join what a point says alike for several variants; a doubt stays if no variant is without. @param {Said[]} said @returns {Said[]} */
+function withoutRepeats(said) {
+  /** @type {Map<string, Said>} */
+  const kept = new Map();
+  for (const each of said) {
+    const key = `${each.name ?? kept.size} ${each.text}`;
+    const same = kept.get(key);
+    kept.set(key, same ? { ...same, label: codeAndName(each), doubt: same.doubt && each.doubt } : each);
+  }
+  return [...kept.values()];
+}
+
+/** The label of what holds for all variants of a point. @param {Said} said */
+function codeAndName({ point = "", name = "" }) {
+  const { code } = device.byName.get(point);
+  return code ? `${code} ${name}` : name;
+}
+
+/** @param {string} space @param {number[]} addresses @param {number[]} [words] @returns {Said} */
+function unknownSaid(space, addresses, words) {
+  const [low, high] = [addresses[0], addresses[addresses.length - 1]];
+  const gap = (device.bus.gaps[space] ?? []).find((/** @type {number[]} */ [first, last]) => first <= high && low <= last);
+  const finding = gap ? `the manual closes ${shortAddress(gap[0])} to ${shortAddress(gap[1])}` : "";
+  const isBits = space === "coil" || space === "discrete";
+  const carried = words?.length ? ` (carries ${words.slice(0, 16).map((word) => (isBits ? String(word) : shortAddress(word))).join(" ")}${words.length > 16 ? " ..." : ""})` : "";
+  return { finding, text: `${spanText(low, high)}: no point is described here${finding && `; ${finding}`}${carried}` };
+}

@@ -1,0 +1,215 @@
+"""The decoder of the page in Chromium: every frame of the vectors and of the manuals, what is wrong, hostile logs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+from typing import Any, NamedTuple
+
+import pytest
+from support.described import shipped
+from support.made_once import made_once
+from support.places import ROOT
+from support.toolchains import NODE_MODULES, npm_package, succeed, tool
+from support.vector_file import File, Vector
+
+NOISE = Random(27).randbytes(500_000).decode("latin-1").replace("\r", "") + "\n(" * 50_000
+DEVICES = sorted(path.stem for path in (ROOT / "generated/vectors").glob("*.txt"))
+SOUND_ALONE = {
+    "wrong_function",
+    "wrong_unit",
+    "wrong_transaction",
+    "echo_mismatch",
+    "wrong_parameter",
+    "wrong_response",
+}
+"""Replies that do not fit the request, and may be sound requests of their own."""
+SOUND = ("asked", "ok", "parsed", "came", "printed")
+TYPED = (
+    ("hitachi_l200", "01 06 10 28 FF F4 4D 75", "1 frame, 1 with", "6552.4 Hz is outside 0..400 Hz", "unit 1, 06h"),
+    ("hitachi_l200", "0x01,0x06,0x10,0x02,0x00,0x05,0xED,0x09", "1 frame, 1 with", "it is read only"),
+    ("hitachi_l200", "12:00:01.250 TX: 010300100005840C", "1 frame, 1 with", "at most 4 of them", "12:00:01.250"),
+    ("hitachi_l200", "01:03:00:2E:00:03:64:02", "1 frame, 1 with", "the manual closes 002Fh to 08FFh"),
+    ("hitachi_l200", "[2026-01-02 03:04:05] FA 03 10 28 00 01 15 19", "1 with", "the device cannot have unit 250"),
+    (
+        "hitachi_l200",
+        "01 03 10 28 00 01 00 C2 01 03 02 01 F4 B8 53",
+        "2 frames, nothing wrong",
+        "= 50 Hz (raw 500 = 01F4h)",
+    ),
+    ("hitachi_l200", "01 03 02 01 F4 B8 54", "1 frame, 1 with", "the checksum is wrong", "these bytes give B8 53"),
+    (
+        "hitachi_l200",
+        "01 83 02 C0 F1\n01 03 1",
+        "1 frame, 1 with",
+        "exception 02h address_not_found",
+        "two make a byte",
+    ),
+    ("hitachi_l200", "0001 0000 0006 01 03 1028 0001", "1 frame", "the manual knows only RTU frames"),
+    (
+        "hitachi_l200",
+        "<img src=x onerror=alert(1)><script>alert(1)</script>",
+        "1 line without a frame",
+        "is not hexadecimal",
+    ),
+    ("hitachi_l200", NOISE, "lines without a frame"),
+    ("hitachi_l200", "0" * 1_000_000, "1 line without a frame", "no frame is as long"),
+    ("hitachi_l200", "01 03 10 28 00 01 00 C2\n" * 20_000, "20000 frames, nothing wrong"),
+    ("siemens_mm4", "02 0E 01 143A 0000 0000 0000 047F 3333 58", "1 frame", "task 1 read_value", "enable_operation"),
+    ("siemens_mm4", "143A 0000 0000 0000\n243A 0000 4248 0000", "2 frames", "P1082", "= 50 Hz (raw 1112014848"),
+    ("siemens_mm4", "FA31", "1 frame", "STW"),
+    ("siemens_mm4", "02 0E 01 143A 0000 0000 0000 047F 3333 59", "1 with", "the check byte is wrong"),
+    ("siemens_mm4", NOISE, "without a frame"),
+    ("woodward_mpu2s", "can0  321   [8]  DD 00 05 15 13 88 00 64", "1 frame", "generator_frequency = 50 Hz", "PGNEXPO"),
+    ("woodward_mpu2s", "(1700000000.25) can0 321#DD00051513880064\n321 DD 01 03 02 00 00 07 D0", "2 frames, nothing"),
+    ("woodward_mpu2s", "33F#FF0101FB0000FEFB\n33F#R", "2 frames, 2 with", "the checksum is wrong", "remote request"),
+    ("woodward_mpu2s", "123#1122\nDD 00", "1 frame", "not of this device", "it has no identifier"),
+    ("woodward_mpu2s", NOISE, "without a frame"),
+)
+"""Device, what is pasted, and what the page says then: of all lines, and of single ones."""
+_LINK = ("pkw", "pzd", "single_first")
+_REQUEST = ("framing", "unit", "transaction", "function", "address", "count", "values")
+_TASK = (*_LINK, "unit", "task", "parameter", "index", "width", "value", "words")
+
+pytestmark = pytest.mark.full(seconds=5)
+
+
+class Job(NamedTuple):
+    """Frames, and what is known of the last one: its status in the vectors, and raw numbers by point."""
+
+    frames: list[str]
+    status: str
+    raws: dict[str, Any] = {}  # noqa: RUF012  # a tuple holds it, and nobody changes it
+    exception: int | None = None
+    settings: dict[str, Any] = {}  # noqa: RUF012  # likewise
+
+
+@pytest.fixture(scope="module")
+def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """What the pages say of all jobs and texts, by device: one browser visits all pages."""
+    npm_package("playwright-core")
+
+    def decode(folder: Path) -> None:
+        texts = {
+            str(ROOT / f"generated/docs/{device}.html"): {
+                "jobs": [{"text": "\n".join(job.frames), "settings": job.settings} for job in _jobs(device)],
+                "typed": [text for of, text, *_ in TYPED if of == device],
+            }
+            for device in DEVICES
+        }
+        (folder / "jobs.json").write_text(json.dumps(texts), "utf-8")
+        program = Path(__file__).with_name("decode.mjs")
+        browser = tool("chromium-headless-shell")
+        (folder / "heard.json").write_text(
+            succeed([tool("node"), program, browser, NODE_MODULES, folder / "jobs.json"]), "utf-8"
+        )
+
+    done = json.loads((made_once(tmp_path_factory, "pages_decode", decode) / "heard.json").read_text("utf-8"))
+    assert done["troubles"] == []
+    return {Path(page).stem: said for page, said in done["found"].items()}
+
+
+def _text(frame: bytes, device: str) -> str:
+    if shipped(device).family != "can":
+        return frame.hex()
+    return f"{int.from_bytes(frame[:4], 'big'):03X}#{frame[4:].hex()}"
+
+
+def _key(vector: Vector, fields: tuple[str, ...]) -> str:
+    return repr([vector.get(field) for field in fields])
+
+
+def _settings(vector: Vector) -> dict[str, Any]:
+    link = {key: vector[key] for key in ("pkw", "pzd") if vector.get(key) is not None}
+    return {**link, "known": {base: int(start) for base, start in (vector.get("starts") or {}).items()}}
+
+
+def _jobs(device: str) -> Iterator[Job]:
+    """The frames of all vectors that have frames."""
+    for frame in shipped(device).frames:
+        if frame.valid:
+            asked = [one.corrected.hex() for one in shipped(device).frames if one.name == frame.answers]
+            framing = (
+                f"{frame.framing} response"
+                if (frame.framing, frame.direction) == ("pzd", "response")
+                else frame.framing
+            )
+            raws = dict(frame.meaning)
+            yield Job([*asked, frame.corrected.hex()], "printed", raws, settings={"framing": framing})
+    built: dict[str, bytes] = {}
+    for vector in File((ROOT / f"generated/vectors/{device}.txt").read_text("utf-8")):
+        kind, status = vector["kind"], vector.get("status") or ""
+        fields = _TASK if kind.startswith("uss") else _REQUEST
+        if kind in ("read", "write", "store"):
+            yield from _conversation(device, vector)
+        elif kind.endswith("build") and status == "ok":
+            built[_key(vector, fields)] = vector["bytes"]
+            if "id" not in vector:
+                yield Job([vector["bytes"].hex()], "asked", settings=_settings(vector))
+        elif kind.endswith("reply") and _key(vector, fields) in built and vector["bytes"]:
+            frames = [built[_key(vector, fields)].hex(), vector["bytes"].hex()]
+            code = (
+                vector.get("exception")
+                if status == "exception"
+                else vector.get("error")
+                if status == "refused"
+                else None
+            )
+            yield Job(frames, status, exception=code, settings=_settings(vector))
+        elif kind == "can_parse" and status != "wrong_id":
+            yield Job([f"{vector['id']:03X}#{(vector['bytes'] or b'').hex()}"], "parsed" if status == "ok" else status)
+        elif kind == "can_telegram" and status == "ok":
+            frames = [f"{identifier:03X}#{data.hex()}" for identifier, data in vector["frames"]]
+            yield Job(frames, "came", {vector["point"]: vector["raw"]})
+
+
+def _conversation(device: str, vector: Vector) -> Iterator[Job]:
+    """What a client sends and hears when it reads or writes a point."""
+    needs = [_text(frame, device) for pair in vector.get("needs") or () for frame in pair]
+    frames = [_text(frame, device) for pair in vector["script"] for frame in pair if frame]
+    if vector["script"][-1][1]:
+        ends = vector["status"] == "ok" and vector["raw"] is not None
+        raws = {vector["point"]: vector["raw"]} if ends else {}
+        yield Job([*needs, *frames], vector["status"], raws, settings=_settings(vector))
+
+
+def _wrong(job: Job, heard: list[dict[str, Any]]) -> list[str]:
+    """Why the page is wrong about a job; empty if it is right."""
+    last, said = heard[-1], [each for frame in heard for each in frame["said"]]
+    is_sound = not (last["faults"] or last["findings"])
+    is_alone = job.status in SOUND_ALONE and last["kind"] == "request"
+    is_of_other_framing = heard[0]["summary"][:3] != last["summary"][:3]
+    is_refusal = job.status in ("exception", "refused", "no_rights", "no_answer")
+    reasons = {
+        "frames are missing": len(heard) < len(job.frames),
+        "a sound frame has faults": job.status in SOUND and last["faults"],
+        "it is no reply": job.status == "ok" and last["kind"] not in ("reply", "exception", "request"),
+        "it is no exception": job.status == "exception" and last["kind"] != "exception",
+        "it is another exception": job.exception is not None and last.get("exception") != job.exception,
+        "a wrong frame has no fault": is_sound
+        and not (job.status in SOUND or is_refusal or is_alone or is_of_other_framing),
+    }
+    for name, raw in job.raws.items():
+        raws = {str(each["raw"]) for each in said if name.startswith(each.get("name", "-")) and "raw" in each}
+        reasons[f"{name} is {raws}, not {raw}"] = str(raw) not in raws
+    return [reason for reason, holds in reasons.items() if holds]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_every_frame_of_the_vectors(device: str, heard: dict[str, Any]) -> None:
+    """Requests, replies and exceptions with their points; those that are spoiled, with what is wrong."""
+    jobs = list(_jobs(device))
+    assert len(jobs) > 100
+    pairs = zip(jobs, heard[device]["decoded"], strict=True)
+    assert [(why, job, frames[-1]) for job, frames in pairs if (why := _wrong(job, frames))] == []
+
+
+@pytest.mark.parametrize("place", range(len(TYPED)))
+def test_what_is_said_of_pasted_text(place: int, heard: dict[str, Any]) -> None:
+    device, text, *said = TYPED[place]
+    shown = heard[device]["shown"][[one[0] for one in TYPED[:place]].count(device)]
+    assert shown["strange"] == 0
+    for each in said:
+        assert each in f"{shown['status']}\n{shown['text']}", text[:200]
