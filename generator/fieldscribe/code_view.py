@@ -14,6 +14,7 @@ from fieldscribe.model import (
     Device,
     Entry,
     Enum,
+    Erratum,
     FamilyFacts,
     Interner,
     Point,
@@ -30,12 +31,7 @@ _NO_NOTE: Titles = {}
 
 def for_code(device: Device) -> Device:
     """Return the device without anything that is only for people."""
-    enums = _Enums()
-    shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
-    interner = Interner()  # shapes that differed in titles only become one
-    shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
-    terms = {id(terms): terms for terms in (point.terms for point in device.points)}
-    terms = {key: _terms(terms) for key, terms in terms.items()}
+    points, errata, enums = _parts(device)
     return replace(
         device,
         title={},
@@ -51,17 +47,38 @@ def for_code(device: Device) -> Device:
             family_facts=device.bus.family_facts and _family_facts(device.bus.family_facts),
         ),
         groups=_without_texts(device.groups),
-        points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
+        points=points,
         enums=tuple(map(enums.of, device.enums)),
         commands=_without_texts(device.commands),
         stepped_commands=_without_texts(device.stepped_commands),
         frames=_without_texts(device.frames),
-        errata=tuple(replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata),
+        errata=errata,
         messages=_without_texts(device.messages),
         telegrams=_without_texts(device.telegrams),
         given=_without_texts(device.given),
         found=None if device.found is None else _without_texts((device.found,))[0],
     )
+
+
+Parts = tuple[tuple[Point, ...], tuple[Erratum, ...], "_Enums"]
+_kept: list[tuple[Device, Parts]] = []
+"""The parts of the last device: what is lowered for one target serves all that ask for the same points."""
+
+
+def _parts(device: Device) -> Parts:
+    """Return the points and errata of a device as code may know them, made once, and its enums."""
+    for known, parts in _kept:
+        if known.points is device.points and known.errata is device.errata:
+            return parts
+    enums, interner = _Enums(), Interner()  # shapes that differed in titles only become one
+    shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
+    shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
+    terms = {id(terms): terms for terms in (point.terms for point in device.points)}
+    terms = {key: _terms(terms) for key, terms in terms.items()}
+    points = tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points])
+    errata = tuple([replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata])
+    _kept[:] = [(device, (points, errata, enums))]
+    return points, errata, enums
 
 
 def _without_texts(things: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -134,17 +151,18 @@ class _Enums:
     """The enums of a device as code sees them; those that share their entries still do."""
 
     def __init__(self) -> None:
-        self._enums: dict[int, Enum] = {}
+        self._enums: dict[int, tuple[Enum, Enum]] = {}
         self._entries: dict[int, tuple[Entry, ...]] = {}
 
     def of(self, enum: Enum) -> Enum:
         """Return an enum with names as titles."""
-        if id(enum) not in self._enums:
+        known = self._enums.get(id(enum))
+        if known is None:
             entries = self._entries.get(id(enum.entries))
             if entries is None:
                 entries = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
-            self._enums[id(enum)] = Enum(enum.name, _title(enum.name), entries, enum.closed, enum.was)
-        return self._enums[id(enum)]
+            known = self._enums[id(enum)] = enum, Enum(enum.name, _title(enum.name), entries, enum.closed, enum.was)
+        return known[1]
 
 
 def _entry(entry: Entry) -> Entry:

@@ -142,13 +142,7 @@ class Family:
 
     def part(self, name: str) -> Any:
         """Return a module of the folder, imported on first use; None if the family does not have it."""
-        path = f"{self.folder}.{name}"
-        try:
-            return import_module(path)
-        except ModuleNotFoundError as error:
-            if error.name is None or not f"{path}.".startswith(f"{error.name}."):
-                raise
-            return None
+        return _part(f"{self.folder}.{name}")
 
 
 def family(name: str) -> Family:
@@ -164,6 +158,16 @@ def families() -> tuple[Family, ...]:
 def sections_of_codes() -> dict[str, str]:
     """Return the sections of numbered codes under `bus`, by the word that errata use for such a code."""
     return {codes.key: codes.section for each_family in families() for codes in each_family.codes}
+
+
+@cache
+def _part(path: str) -> Any:
+    try:
+        return import_module(path)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{path}.".startswith(f"{error.name}."):
+            raise
+        return None
 
 
 @cache

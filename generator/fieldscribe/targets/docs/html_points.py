@@ -32,7 +32,8 @@ _DRAWN = frozenset(
 """Facts that the page shows in a form of their own."""
 _FACTS = [fact for fact in POINT if fact.key not in _DRAWN and (fact.label or fact.rows)]
 _SHARED = [(place, fact) for place, fact in enumerate(_FACTS) if fact.holder]
-_OWN = [(place, fact) for place, fact in enumerate(_FACTS) if not fact.holder]
+_OF_ADDRESSES = [(place, fact) for place, fact in enumerate(_FACTS) if fact.key in ("address", "addresses")]
+_OWN = [placed for placed in enumerate(_FACTS) if not placed[1].holder and placed not in _OF_ADDRESSES]
 _OWN_VALUES = attrgetter(*(fact.attribute or (fact.key if fact.value is None else "name") for _, fact in _OWN))
 
 Row = tuple[int, str, str]
@@ -142,7 +143,9 @@ class Points:
 
     def _own_rows(self, point: Point) -> list[Row]:
         values = zip(_OWN, _OWN_VALUES(point), strict=True)
-        return list(self._rows([placed for placed, value in values if value or value == 0], point))
+        said = [placed for placed, value in values if value or value == 0]
+        said += _OF_ADDRESSES if len(point.addresses) != 1 else []  # the row has a single address anyhow
+        return list(self._rows(said, point))
 
     def _rows(self, facts: Iterable[tuple[int, Fact]], point: Point) -> Iterator[Row]:
         for place, fact in facts:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from itertools import chain
 
 from fieldscribe import __version__
 from fieldscribe.model import Device
@@ -28,33 +29,44 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     names = Identifiers(device)
     folder = f"typescript/{names.folder}"
     yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
-    for name, text in _modules(device, render, ("js", "d.ts")):
+    views = _views(device, names)
+    for name, text in chain(_rendered(views, "js", render), _rendered(_typed(views, device, names), "d.ts", render)):
         yield f"{folder}/{name}", text
 
 
 def scripts(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """Yield the modules of the device's package by their names, without their types."""
-    return _modules(device, render, ("js",))
+    return _rendered(_views(device, Identifiers(device)), "js", render)
 
 
-def _modules(device: Device, render: Render, kinds: Iterable[str]) -> Iterable[tuple[str, str]]:
+Views = Mapping[str, dict[str, object]]
+"""The context of each module by its name."""
+
+
+def _views(device: Device, names: Identifiers) -> Views:
     from fieldscribe.targets.typescript.device import device_context
     from fieldscribe.targets.typescript.enums import enums_context
     from fieldscribe.targets.typescript.points import points_context
 
-    names = Identifiers(device)
     head = {
         "head": head_lines(device, "typescript", js_comment),
         "product": js_comment(f"{device.vendor} {device.model}"),
     }
-    views = {
-        "enums": enums_context(device, names),
-        "points": points_context(device, names),
-        "index": {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)},
-    }
-    for name, view in views.items():
-        for kind in kinds:
-            yield f"{name}.{kind}", render(f"typescript/{name}.{kind}.j2", {**head, "view": view})
+    device_view = {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)}
+    views = {"enums": enums_context(device, names), "points": points_context(device, names), "index": device_view}
+    return {name: {**head, "view": view} for name, view in views.items()}
+
+
+def _typed(views: Views, device: Device, names: Identifiers) -> Views:
+    """Return the contexts of the types; those of points have more to say than their code."""
+    from fieldscribe.targets.typescript.points import types_context
+
+    return {**views, "points": {**views["points"], "view": types_context(device, names)}}
+
+
+def _rendered(views: Views, kind: str, render: Render) -> Iterable[tuple[str, str]]:
+    for name, context in views.items():
+        yield f"{name}.{kind}", render(f"typescript/{name}.{kind}.j2", context)
 
 
 def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:

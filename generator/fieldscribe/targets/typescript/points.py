@@ -40,27 +40,43 @@ def points_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the points module.
 
     `constants` are the texts of the points and commands, `imports` names of the runtime, `numbers` those of the module
-    of enums, `codes` the special codes that several points share; `declared` says all of it to type checkers.
+    of enums, `codes` the special codes that several points share.
     """
-    points = Points(device, names)
-    made = [point for point in device.points if point.terms.generated]
-    constants = list(map(points.text, made))
-    commands = list(points.commands())
-    declared = [*map(points.declared, made), *(found for _, found in commands)]
+    points, made = Points(device, names), _made(device)
     scope, layout = points.scope, points.layout
-    numbers = sorted({numbers_of(point, scope) for point in made} - {""})
     return {
-        "constants": [*constants, *(text for text, _ in commands)],
+        "constants": [*map(points.text, made), *(text for text, _ in points.commands())],
         "codes": [f"const {name} = {lazily(layout.flat(codes))};" for name, codes in scope.codes.items()],
         "imports": sorted({*map(layout.maker, scope.used)}),
-        "numbers": numbers,
+        "numbers": _numbers(made, scope),
         "points": [attribute(point.item) for point in made],
         "commands": list(scope.commands.values()),
-        "old_names": [(old, found.name) for found in declared for old in found.old_names],
+        "old_names": [(old, attribute(point.item)) for point in made for old in _old_names(point)],
+    }
+
+
+def types_context(device: Device, names: Identifiers) -> dict[str, object]:
+    """Return the context of what says the points module to type checkers."""
+    points, made = Points(device, names), _made(device)
+    declared = [*map(points.declared, made), *(found for _, found in points.commands())]
+    return {
+        "numbers": _numbers(made, points.scope),
         "declared": declared,
         "types": [name for name in TYPE_NAMES if any(name in found.type for found in declared)],
         "device": js_string(device.id),
     }
+
+
+def _made(device: Device) -> list[Point]:
+    return [point for point in device.points if point.terms.generated]
+
+
+def _numbers(points: list[Point], scope: Scope) -> list[str]:
+    return sorted({numbers_of(point, scope) for point in points} - {""})
+
+
+def _old_names(point: Point) -> tuple[str, ...]:
+    return () if point.variant is not None else tuple(map(attribute, point.was))
 
 
 class Points:
@@ -113,8 +129,7 @@ class Points:
         limits = limits_text(point, scope)
         title = f"{point.title['en']}: {limits}" if limits else point.title["en"]
         doc = doc_lines(js_comment(f"{title}{'' if title.endswith('.') else '.'}{said}"))
-        old = () if point.variant is not None else tuple(map(attribute, point.was))
-        return Declared(attribute(point.item), doc, kind, old)
+        return Declared(attribute(point.item), doc, kind, _old_names(point))
 
     def commands(self) -> Iterator[tuple[str, Declared]]:
         """Yield the constants of the commands."""
