@@ -32,6 +32,7 @@ MANY, FEW = 10_000, 1_000
 STREAMED = 50_000
 CODE = "c,python,rust"
 ALL = "c,python,rust,docs,vectors"
+SIX = "c,python,rust,typescript,docs,vectors"
 MOST_MEBIBYTES = 125
 
 
@@ -99,6 +100,7 @@ class Bench:
             Row("10,000 points of ten shapes: C, Python, Rust", self._generate(alike, CODE), self.many, 1.25),
             Row("  C alone, which is what cantools makes", self._generate(alike, "c"), self.many, 0.8),
             Row("  the five targets", cold, self.many, 1.6),
+            Row("  the six targets, with TypeScript", self._generate(alike, SIX), self.many, 1.7),
             Row("10,000 varied points: C, Python, Rust", self._generate(varied, CODE), self.many, 1.45),
             Row("  the five targets", self._generate(varied, ALL), self.many, 2.0),
             Row("five devices, the five targets, to its 1,000", self._generate(shipped, ALL), self.few, 1.2),
