@@ -331,8 +331,8 @@ def test_a_base_that_only_a_given_number_moves_and_steps_where_no_point_lies(tmp
 
 
 def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:
-    """98 points of three groups, each round; a strict device complains of what no master may read."""
-    with simulated("eastron_sdm630", strict=True) as meter:
+    """98 points of three groups, each round, and the one that says which exist; a strict device complains of others."""
+    with simulated("eastron_sdm630", strict=True, values={"system_type": "three_phase_four_wire"}) as meter:
         words = ("measurements", "settings", "maintenance", "--count", "5", "--every", "0", "--format", "csv")
         done = run("monitor", "eastron_sdm630", *words, "--line", f"tcp://127.0.0.1:{meter.port}")
     assert done.code == 0
@@ -340,7 +340,7 @@ def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:
     assert len(readable) > 90
     kind = device_class(meter.device.device)
     places = [kind.POINTS[point.item].facts.at for point in readable]
-    assert meter.requests == 5 * len(plan(places, kind.PROFILE))  # type: ignore[attr-defined]  # as each of Modbus has
+    assert meter.requests == 1 + 5 * len(plan(places, kind.PROFILE))  # type: ignore[attr-defined]  # as each of Modbus has
 
 
 def test_a_terminal_shows_a_table_in_its_place(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -363,3 +363,21 @@ def test_work_that_takes_long_shows_how_far_it_is(
     progress._next = float("-inf")
     progress.show("unit 3 of 9")
     assert capsys.readouterr().err == "unit 3 of 9\n"
+
+
+def test_points_that_do_not_exist_now_are_left_out_of_groups(run: Run, tmp_path: Path) -> None:
+    """The phases of a meter, by its wiring; one that is asked for by name is read, and its condition told."""
+    with simulated("eastron_sdm630", strict=True, values={"system_type": "single_phase_two_wire"}) as meter:
+        line = ("eastron_sdm630", "--line", f"tcp://127.0.0.1:{meter.port}")
+        assert meter.device.complaints == []
+        group = run("read", *line, "measurements")
+        assert (group.code, "phase_1_voltage" in group.out, "phase_2_voltage" in group.out) == (0, True, False)
+        assert run("snapshot", *line, "--out", str(tmp_path / "one.json")).code == 0
+        assert meter.device.complaints == []
+        meter.values["system_type"] = "three_phase_four_wire"
+        assert "phase_2_voltage" in run("monitor", *line, "measurements", "--count", "1").out
+        meter.values["system_type"] = "three_phase_three_wire"
+        named = run("read", *line, "phase_2_voltage")
+        why = "(illegal_data_address); it exists only when system_type == three_phase_four_wire\n"
+        assert (named.code, named.out.endswith(why)) == (1, True), named
+        meter.device.complaints.clear()

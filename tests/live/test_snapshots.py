@@ -178,6 +178,8 @@ POINTS = """
   - {name: cleared, at: 5, type: u16, access: rw, changes: never, changes_with: [reset]}
   - {name: baud, at: 6, type: u16, access: rw, changes: never, takes_effect: after a restart}
   - {name: start, at: 7, type: u16, access: rw}
+  - {name: mode, at: 8, type: u16, access: rw, changes: never}
+  - {name: gain, at: 9, type: u16, access: rw, changes: never, when: mode.raw == 2}
 """
 
 
@@ -189,6 +191,7 @@ POINTS = """
         ({"low": 10, "high": 20}, {"low": 1, "high": 5}, ["low", "high"], []),
         ({"reset": 1, "cleared": 7}, {"reset": 0, "cleared": 7}, ["reset", "cleared"], []),
         ({"baud": 1, "low": 0}, {"baud": 2, "low": 1, "start": 1}, ["low", "baud"], ["start"]),
+        ({}, {"gain": 7, "mode": 2}, ["mode", "gain"], []),  # a device in another mode has none
     ],
 )
 def test_writes_come_in_an_order_that_the_device_allows(
@@ -210,11 +213,12 @@ def test_what_no_order_allows_is_named(tmp_path: Path) -> None:
     order = ordered(model, snapshot({}), snapshot({"low": 60, "high": 50, "elsewhere": 1}))
     assert (order.writes, order.unknown) == ({"high": 50}, ["elsewhere"])
     assert order.refused == {"low": "60 is outside what is allowed here, 0..50"}
+    assert ordered(model, snapshot({}), snapshot({"gain": 7})).refused == {"gain": "the device does not have it"}
 
 
 def snapshot(raws: dict[str, int]) -> Snapshot:
     """A snapshot of the made-up device; what is not given is as always."""
-    held = {"low": 0, "high": 30, "baud": 1, "scaled": 1, "cleared": 0, "reset": 1, "start": 0} | raws
+    held = {"low": 0, "high": 30, "baud": 1, "scaled": 1, "cleared": 0, "reset": 1, "start": 0, "mode": 1} | raws
     points = {name: Held(None, raw, "", str(raw), raw, "setting") for name, raw in held.items()}
     return Snapshot("made_up", "1.0.0", "", "tcp://x", 1, "", {}, [], points, {})
 

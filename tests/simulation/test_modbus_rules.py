@@ -227,3 +227,17 @@ def test_faults_come_so_many_times_and_with_their_chance() -> None:
     assert said_by[:3] == ["83", "83", ""]
     assert 60 < said_by.count("43") < 140
     assert [fault.kind for fault in line.faults.waiting] == ["function"]
+
+
+def test_a_point_whose_condition_does_not_hold_is_refused_where_the_simulator_is_strict() -> None:
+    """The second phase of a meter, by its wiring; alone, and inside a longer read."""
+    strict, plain = line_of("eastron_sdm630", strict=True), line_of("eastron_sdm630")
+    requests = ("04 0000 0002", "04 0002 0002", "04 0000 0004")
+    for line in (strict, plain):
+        device_of(line).values["system_type"] = "single_phase_two_wire"
+    assert [said(plain, request)[:2] for request in requests] == ["04", "04", "04"]
+    assert [said(strict, request)[:4] for request in requests] == ["0404", "8402", "8402"]
+    text = "absent: phase_2_voltage exists only when system_type == three_phase_four_wire (manual, line 71)"
+    assert str(device_of(strict).complaints[0]) == text
+    device_of(strict).values["system_type"] = "three_phase_four_wire"
+    assert [said(strict, request)[:2] for request in requests] == ["04", "04", "04"]

@@ -122,6 +122,7 @@ class Points(PointTable):
         references={"reference": 30001},
         unit="V",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 voltage. Exists only when system_type != three_phase_three_wire."""
 
@@ -132,6 +133,7 @@ class Points(PointTable):
         references={"reference": 30003},
         unit="V",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 voltage. Exists only when system_type == three_phase_four_wire."""
 
@@ -142,6 +144,7 @@ class Points(PointTable):
         references={"reference": 30005},
         unit="V",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 voltage. Exists only when system_type == three_phase_four_wire."""
 
@@ -161,6 +164,7 @@ class Points(PointTable):
         references={"reference": 30009},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 2 current. Exists only when system_type != single_phase_two_wire."""
 
@@ -171,6 +175,7 @@ class Points(PointTable):
         references={"reference": 30011},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 3 current. Exists only when system_type != single_phase_two_wire."""
 
@@ -181,6 +186,7 @@ class Points(PointTable):
         references={"reference": 30013},
         unit="W",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 active power. Exists only when system_type != three_phase_three_wire."""
 
@@ -191,6 +197,7 @@ class Points(PointTable):
         references={"reference": 30015},
         unit="W",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 active power. Exists only when system_type == three_phase_four_wire."""
 
@@ -201,6 +208,7 @@ class Points(PointTable):
         references={"reference": 30017},
         unit="W",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 active power. Exists only when system_type == three_phase_four_wire."""
 
@@ -211,6 +219,7 @@ class Points(PointTable):
         references={"reference": 30019},
         unit="VA",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 apparent power. Exists only when system_type !=
     three_phase_three_wire.
@@ -223,6 +232,7 @@ class Points(PointTable):
         references={"reference": 30021},
         unit="VA",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 apparent power. Exists only when system_type == three_phase_four_wire."""
 
@@ -233,6 +243,7 @@ class Points(PointTable):
         references={"reference": 30023},
         unit="VA",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 apparent power. Exists only when system_type == three_phase_four_wire."""
 
@@ -243,6 +254,7 @@ class Points(PointTable):
         references={"reference": 30025},
         unit="var",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 reactive power. Exists only when system_type !=
     three_phase_three_wire.
@@ -255,6 +267,7 @@ class Points(PointTable):
         references={"reference": 30027},
         unit="var",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 reactive power. Exists only when system_type == three_phase_four_wire."""
 
@@ -265,6 +278,7 @@ class Points(PointTable):
         references={"reference": 30029},
         unit="var",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 reactive power. Exists only when system_type == three_phase_four_wire."""
 
@@ -274,6 +288,7 @@ class Points(PointTable):
         group="measurements",
         references={"reference": 30031},
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 power factor. Exists only when system_type != three_phase_three_wire."""
 
@@ -283,6 +298,7 @@ class Points(PointTable):
         group="measurements",
         references={"reference": 30033},
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 power factor. Exists only when system_type == three_phase_four_wire."""
 
@@ -292,6 +308,7 @@ class Points(PointTable):
         group="measurements",
         references={"reference": 30035},
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 power factor. Exists only when system_type == three_phase_four_wire."""
 
@@ -302,6 +319,7 @@ class Points(PointTable):
         references={"reference": 30037},
         unit="°",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 phase angle. Exists only when system_type != three_phase_three_wire."""
 
@@ -312,6 +330,7 @@ class Points(PointTable):
         references={"reference": 30039},
         unit="°",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 phase angle. Exists only when system_type == three_phase_four_wire."""
 
@@ -322,6 +341,7 @@ class Points(PointTable):
         references={"reference": 30041},
         unit="°",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 phase angle. Exists only when system_type == three_phase_four_wire."""
 
@@ -332,6 +352,7 @@ class Points(PointTable):
         references={"reference": 30043},
         unit="V",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Average voltage. Exists only when system_type == three_phase_four_wire.
 
@@ -506,6 +527,7 @@ class Points(PointTable):
         references={"reference": 30105},
         unit="A",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Neutral current demand. Exists only when system_type == three_phase_four_wire."""
 
@@ -516,6 +538,7 @@ class Points(PointTable):
         references={"reference": 30107},
         unit="A",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Maximum neutral current demand. Exists only when system_type ==
     three_phase_four_wire.
@@ -528,6 +551,7 @@ class Points(PointTable):
         references={"reference": 30201},
         unit="V",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 1 to 2 voltage. Exists only when system_type != single_phase_two_wire."""
 
@@ -538,6 +562,7 @@ class Points(PointTable):
         references={"reference": 30203},
         unit="V",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 2 to 3 voltage. Exists only when system_type != single_phase_two_wire."""
 
@@ -548,6 +573,7 @@ class Points(PointTable):
         references={"reference": 30205},
         unit="V",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 3 to 1 voltage. Exists only when system_type != single_phase_two_wire."""
 
@@ -558,6 +584,7 @@ class Points(PointTable):
         references={"reference": 30207},
         unit="V",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Average line to line voltage. Exists only when system_type !=
     single_phase_two_wire.
@@ -570,6 +597,7 @@ class Points(PointTable):
         references={"reference": 30225},
         unit="A",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Neutral current. Exists only when system_type == three_phase_four_wire."""
 
@@ -580,6 +608,7 @@ class Points(PointTable):
         references={"reference": 30235},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Phase 1 voltage thd. Exists only when system_type != three_phase_three_wire."""
 
@@ -590,6 +619,7 @@ class Points(PointTable):
         references={"reference": 30237},
         unit="%",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 2 voltage thd. Exists only when system_type == three_phase_four_wire."""
 
@@ -600,6 +630,7 @@ class Points(PointTable):
         references={"reference": 30239},
         unit="%",
         uncertain=True,
+        when=((("system_type", "==", (1077936128,)),),),
     )
     """Phase 3 voltage thd. Exists only when system_type == three_phase_four_wire."""
 
@@ -619,6 +650,7 @@ class Points(PointTable):
         references={"reference": 30243},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 2 current thd. Exists only when system_type != single_phase_two_wire."""
 
@@ -629,6 +661,7 @@ class Points(PointTable):
         references={"reference": 30245},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 3 current thd. Exists only when system_type != single_phase_two_wire."""
 
@@ -639,6 +672,7 @@ class Points(PointTable):
         references={"reference": 30249},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1073741824,)),),),
     )
     """Average voltage thd. Exists only when system_type != three_phase_three_wire.
 
@@ -670,6 +704,7 @@ class Points(PointTable):
         references={"reference": 30261},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 2 current demand. Exists only when system_type != single_phase_two_wire."""
 
@@ -680,6 +715,7 @@ class Points(PointTable):
         references={"reference": 30263},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Phase 3 current demand. Exists only when system_type != single_phase_two_wire."""
 
@@ -699,6 +735,7 @@ class Points(PointTable):
         references={"reference": 30267},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Maximum phase 2 current demand. Exists only when system_type !=
     single_phase_two_wire.
@@ -711,6 +748,7 @@ class Points(PointTable):
         references={"reference": 30269},
         unit="A",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Maximum phase 3 current demand. Exists only when system_type !=
     single_phase_two_wire.
@@ -723,6 +761,7 @@ class Points(PointTable):
         references={"reference": 30335},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 1 to 2 voltage thd. Exists only when system_type !=
     single_phase_two_wire.
@@ -735,6 +774,7 @@ class Points(PointTable):
         references={"reference": 30337},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 2 to 3 voltage thd. Exists only when system_type !=
     single_phase_two_wire.
@@ -747,6 +787,7 @@ class Points(PointTable):
         references={"reference": 30339},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Line 3 to 1 voltage thd. Exists only when system_type !=
     single_phase_two_wire.
@@ -759,6 +800,7 @@ class Points(PointTable):
         references={"reference": 30341},
         unit="%",
         uncertain=True,
+        when=((("system_type", "!=", (1065353216,)),),),
     )
     """Average line to line voltage thd. Exists only when system_type !=
     single_phase_two_wire.

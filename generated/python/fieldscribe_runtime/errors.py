@@ -12,7 +12,8 @@ class FieldscribeError(Exception):
     `point` says which point was asked for, with its code (`device.point(error.point)` is that point); of several that
     one request reads, which they are; else the command or the place. `group` is the group that was read, where it was
     one, and `needs` another point that had to be read first. `undecided` is the variant or number that this depends on,
-    and that was not passed when the device was made. `received` is what came in place of a frame.
+    and that was not passed when the device was made. `exists_when` says when a refused point exists, where other points
+    decide that. `received` is what came in place of a frame.
     """
 
     status: str = "error"
@@ -20,6 +21,7 @@ class FieldscribeError(Exception):
     point: str | None = None
     needs: str | None = None
     undecided: str | None = None
+    exists_when: str | None = None
     received: bytes = b""
 
     @property
@@ -30,7 +32,8 @@ class FieldscribeError(Exception):
     @property
     def reason(self) -> str:
         """What is wrong, without what was asked for and what to do about it."""
-        return ": ".join([*([f"needs {self.needs}"] if self.needs else []), super().__str__()])
+        exists = f"; it exists only when {self.exists_when}" if self.exists_when else ""
+        return ": ".join([*([f"needs {self.needs}"] if self.needs else []), super().__str__() + exists])
 
     def __str__(self) -> str:
         asked = [self.group and f"group {self.group}", self.point]

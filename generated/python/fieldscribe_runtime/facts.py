@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import NotRequired, TypedDict, Unpack
 
+    from .conditions import Clauses
     from .forms import Allowed
 
     class FactArguments(TypedDict):
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
         variant: NotRequired[tuple[str, str]]
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
+        when: NotRequired[Clauses]
         conditions: NotRequired[tuple[str, ...]]
         keeps: NotRequired[str]
         name: NotRequired[str]
@@ -181,7 +183,8 @@ class Facts:
     with how many decimals people see its value, if the description says so. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
-    it too, such as another point or a firmware. `conditions` name what has to hold before it is written.
+    it too, such as another point or a firmware. `when` has the condition where other points decide: alternatives of
+    tests by raw numbers. `conditions` name what has to hold before it is written.
     `takes_effect` says when the device uses a written value, `write_with` names what is written in the same request.
     `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory), `choice` (if it
     is written with `keep=True`, which wears it) or the command that has to follow; empty where the manual does not say.
@@ -203,6 +206,7 @@ class Facts:
     variant: tuple[str, str] | None = None
     only_for: tuple[str, tuple[str, ...]] | None = None
     uncertain: bool = False
+    when: Clauses = ()
     conditions: tuple[str, ...] = ()
     takes_effect: str = "at once"
     write_with: tuple[str, ...] = ()

@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from .about import About, needing, of_group
 from .arguments import check_name, check_number, check_seconds, shown
+from .conditions import may_hold, names_in
 from .errors import (
     AccessError,
     EchoError,
     ExceptionReplyError,
     FieldscribeError,
     OtherDeviceError,
+    RefusedError,
     RequestError,
     undecided,
 )
@@ -33,6 +35,7 @@ from .table import NamedPoints, check_variants
 from .traffic import Traffic
 
 if TYPE_CHECKING:
+    from .conditions import Test
     from .facts import Identification, Place
     from .rules import Raws
 
@@ -152,6 +155,7 @@ class Session(NamedPoints, ABC):
             if refusals is None or error.lost:
                 raise
             if len(points) == 1:
+                self._add_condition(error, points[0])
                 self._note(points[0], error, refusals)
                 return {}
             is_lasting = _is_lasting(error)
@@ -213,8 +217,24 @@ class Session(NamedPoints, ABC):
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        with About(self.traffic, point):
-            return self._taken(point, (yield from self._get_steps(point.facts.at)))
+        try:
+            with About(self.traffic, point):
+                return self._taken(point, (yield from self._get_steps(point.facts.at)))
+        except FieldscribeError as error:
+            self._add_condition(error, point)
+            raise
+
+    def _add_condition(self, error: FieldscribeError, point: Point) -> None:
+        """Add to a refusal what other points must hold for the point to exist."""
+        if point.facts.when and isinstance(error, (ExceptionReplyError, RefusedError)):
+            clauses = [" and ".join(map(self._told_test, clause)) for clause in point.facts.when]
+            error.exists_when = " or ".join(clauses)
+
+    def _told_test(self, compared: Test) -> str:
+        of, test, than = compared
+        point = self._found(of)
+        told = [str(one) if point is None else point.name_of(int(one)) or point.told_exactly(int(one)) for one in than]
+        return f"{of} {test} {', '.join(told)}"
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
         """Return the raw number in words that came; it is remembered if the description says when it changes."""
@@ -292,6 +312,9 @@ class Session(NamedPoints, ABC):
                     wrote, has = (point.told_exactly(one, raws) for one in (raw, answered))
                     text = f"{wrote} was written, and the device answered {has}"
                     raise EchoError(text, error.written, error.answered) from None
+            except FieldscribeError as error:
+                self._add_condition(error, point)
+                raise
 
     def _put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, and forget what they change."""
@@ -300,12 +323,15 @@ class Session(NamedPoints, ABC):
             changing = [one.facts for one in self.POINTS.values() if one.facts.name in kept.changes_with]
             if any(place.overlaps(at) for facts in (kept, *changing) for at in (facts.at, facts.write_at) if at):
                 del self._kept[item]
+        for item in [item for item in self._refused if self.POINTS[item].facts.when]:
+            del self._refused[item]  # perhaps it exists now
         yield from self._store_steps(place, values)
 
     def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.
 
-        Of a group those points are left out that do not travel the way the link is set. With `errors` "return", a point
+        Of a group those points are left out that do not travel the way the link is set, and those whose condition does
+        not hold by what the device has now. With `errors` "return", a point
         that is absent, that the device refuses, or whose number has no value, has the error as its value.
         """
         if errors not in ("raise", "return"):
@@ -315,7 +341,7 @@ class Session(NamedPoints, ABC):
         points = self._group(what) if isinstance(what, str) else self._listed(what, absent)
         with of_group(group):
             if group is not None:
-                points = yield from self._there_steps(list(points))
+                points = yield from self._existing_steps((yield from self._there_steps(list(points))))
             values = yield from self._values_steps(points, group, None if absent is None else dict(self._refused))
         return {**values, **absent} if absent else values
 
@@ -323,6 +349,15 @@ class Session(NamedPoints, ABC):
         """Return the points of a group that are in this device; families with blocks look there."""
         yield from ()
         return points
+
+    def _existing_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
+        """Return the points whose conditions may hold by what the device has now; what they compare is read."""
+        names = dict.fromkeys(name for point in points for name in names_in(point.facts.when))
+        compared = [one for name in names if (one := self._found(name)) is not None and self._carried(one)]
+        items = [one for one in compared if one.facts.item not in self._kept.keys() | self._refused.keys()]
+        raws = {**self._kept, **(yield from self._gather_steps(items, None, {}))} if compared else {}
+        held = {**self.variants, **{one.facts.name: raws.get(one.facts.item) for one in compared}}
+        return [point for point in points if may_hold(point.facts.when, held)]
 
     def _values_steps(
         self, points: Sequence[Decoding[Any]], group: str | None, refusals: Refusals

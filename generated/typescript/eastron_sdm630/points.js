@@ -28,15 +28,15 @@ import {
 
 export const phase1Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_voltage", at: inputRegister(0x0000, 0x0001), group: "measurements", references: { reference: 30001 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_voltage", at: inputRegister(0x0002, 0x0003), group: "measurements", references: { reference: 30003 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_voltage", at: inputRegister(0x0004, 0x0005), group: "measurements", references: { reference: 30005 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_current", at: inputRegister(0x0006, 0x0007), group: "measurements", references: { reference: 30007 },
@@ -44,75 +44,75 @@ export const phase1Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
 }))();
 export const phase2Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current", at: inputRegister(0x0008, 0x0009), group: "measurements", references: { reference: 30009 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const phase3Current = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current", at: inputRegister(0x000a, 0x000b), group: "measurements", references: { reference: 30011 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const phase1ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_active_power", at: inputRegister(0x000c, 0x000d), group: "measurements", references: { reference: 30013 },
-  unit: "W", uncertain: true,
+  unit: "W", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_active_power", at: inputRegister(0x000e, 0x000f), group: "measurements", references: { reference: 30015 },
-  unit: "W", uncertain: true,
+  unit: "W", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3ActivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_active_power", at: inputRegister(0x0010, 0x0011), group: "measurements", references: { reference: 30017 },
-  unit: "W", uncertain: true,
+  unit: "W", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_apparent_power", at: inputRegister(0x0012, 0x0013), group: "measurements", references: { reference: 30019 },
-  unit: "VA", uncertain: true,
+  unit: "VA", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_apparent_power", at: inputRegister(0x0014, 0x0015), group: "measurements", references: { reference: 30021 },
-  unit: "VA", uncertain: true,
+  unit: "VA", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3ApparentPower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_apparent_power", at: inputRegister(0x0016, 0x0017), group: "measurements", references: { reference: 30023 },
-  unit: "VA", uncertain: true,
+  unit: "VA", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_reactive_power", at: inputRegister(0x0018, 0x0019), group: "measurements", references: { reference: 30025 },
-  unit: "var", uncertain: true,
+  unit: "var", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_reactive_power", at: inputRegister(0x001a, 0x001b), group: "measurements", references: { reference: 30027 },
-  unit: "var", uncertain: true,
+  unit: "var", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3ReactivePower = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_reactive_power", at: inputRegister(0x001c, 0x001d), group: "measurements", references: { reference: 30029 },
-  unit: "var", uncertain: true,
+  unit: "var", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_power_factor", at: inputRegister(0x001e, 0x001f), group: "measurements", references: { reference: 30031 },
-  uncertain: true,
+  uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_power_factor", at: inputRegister(0x0020, 0x0021), group: "measurements", references: { reference: 30033 },
-  uncertain: true,
+  uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3PowerFactor = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_power_factor", at: inputRegister(0x0022, 0x0023), group: "measurements", references: { reference: 30035 },
-  uncertain: true,
+  uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_phase_angle", at: inputRegister(0x0024, 0x0025), group: "measurements", references: { reference: 30037 },
-  unit: "°", uncertain: true,
+  unit: "°", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_phase_angle", at: inputRegister(0x0026, 0x0027), group: "measurements", references: { reference: 30039 },
-  unit: "°", uncertain: true,
+  unit: "°", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3PhaseAngle = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_phase_angle", at: inputRegister(0x0028, 0x0029), group: "measurements", references: { reference: 30041 },
-  unit: "°", uncertain: true,
+  unit: "°", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const averageVoltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_voltage", at: inputRegister(0x002a, 0x002b), group: "measurements", references: { reference: 30043 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const averageCurrent = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_current", at: inputRegister(0x002e, 0x002f), group: "measurements", references: { reference: 30047 },
@@ -187,43 +187,43 @@ export const maximumTotalApparentPowerDemand = /* @__PURE__ */ (() => readOnly(f
 }))();
 export const neutralCurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "neutral_current_demand", at: inputRegister(0x0068, 0x0069), group: "measurements", references: { reference: 30105 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const maximumNeutralCurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_neutral_current_demand", at: inputRegister(0x006a, 0x006b), group: "measurements", references: { reference: 30107 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const line1To2Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_1_to_2_voltage", at: inputRegister(0x00c8, 0x00c9), group: "measurements", references: { reference: 30201 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const line2To3Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_2_to_3_voltage", at: inputRegister(0x00ca, 0x00cb), group: "measurements", references: { reference: 30203 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const line3To1Voltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_3_to_1_voltage", at: inputRegister(0x00cc, 0x00cd), group: "measurements", references: { reference: 30205 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const averageLineToLineVoltage = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_line_to_line_voltage", at: inputRegister(0x00ce, 0x00cf), group: "measurements", references: { reference: 30207 },
-  unit: "V", uncertain: true,
+  unit: "V", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const neutralCurrent = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "neutral_current", at: inputRegister(0x00e0, 0x00e1), group: "measurements", references: { reference: 30225 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_voltage_thd", at: inputRegister(0x00ea, 0x00eb), group: "measurements", references: { reference: 30235 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const phase2VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_voltage_thd", at: inputRegister(0x00ec, 0x00ed), group: "measurements", references: { reference: 30237 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase3VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_voltage_thd", at: inputRegister(0x00ee, 0x00ef), group: "measurements", references: { reference: 30239 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "==", [1077936128]]]],
 }))();
 export const phase1CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_1_current_thd", at: inputRegister(0x00f0, 0x00f1), group: "measurements", references: { reference: 30241 },
@@ -231,15 +231,15 @@ export const phase1CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
 }))();
 export const phase2CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current_thd", at: inputRegister(0x00f2, 0x00f3), group: "measurements", references: { reference: 30243 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const phase3CurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current_thd", at: inputRegister(0x00f4, 0x00f5), group: "measurements", references: { reference: 30245 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const averageVoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_voltage_thd", at: inputRegister(0x00f8, 0x00f9), group: "measurements", references: { reference: 30249 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1073741824]]]],
 }))();
 export const averageCurrentThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_current_thd", at: inputRegister(0x00fa, 0x00fb), group: "measurements", references: { reference: 30251 },
@@ -251,11 +251,11 @@ export const phase1CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32)
 }))();
 export const phase2CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_2_current_demand", at: inputRegister(0x0104, 0x0105), group: "measurements", references: { reference: 30261 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const phase3CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "phase_3_current_demand", at: inputRegister(0x0106, 0x0107), group: "measurements", references: { reference: 30263 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const maximumPhase1CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_1_current_demand", at: inputRegister(0x0108, 0x0109), group: "measurements", references: { reference: 30265 },
@@ -263,27 +263,27 @@ export const maximumPhase1CurrentDemand = /* @__PURE__ */ (() => readOnly(floati
 }))();
 export const maximumPhase2CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_2_current_demand", at: inputRegister(0x010a, 0x010b), group: "measurements", references: { reference: 30267 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const maximumPhase3CurrentDemand = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "maximum_phase_3_current_demand", at: inputRegister(0x010c, 0x010d), group: "measurements", references: { reference: 30269 },
-  unit: "A", uncertain: true,
+  unit: "A", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const line1To2VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_1_to_2_voltage_thd", at: inputRegister(0x014e, 0x014f), group: "measurements", references: { reference: 30335 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const line2To3VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_2_to_3_voltage_thd", at: inputRegister(0x0150, 0x0151), group: "measurements", references: { reference: 30337 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const line3To1VoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "line_3_to_1_voltage_thd", at: inputRegister(0x0152, 0x0153), group: "measurements", references: { reference: 30339 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const averageLineToLineVoltageThd = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "average_line_to_line_voltage_thd", at: inputRegister(0x0154, 0x0155), group: "measurements", references: { reference: 30341 },
-  unit: "%", uncertain: true,
+  unit: "%", uncertain: true, when: [[["systemType", "!=", [1065353216]]]],
 }))();
 export const totalActiveEnergy = /* @__PURE__ */ (() => readOnly(floating(F32), {
   name: "total_active_energy", at: inputRegister(0x0156, 0x0157), group: "measurements", references: { reference: 30343 },

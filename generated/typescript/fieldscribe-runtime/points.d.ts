@@ -50,6 +50,7 @@ export type FactsOfPoint = {
     variant?: readonly [string, string];
     onlyFor?: readonly [string, readonly string[]];
     uncertain?: boolean;
+    when?: import("./commands.js").Step["when"];
     conditions?: readonly string[];
     takesEffect?: string;
     writeWith?: readonly string[];
@@ -71,8 +72,9 @@ declare class ReadWriteCodec extends ReadOnlyCodec {
  *   code?: string, references?: Readonly<Record<string, number | string>>, unit?: string, display?: number,
  *   allowed?: import("./rules.js").Allowed, default?: number, fixed?: readonly [number, number], changes?: string,
  *   changesWith?: readonly string[], variant?: readonly [string, string],
- *   onlyFor?: readonly [string, readonly string[]], uncertain?: boolean, conditions?: readonly string[],
- *   takesEffect?: string, writeWith?: readonly string[], keeps?: string }} FactsOfPoint
+ *   onlyFor?: readonly [string, readonly string[]], uncertain?: boolean,
+ *   when?: import("./commands.js").Step["when"], conditions?: readonly string[], takesEffect?: string,
+ *   writeWith?: readonly string[], keeps?: string }} FactsOfPoint
  */
 /** One addressable datum. Its methods need no device; which there are follows from what can be read or written. */
 declare class Codec {

@@ -114,6 +114,14 @@ export class Session {
     /** Whether the words of a point travel the way the link is set; families say where that differs.
      * @param {AnyPoint} point @returns {boolean} */
     _isCarried(point: AnyPoint): boolean;
+    /** The points whose conditions may hold by what the device has now; what they compare is read.
+     * @param {AnyPoint[]} points @returns {Promise<AnyPoint[]>} */
+    _existingOf(points: AnyPoint[]): Promise<AnyPoint[]>;
+    /** Ask for a point, and add to a refusal what other points must hold for it to exist.
+     * @template T @param {AnyPoint} point @param {() => Promise<T>} ask @returns {Promise<T>} */
+    _existing<T>(point: AnyPoint, ask: () => Promise<T>): Promise<T>;
+    /** @param {AnyPoint} point @param {unknown} error */
+    _addCondition(point: AnyPoint, error: unknown): void;
     /** The values of points, by name, and before them what their scales need.
      * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
      * @returns {Promise<Record<string, any>>} */

@@ -3,7 +3,7 @@
  * What a device is asked, in which order: the part of all devices that knows no bus. How words travel is the family's
  * part: a subclass with `_get` and `_store`. Names with an underscore are for subclasses and commands.
  */
-import { giveCommand, paused } from "./commands.js";
+import { giveCommand, paused, stepTestHolds } from "./commands.js";
 import {
   AbsentError,
   AccessError,
@@ -12,6 +12,7 @@ import {
   FieldscribeError,
   NoReplyError,
   OtherDeviceError,
+  RefusedError,
   RequestError,
   shown,
 } from "./errors.js";
@@ -35,6 +36,12 @@ const LASTING_CODES = [0x01, 0x02, 0x03];
 /** @param {FieldscribeError} error */
 function isLasting(error) {
   return error instanceof ExceptionReplyError && LASTING_CODES.includes(error.code);
+}
+
+/** When a point exists, as alternatives of tests that hold together. @param {AnyPoint} point
+ * @returns {NonNullable<import("./commands.js").Step["when"]>} */
+function conditionOf(point) {
+  return point.facts.when ?? [];
 }
 
 /** A device on a bus: its unit number, its variants, and what is remembered of it. One operation at a time. */
@@ -176,7 +183,9 @@ export class Session {
 
   /** @param {AnyPoint} point @returns {Promise<number | bigint>} */
   _readRaw(point) {
-    return this._about(point, async () => this._taken(point, await this._get(point.at)));
+    return this._existing(point, () =>
+      this._about(point, async () => this._taken(point, await this._get(point.at))),
+    );
   }
 
   /** The raw number in words that came; it is remembered if the description says when it changes.
@@ -260,7 +269,7 @@ export class Session {
     await this._about(point, async () => {
       const words = isGroup ? [point.insert(await this._sharedWord(point), raw)] : point.toWords(raw);
       try {
-        await this._put(at ?? point.facts.writeAt ?? point.at, words);
+        await this._existing(point, () => this._put(at ?? point.facts.writeAt ?? point.at, words));
       } catch (error) {
         if (!(error instanceof EchoError) || isGroup || error.answered.length !== point.size) throw error;
         const answered = point.fromWords(error.answered);
@@ -287,6 +296,7 @@ export class Session {
       const places = [kept, ...changing].flatMap((point) => [point.at, point.facts.writeAt ?? point.at]);
       if (places.some((one) => placesOverlap(at, one))) this._kept.delete(kept);
     }
+    for (const point of [...this._refused.keys()]) if (point.facts.when) this._refused.delete(point); // it may exist now
     await this._store(at, words);
   }
 
@@ -329,6 +339,7 @@ export class Session {
       if (!(error instanceof FieldscribeError) || !refusals || error.lost) throw error;
       isRefusedForGood = isLasting(error);
       if (points.length === 1) {
+        this._addCondition(points[0], error);
         refusals.set(points[0], error);
         if (isRefusedForGood) this._refused.set(points[0], error.copied());
         return new Map();
@@ -359,6 +370,48 @@ export class Session {
    * @param {AnyPoint} point @returns {boolean} */
   _isCarried(point) {
     return point !== undefined;
+  }
+
+  /** The points whose conditions may hold by what the device has now; what they compare is read.
+   * @param {AnyPoint[]} points @returns {Promise<AnyPoint[]>} */
+  async _existingOf(points) {
+    const names = points.flatMap((point) => conditionOf(point).flatMap((clause) => clause.map(([of]) => of)));
+    const compared = new Map([...new Set(names)].map((name) => [name, this.table.found(name, this.variants)]));
+    const unknown = [...compared.values()].filter(
+      (point) => point && this._isCarried(point) && !this._kept.has(point) && !this._refused.has(point),
+    );
+    const raws = unknown.length ? await this._gather(unknown, undefined, new Map()) : new Map();
+    /** @type {Record<string, any>} */
+    const held = { ...this.variants };
+    for (const [name, point] of compared) {
+      if (point) held[name] = raws.get(point) ?? this._kept.get(point);
+    }
+    const mayHold = (/** @type {import("./commands.js").StepTest} */ [of, test, than]) =>
+      held[of] === undefined || stepTestHolds(held[of], test, than);
+    return points.filter((point) => !point.facts.when || conditionOf(point).some((clause) => clause.every(mayHold)));
+  }
+
+  /** Ask for a point, and add to a refusal what other points must hold for it to exist.
+   * @template T @param {AnyPoint} point @param {() => Promise<T>} ask @returns {Promise<T>} */
+  async _existing(point, ask) {
+    try {
+      return await ask();
+    } catch (error) {
+      this._addCondition(point, error);
+      throw error;
+    }
+  }
+
+  /** @param {AnyPoint} point @param {unknown} error */
+  _addCondition(point, error) {
+    if (!point.facts.when || !(error instanceof ExceptionReplyError || error instanceof RefusedError)) return;
+    const told = (/** @type {import("./commands.js").StepTest} */ [of, test, than]) => {
+      const other = this.table.found(of, this.variants);
+      return `${of} ${test} ${than.map((one) => (other ? (other.nameOf(one) ?? other.told(one)) : one)).join(", ")}`;
+    };
+    const clauses = conditionOf(point).map((clause) => clause.map(told).join(" and "));
+    error.text += `; it exists only when ${clauses.join(" or ")}`;
+    error.about({});
   }
 
   /** The values of points, by name, and before them what their scales need.
@@ -485,7 +538,7 @@ export class Session {
       /** @type {AnyPoint[]} */
       let points = [];
       try {
-        if (typeof what === "string") points = await this._there(this._group(what));
+        if (typeof what === "string") points = await this._existingOf(await this._there(this._group(what)));
         else {
           for (const one of what) {
             try {

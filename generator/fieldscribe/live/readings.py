@@ -10,11 +10,16 @@ from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.live.partial_reads import PartialReads
 from fieldscribe.model import Device, Point
+from fieldscribe.resources import use_python_runtime
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
+use_python_runtime()
+
+from fieldscribe_runtime import FieldscribeError  # noqa: E402 - it is found from here on
+
 if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice, FieldscribeError
+    from fieldscribe_runtime import AnyDevice
 
 GOOD = ("ok", "special")
 """The states of points that hold something; all others are errors."""
@@ -136,10 +141,22 @@ class Reader:
 
         A point without a good answer has the error. Raises FieldscribeError for a line that loses all.
         """
-        values = PartialReads(self._device).read(choice.items, choice.items)
+        items = self._existing(choice)
+        values = PartialReads(self._device).read(items, items)
         rows = zip(self._device.rows(values), values.values(), strict=True)
         readings = [Reading(**row, text=self._text(row, value)) for row, value in rows]
         return [one for one in readings if one.name not in choice.by_group or one.status not in NOT_THERE]
+
+    def _existing(self, choice: Choice) -> list[str]:
+        """Return the points without those of groups whose condition does not hold by what the device has now."""
+        inside = [self._device.POINTS[item] for item in choice.items if item in self._device.POINTS]
+        points: list[Any] = [point for point in inside if point.facts.name in choice.by_group]
+        try:
+            existing = self._device._run(self._device._existing_steps(points))
+        except FieldscribeError:
+            return choice.items  # each of them says so when it is read
+        gone = {point.facts.item for point in points} - {point.facts.item for point in existing}
+        return [item for item in choice.items if item not in gone]
 
     def _text(self, row: dict[str, Any], value: Any) -> str:
         """Return a value with its unit; of one whose scale other points decide, as many digits as its number has."""

@@ -49,7 +49,7 @@ def ordered(model: Device, now: Snapshot, wanted: Snapshot, is_chosen: Callable[
         here, raw = held.get(item), _same_value(points[item], raws[item], theirs, ours)
         if item not in chosen:
             order.others += [item] if here != raw else []
-        elif here is None:
+        elif here is None and not _will_exist(model, points[item], {**held, **raws}):
             order.refused[item] = now.missing.get(points[item].name, "the device does not have it")
         elif raw is None:
             order.refused[item] = "this device has no number for that value"
@@ -74,6 +74,15 @@ def _same_value(point: Point, raw: int, theirs: codec.Settings, ours: codec.Sett
         return codec.encode(point, codec.decode(point, raw, theirs), ours)
     except codec.CodecError:
         return None
+
+
+def _will_exist(model: Device, point: Point, raws: Mapping[str, int]) -> bool:
+    """Return True if a point that the device does not have now exists once the others are written."""
+    if point.when is None:
+        return False
+    values: dict[str, int | str] = {each.name: raws[each.item] for each in model.points if each.item in raws}
+    values.update({axis: left[0] for axis, left in model.variants.items() if len(left) == 1})
+    return values.keys() >= {*point.when.names} and point.when.holds(values)
 
 
 def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: dict[str, int]) -> None:

@@ -16,6 +16,7 @@ from fieldscribe.simulation.layout import Area, Cells, Layout, joined_cells
 from fieldscribe.simulation.memory import Memory
 from fieldscribe.simulation.values import Plant, Values
 from fieldscribe.wording import label
+from fieldscribe.wording.rules import condition_text
 
 BUSY_FOR = 0.05
 """The seconds for which a point says that a command is at work; no manual gives them."""
@@ -30,9 +31,10 @@ _OPENED = frozenset({"password"})
 class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
     """The device does not do what a request asks for.
 
-    `kind` is `address` (nothing is there), `part` (a part of a number), `write_only`, `read_only`, `condition` (one
-    that must hold before a write), `together` (points that are written with others only), or the status of the value:
-    `out_of_range`, `unknown_value`, `special`, ... `point` is the point that refuses, if it is one.
+    `kind` is `address` (nothing is there), `absent` (a point whose condition does not hold), `part` (a part of a
+    number), `write_only`, `read_only`, `condition` (one that must hold before a write), `together` (points that are
+    written with others only), or the status of the value: `out_of_range`, `unknown_value`, `special`, ... `point` is
+    the point that refuses, if it is one.
     """
 
     def __init__(self, kind: str, why: str, point: Point | None = None) -> None:
@@ -125,6 +127,7 @@ class SimulatedDevice:
             if address not in readable:
                 raise self._unreadable(area, address)
         if self.strict:
+            self._look_at_conditions(area, addresses)
             self._look_at_parts(area, addresses)
         held = self.memory.areas.get(area, {})
         return [held[address] for address in addresses]
@@ -219,6 +222,8 @@ class SimulatedDevice:
             if not points and address in steps:
                 continue
             if not points:
+                if absent := writers.get(address):
+                    raise self._absent(absent)
                 raise Refusal("address", f"nothing is at {area[0]} {address}")
             writable = [point for point in points if point.writable]
             if not writable:
@@ -270,6 +275,17 @@ class SimulatedDevice:
             what = f"{name} wrote the memory {CYCLIC[0]} times within {times[-1] - times[0]:.0f} s"
             self.complain("cyclic writes", f"{what}, and each write wears it", source)
             times.clear()
+
+    def _absent(self, points: Sequence[Point]) -> Refusal:
+        conditions = dict.fromkeys(condition_text(point.when, self.layout.points) for point in points)
+        return Refusal("absent", f"{label(points[0])} exists only when {' or '.join(conditions)}", points[0])
+
+    def _look_at_conditions(self, area: Area, addresses: Sequence[int]) -> None:
+        """Raise Refusal where all that lies at an address exists only under a condition that does not hold now."""
+        for address in addresses:
+            points = self.layout.readers.get(area, {}).get(address, ())
+            if points and not any(map(self.memory.exists, points)):
+                raise self._absent(points)
 
     def _look_at_parts(self, area: Area, addresses: Sequence[int]) -> None:
         inside = set(addresses)

@@ -57,7 +57,7 @@ def package(tempco: Device, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 def test_a_group_is_read_without_what_the_variant_does_not_have(package: Any) -> None:
     slave = Slave()
     package.Tempco(slave, 1, model="pro").read_many("main")
-    assert slave.log == [(3, 9, 2), (3, 11, 1), (3, 12, 1), (3, 14, 1), (3, 15, 1)]
+    assert slave.log == [(3, 10, 1), (3, 9, 2), (3, 11, 1), (3, 12, 1), (3, 14, 1)]
     basic = Basic()
     device = package.Tempco(basic, 1, model="basic")
     assert device.read_many("main") == dict.fromkeys(["actual", "highest", "output", "newer"], 0)
@@ -66,6 +66,26 @@ def test_a_group_is_read_without_what_the_variant_does_not_have(package: Any) ->
     basic.log.clear()
     assert device.read_many("other") == {"last": 0, "final": 0}
     assert basic.log == [(3, 13, 1), (3, 16, 1)]
+
+
+def test_what_another_point_decides_is_asked_before_a_group_is_read(package: Any) -> None:
+    """`trend` is in a device whose `highest` is 1; one that does not tell may have it."""
+    slave = Slave()
+    slave.words = {10: 1, 15: 7}
+    device = package.Tempco(slave, 1, model="pro")
+    assert device.read_many("main")["trend"] == 7
+    slave.refuses = {10: 2}
+    device = package.Tempco(slave, 1, model="pro")
+    assert device.read_many("main", errors="return")["trend"] == 7
+    slave.refuses, slave.words[10] = {15: 2}, 0
+    device = package.Tempco(slave, 1, model="pro")
+    assert "trend" not in device.read_many("main", errors="return")
+    expected = "trend: the device answered exception 02h; it exists only when model == pro and highest == 1"
+    assert str(error(device.trend.read)) == expected
+    assert str(device.read_many(["trend"], errors="return")["trend"]) == expected
+    device.highest.write(1)
+    slave.refuses = {}
+    assert device.read_many("main", errors="return")["trend"] == 7
 
 
 def test_reads_of_listed_points_cross_nothing_that_may_be_missing(package: Any) -> None:

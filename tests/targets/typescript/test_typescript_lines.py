@@ -18,7 +18,10 @@ VARIANTS = {
     "siemens_mm4": {"model": "mm440", "interface": "rs485"},
     "woodward_mpu2s": {"voltage": "400V"},
 }
-VALUES = {"siemens_mm4": {"uss_pzd_length_index_0": "4", "uss_pzd_length_index_1": "4"}}
+VALUES = {
+    "eastron_sdm630": {"system_type": "three_phase_four_wire"},  # else some points do not exist
+    "siemens_mm4": {"uss_pzd_length_index_0": "4", "uss_pzd_length_index_1": "4"},
+}
 LINK = {"siemens_mm4": {"link": {"pkw": 127, "pzd": 4}}}
 LEAST = {
     "eastron_sdm630": 98,
@@ -126,6 +129,18 @@ def test_every_readable_point(folder: Path, device: str, on: str, framing: str, 
             if value is not None:
                 assert groups[point.group][camel(point.name)] == value, point.name
         assert len(points) >= LEAST[device]
+
+
+def test_points_that_do_not_exist_now_are_left_out_of_groups(folder: Path) -> None:
+    """The phases of a meter, by its wiring; one that is asked for by name is read, and its condition told."""
+    with connected(folder, *LINES[0], strict=True) as (meter, node):
+        meter.values["system_type"] = "single_phase_two_wire"
+        group = node(None, "readMany", "measurements")
+        assert ("phase1Voltage" in group, "phase2Voltage" in group, meter.device.complaints) == (True, False, [])
+        with pytest.raises(NodeError, match="it exists only when systemType == three_phase_four_wire") as refused:
+            node("phase2Voltage", "read")
+        assert (refused.value.status, refused.value.point) == ("exception", "phase_2_voltage")
+        meter.device.complaints.clear()
 
 
 @pytest.mark.full(6)

@@ -27,7 +27,7 @@ _CODES: Mapping[str, tuple[int, tuple[str, ...]]] = {
 """The exception of the protocol for each reason, and the words that name it in a description, the best one first."""
 _REASONS = {
     **dict.fromkeys(("function", "address", "format"), ""),
-    **dict.fromkeys(("part", "write_only"), "address"),
+    **dict.fromkeys(("absent", "part", "write_only"), "address"),
     **dict.fromkeys(("read_only", "condition", "together"), "state"),
 }
 """The reason for each kind of refusal; all others are about the value."""

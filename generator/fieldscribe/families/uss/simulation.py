@@ -28,6 +28,7 @@ _RESPONSES = {(1, False): 1, (2, False): 2, (1, True): 4, (2, True): 5}
 """The responses with values of so many words, of an element of an array or not."""
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "address": ("number", "address"),
+    "absent": ("number", "address"),
     "read_only": ("not_changeable", "read_only"),
     "write_only": ("not_readable", "deactivated"),
     "out_of_range": ("limit",),

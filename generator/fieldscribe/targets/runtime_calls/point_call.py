@@ -8,7 +8,15 @@ from typing import NamedTuple
 from fieldscribe.conditions import absent
 from fieldscribe.model import Point, Variant
 from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName, call
-from fieldscribe.targets.runtime_calls.point_expressions import addresses_of, allowed, form, is_limited, number, place
+from fieldscribe.targets.runtime_calls.point_expressions import (
+    addresses_of,
+    allowed,
+    form,
+    is_limited,
+    number,
+    place,
+    tests_of,
+)
 from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
 
 _Facts = Iterator[tuple[str, Node]]
@@ -139,6 +147,8 @@ def _existence(point: Point, scope: Scope) -> _Facts:
         others.remove(choice[0])
     if others or point.since is not None or point.until is not None or point.to_end:
         yield "uncertain", True  # another axis, a point, the firmware or the length of a block decides too
+    if point.when is not None and not scope.device.variants.keys() >= {*point.when.names}:
+        yield "when", tests_of(point.when)
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
-from fieldscribe.conditions import Comparison
+from fieldscribe.conditions import Condition
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
 from fieldscribe.model.steps import WHOLE_WORD
@@ -225,7 +225,7 @@ def step_of(step: Step, scope: Scope) -> Node:
     if step.within is not None:
         facts["within"] = number(Fraction(step.within, 1000), binary=True)
     if step.when is not None:
-        facts["when"] = tuple(tuple(map(_test, clause)) for clause in step.when.clauses)
+        facts["when"] = tests_of(step.when)
     words = tuple(_word(word, scope) for word in step.words)
     return call(scope.runtime("Step"), step.says, where, words, **facts)
 
@@ -238,8 +238,9 @@ def _word(word: Word, scope: Scope) -> Node:
     return call(scope.runtime("StepWord"), word.constant, *argument, **mask)
 
 
-def _test(comparison: Comparison) -> Node:
-    return PointName(comparison.of), comparison.test, comparison.than
+def tests_of(condition: Condition) -> Node:
+    """Return a condition as alternatives of tests."""
+    return tuple(tuple((PointName(each.of), each.test, each.than) for each in clause) for clause in condition.clauses)
 
 
 def _place(space: str, addresses: Iterable[Node], facts: Mapping[str, Node], scope: Scope) -> Node:

@@ -3,34 +3,27 @@
 
 from __future__ import annotations
 
-import operator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, overload
 
 from .about import About
 from .arguments import shown, whole
 from .commands import carried_out_once, refuse
+from .conditions import holds
 from .errors import FieldscribeError, RangeError, RequestError, WaitError
 from .guided import Guided
 from .receiving import Pause
 from .records import Record
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Iterator, Mapping
 
+    from .conditions import Clauses
     from .device import AnyAsyncDevice, AnyDevice
     from .facts import Place
     from .session import Session, Steps
     from .traffic import Traffic
 
-Test = tuple[str, str, tuple[int | str, ...]]
-"""Compares a variant axis by name, or a point by its raw number: what, how, and with which constants."""
-_TESTS: Mapping[str, Callable[[int, int], bool]] = {
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-}
 _PAUSE = 0.1
 """Seconds between two looks at what a step waits for."""
 
@@ -60,7 +53,7 @@ class Step(Record):
     at: Place
     words: tuple[int | StepWord, ...]
     within: float | None = None
-    when: tuple[tuple[Test, ...], ...] = ()
+    when: Clauses = ()
 
     @property
     def reads(self) -> bool:
@@ -162,22 +155,16 @@ def _is_taken(device: Session, step: Step) -> Steps[bool]:
     """Return whether the condition of a step holds; points that it compares are read."""
     held: dict[str, int | str] = {}
     for clause in step.when:
-        holds = True
+        is_true = True
         for of, test, than in clause:
             if of not in held:
                 held[of] = device._variant(of) if of in device.VARIANTS else (yield from device._raw_of_steps(of))
-            holds = _holds(held[of], test, than)
-            if not holds:
+            is_true = holds(held[of], test, than)
+            if not is_true:
                 break
-        if holds:
+        if is_true:
             return True
     return not step.when
-
-
-def _holds(value: int | str, test: str, than: tuple[int | str, ...]) -> bool:
-    if test in _TESTS:
-        return isinstance(value, int) and _TESTS[test](value, int(than[0]))
-    return (value in than) is (test != "!=")
 
 
 def _request_steps(device: Session, step: Step, arguments: Mapping[str, int]) -> Steps[None]:

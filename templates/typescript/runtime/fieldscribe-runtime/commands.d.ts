@@ -24,6 +24,8 @@ export function stepReads(one: Step): boolean;
  * @param {number | Readonly<Record<string, number>>} [value]
  */
 export function giveCommand(session: import("./session.js").Session, name: string, given: AnyCommand, value?: number | Readonly<Record<string, number>>): Promise<void>;
+/** @param {number | string} value @param {string} test @param {readonly (number | string)[]} than */
+export function stepTestHolds(value: number | string, test: string, than: readonly (number | string)[]): boolean;
 /** Wait so many seconds. @param {number} seconds @returns {Promise<void>} */
 export function paused(seconds: number): Promise<void>;
 export type Place = import("./places.js").Place;

@@ -132,7 +132,7 @@ async function isTaken(session, one) {
 }
 
 /** @param {number | string} value @param {string} test @param {readonly (number | string)[]} than */
-function stepTestHolds(value, test, than) {
+export function stepTestHolds(value, test, than) {
   const [bound] = than;
   if (test === "<") return value < bound;
   if (test === "<=") return value <= bound;
