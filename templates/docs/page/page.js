@@ -79,6 +79,7 @@ function sectionArticle(name) {
   else if (name === "decoder") article.append(...decoderParts());
   else if (name === "errata") article.append(...device.errata.map((erratum) => erratumBox(device, erratum, true)));
   else article.append(...device.sections[name].map(([heading, table]) => (heading ? part(heading, markedTable(table, heading)) : element("p", {}, ...marked(table)))));
+  if (name === "device" && typeof globalThis.openCode === "function") article.append(conformancePart() ?? "");
   return article;
 }
 

@@ -126,4 +126,4 @@ def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:
     seen = _visited(device, tmp_path, ["onerror"], ["", f"#point={first}"])
     assert (seen["troubles"], seen["wide"]) == ([], [])
     assert seen["searches"]["onerror"]["points"]
-    assert seen["elements"] == 3  # the data, the code and the script of the page
+    assert seen["elements"] == 4  # the data, the vectors, the code and the script of the page

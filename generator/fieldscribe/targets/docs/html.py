@@ -24,7 +24,7 @@ from fieldscribe.text import html_code, line
 from fieldscribe.wording.frames import misprint_text, spaced
 
 _SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "exchange.js", "calculator.js", "point.js")
-_DECODER = ("pasted.js", "meanings.js", "decoding.js", "decoding_{}.js", "decoder.js")
+_DECODER = ("pasted.js", "meanings.js", "decoding.js", "decoding_{}.js", "decoder.js", "conformance.js")
 """Scripts of devices with generated code; frames are decoded by their family."""
 _STYLES = ("shared.css", "page.css")
 
@@ -35,7 +35,7 @@ Section = tuple[str, list[tuple[str, str]]]
 def html_of(scope: DocsScope, render: Render) -> str:
     """Return the page of a device."""
     made, command, licence = head_lines(scope.device, "docs", line)
-    code = code_of(scope.device, render)
+    code, vectors = code_of(scope.device, render)
     decoder = [name.format(scope.device.family) for name in _DECODER] if code else []
     style, script = source(_STYLES), source((*_SCRIPTS, *decoder, "page.js"))
     digests = " ".join(f"'{_digest(text)}'" for text in filter(None, (code, script)))
@@ -45,6 +45,7 @@ def html_of(scope: DocsScope, render: Render) -> str:
         "style": style,
         "script": script,
         "code": code,
+        "vectors": vectors,
         "policy": f"default-src 'none'; style-src '{_digest(style)}'; script-src {digests}; "
         "base-uri 'none'; form-action 'none'",
         "data": _json(page_data(scope, made)),

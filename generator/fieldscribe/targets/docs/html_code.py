@@ -17,8 +17,12 @@ from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets import knows
 from fieldscribe.targets.typescript import scripts
 from fieldscribe.targets.typescript.identifiers import Identifiers
+from fieldscribe.targets.vectors import text_of
 
 _RUNTIME = "typescript/runtime"
+_RUNNER = "fieldscribe-conformance/vectors"
+_MOST_TESTED = 1000
+"""With more points a page carries no vectors."""
 _IMPORT = re.compile(r'^(?:import|export \*)[^;]*?from "([^"]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:const|function|class) (\w+))", re.MULTILINE)
 _LEFT_OUT = re.compile(
@@ -35,20 +39,25 @@ return {{ Device: generatedDevice, {names} }};
 """
 
 
-def code_of(device: Device, render: Render) -> str:
-    """Return the script that gives the page the code of a device; empty for a family without TypeScript."""
+def code_of(device: Device, render: Render) -> tuple[str, str]:
+    """Return the script that gives the page the code of a device, and the vectors that the page runs.
+
+    Both are empty for a family without TypeScript, the vectors for a device with very many points, too.
+    """
     if not knows("typescript", device):
-        return ""
+        return "", ""
     plain = for_code(device)
     texts = dict(scripts(plain, render))
-    runtime = _runtime(tuple(sorted({found for text in texts.values() for found in _IMPORT.findall(text)})))
+    tested = text_of(plain) if len(plain.points) <= _MOST_TESTED else ""
+    imported = {found for text in texts.values() for found in _IMPORT.findall(text)} | ({_RUNNER} if tested else set())
+    runtime = _runtime(tuple(sorted(imported)))
     script = _SCRIPT.format(
         runtime=_EXPORT.sub("", runtime),
         device=_EXPORT.sub("", _joined("index.js", texts.__getitem__, set())),
         kind=Identifiers(plain).device_class,
         names=", ".join(dict.fromkeys(_EXPORT.findall(runtime))),
     )
-    return _safe(script)
+    return _safe(script), tested.replace("<", "%3c")
 
 
 @cache

@@ -14,14 +14,23 @@ from fieldscribe.targets.identifiers import Names
 SEES_TITLES = False
 NEEDS_FAMILY = False
 BEFORE_POINTS = ("",)
+_kept: list[tuple[Device, str]] = []
+"""The last device with its vectors."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The one file of this target: its path, and one vector per line. `render` is not needed."""
+    del render
+    yield f"vectors/{device.id}.txt", text_of(device)
+
+
+def text_of(device: Device) -> str:
+    """Return the vectors of a device as text; its page and its file have the same."""
     from fieldscribe.targets.vectors.collection import collect
 
-    del render
-    yield f"vectors/{device.id}.txt", collect(device).text(device.id, device.version, device.digest)
+    if not (_kept and _kept[0][0] == device):
+        _kept[:] = [(device, collect(device).text(device.id, device.version, device.digest))]
+    return _kept[0][1]
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:

@@ -125,8 +125,9 @@ export class VectorFile {
  * @typedef {{ passed: Record<string, number>, failed: Record<string, number>, shown: Vector[] }} VectorResults */
 
 /** Run all vectors of a text against the generated class of a device.
- * @param {any} device @param {string} text @param {number} [most] so many failures are shown @returns {Promise<VectorResults>} */
-export async function runVectors(device, text, most = 20) {
+ * @param {any} device @param {string} text @param {number} [most] so many failures are shown
+ * @param {() => Promise<void> | undefined} [pause] awaited before each vector @returns {Promise<VectorResults>} */
+export async function runVectors(device, text, most = 20, pause) {
   /** @type {VectorResults} */
   const results = { passed: {}, failed: {}, shown: [] };
   const file = new VectorFile(text);
@@ -136,6 +137,7 @@ export async function runVectors(device, text, most = 20) {
   };
   for (const vector of file) {
     if (!(vector.kind in file.counts)) continue; // TypeScript has no such thing
+    await pause?.();
     const [good, reason] = await passesVector(device, vector);
     if (good) results.passed[vector.kind] = (results.passed[vector.kind] ?? 0) + 1;
     else fail({ ...vector, reason });

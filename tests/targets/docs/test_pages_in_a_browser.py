@@ -1,4 +1,4 @@
-"""The decoder of the page in Chromium: every frame of the vectors and of the manuals, what is wrong, hostile logs."""
+"""What pages decode and run in Chromium: every frame of the vectors and of the manuals, hostile logs, the vectors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from support.described import shipped
 from support.made_once import made_once
 from support.places import ROOT
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
-from support.vector_file import File, Vector
+from support.vector_file import File, Vector, counts_of
 
 NOISE = Random(27).randbytes(500_000).decode("latin-1").replace("\r", "") + "\n(" * 50_000
 DEVICES = sorted(path.stem for path in (ROOT / "generated/vectors").glob("*.txt"))
@@ -91,24 +91,36 @@ def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What the pages say of all jobs and texts, by device: one browser visits all pages."""
     npm_package("playwright-core")
 
-    def decode(folder: Path) -> None:
+    def try_pages(folder: Path) -> None:
         texts = {
             str(ROOT / f"generated/docs/{device}.html"): {
                 "jobs": [{"text": "\n".join(job.frames), "settings": job.settings} for job in _jobs(device)],
                 "typed": [text for of, text, *_ in TYPED if of == device],
+                "spoil": _spoiled_line(device),
             }
             for device in DEVICES
         }
         (folder / "jobs.json").write_text(json.dumps(texts), "utf-8")
-        program = Path(__file__).with_name("decode.mjs")
+        program = Path(__file__).with_name("try_pages.mjs")
         browser = tool("chromium-headless-shell")
         (folder / "heard.json").write_text(
             succeed([tool("node"), program, browser, NODE_MODULES, folder / "jobs.json"]), "utf-8"
         )
 
-    done = json.loads((made_once(tmp_path_factory, "pages_decode", decode) / "heard.json").read_text("utf-8"))
+    done = json.loads((made_once(tmp_path_factory, "pages_tried", try_pages) / "heard.json").read_text("utf-8"))
     assert done["troubles"] == []
     return {Path(page).stem: said for page, said in done["found"].items()}
+
+
+def _vectors(device: str) -> str:
+    return (ROOT / f"generated/vectors/{device}.txt").read_text("utf-8")
+
+
+def _spoiled_line(device: str) -> tuple[str, str]:
+    """A line of the vectors, and the same with another address."""
+    line = next(line for line in _vectors(device).split("\n") if line.startswith("address\t"))
+    kind, space, address, *others = line.split("\t")
+    return line, "\t".join((kind, space, str(int(address) + 1), *others))
 
 
 def _text(frame: bytes, device: str) -> str:
@@ -139,7 +151,7 @@ def _jobs(device: str) -> Iterator[Job]:
             raws = dict(frame.meaning)
             yield Job([*asked, frame.corrected.hex()], "printed", raws, settings={"framing": framing})
     built: dict[str, bytes] = {}
-    for vector in File((ROOT / f"generated/vectors/{device}.txt").read_text("utf-8")):
+    for vector in File(_vectors(device)):
         kind, status = vector["kind"], vector.get("status") or ""
         fields = _TASK if kind.startswith("uss") else _REQUEST
         if kind in ("read", "write", "store"):
@@ -213,3 +225,15 @@ def test_what_is_said_of_pasted_text(place: int, heard: dict[str, Any]) -> None:
     assert shown["strange"] == 0
     for each in said:
         assert each in f"{shown['status']}\n{shown['text']}", text[:200]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_the_page_runs_its_vectors(device: str, heard: dict[str, Any]) -> None:
+    """As many of each kind as the vectors announce; a spoiled one is shown."""
+    good, spoiled = heard[device]["ran"]
+    counts = {kind: str(count) for kind, count in counts_of(_vectors(device), "typescript").items() if count}
+    assert {kind: passed for kind, passed, *_ in good["rows"]} == counts
+    assert (good["failures"], good["status"]) == ([], f"all {sum(map(int, counts.values()))} vectors passed")
+    assert spoiled["status"].startswith("1 vector failed")
+    assert len(spoiled["failures"]) == 1
+    assert "address" in spoiled["failures"][0]

@@ -1,5 +1,7 @@
-// Decodes pasted texts on the pages of devices in a real browser, and prints as JSON what they say of each frame.
-// Usage: node decode.mjs BROWSER NODE_MODULES JOBS_FILE: { page: { jobs: [{ text, settings }], typed: [text] } }
+// Decodes pasted texts on the pages of devices in a real browser, runs the vectors there, once with a spoiled line, and
+// prints as JSON what the pages say.
+// Usage: node try_pages.mjs BROWSER NODE_MODULES JOBS_FILE:
+// { page: { jobs: [{ text, settings }], typed: [text], spoil: [line, other line] } }
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -16,7 +18,18 @@ page.on("pageerror", (error) => troubles.push(String(error)));
 page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
 page.on("dialog", (dialog) => { troubles.push(dialog.message()); dialog.dismiss(); });
 const found = {};
-for (const [file, { jobs, typed }] of Object.entries(JSON.parse(readFileSync(listed, "utf8")))) {
+
+async function runVectors() {
+  await page.click("text=Run the vectors");
+  await page.waitForSelector("#conformance table");
+  return page.evaluate(() => {
+    const part = document.getElementById("conformance");
+    const cells = (row) => [...row.querySelectorAll("td")].map((cell) => cell.textContent);
+    return { status: part.previousSibling.textContent, rows: [...part.querySelectorAll("tbody tr")].map(cells), failures: [...part.querySelectorAll("li")].map((each) => each.textContent) };
+  });
+}
+
+for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileSync(listed, "utf8")))) {
   await page.goto(`${pathToFileURL(file).href}#decoder`);
   const decoded = await page.evaluate((all) => {
     const decoders = new Map();
@@ -38,7 +51,14 @@ for (const [file, { jobs, typed }] of Object.entries(JSON.parse(readFileSync(lis
     await page.waitForFunction(() => !document.querySelector("#detail .status").textContent.includes("so far"));
     shown.push(await page.evaluate(() => ({ status: document.querySelector("#detail .status").textContent, text: document.querySelector(".heard").innerText, strange: document.querySelectorAll(".heard img, .heard script").length })));
   }
-  found[file] = { decoded: JSON.parse(decoded), shown };
+  await page.goto(`${pathToFileURL(file).href}#device`);
+  const ran = [await runVectors()];
+  await page.evaluate(([line, other]) => {
+    const vectors = document.getElementById("vectors");
+    vectors.textContent = vectors.textContent.replace(line, () => other);
+  }, spoil);
+  ran.push(await runVectors());
+  found[file] = { decoded: JSON.parse(decoded), shown, ran };
 }
 console.log(JSON.stringify({ found, troubles }));
 await browser.close();
