@@ -169,6 +169,9 @@ def _digest(text: str) -> str:
     return "sha256-" + b64encode(sha256(f"\n{text}".encode()).digest()).decode()
 
 
+_ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
+
+
 def _json(data: Mapping[str, object]) -> str:
     """Return JSON that cannot end the element in which it stands, with a line for each member and item of lists."""
     members = [
@@ -183,7 +186,7 @@ def _items(values: list[object]) -> str:
 
 
 def _json_line(data: object) -> str:
-    return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    return _ENCODER.encode(data).replace("<", "\\u003c")
 
 
 def _comment(text: str) -> str:

@@ -117,7 +117,7 @@ class Points:
                 self._groups.get(point.group, 0),
                 addresses,
                 _trimmed(known),
-                sum(1 << at for at, key in enumerate(self.numberings) if key in place.references),
+                sum([1 << at for at, key in enumerate(self.numberings) if key in place.references]),
                 self._own_rows(point),
                 self.source(point.source),
                 [self._errata[each] for each in point.errata if each in self._errata],
