@@ -56,7 +56,7 @@ fuzz:               ## feed mutated descriptions, frames and words to everything
 	PYTHONPATH=tests $(PYTHON) tests/fuzz/soak.py --seed $(or $(SEED),1)
 	PYTHONPATH=tests $(PYTHON) tests/fuzz/soak_simulated.py --seed $(or $(SEED),1) --requests $(or $(COUNT),200000)
 
-mutants:            ## change one thing at a time and list what no test notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions|generator ROOM=resolve)
+mutants:            ## change one thing at a time and list what no test notices (SEED=1 COUNT=300 ONLY=c|python|rust|typescript|descriptions|generator ROOM=resolve)
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests nice $(PYTHON) -m mutants
 

@@ -33,7 +33,7 @@ _SWAPS = {
     before: after
     for pair in (
         *("+ -", "- +", "* +", "% *", "/ *", "// *", "+= -=", "-= +=", "<< >>", ">> <<"),
-        *("< <=", "<= <", "> >=", ">= >", "== !=", "!= ==", "&& ||", "|| &&", "and or", "or and"),
+        *("< <=", "<= <", "> >=", ">= >", "== !=", "!= ==", "=== !==", "!== ===", "&& ||", "|| &&", "and or", "or and"),
         *("& |", "| &", "^ |", "&= |=", "|= &=", "^= |="),
     )
     for before, after in [pair.split()]
@@ -90,7 +90,7 @@ def _sizes_a_parameter(around: Sequence[Token]) -> bool:
 
 def numbers_near(text: str) -> list[str]:
     """Other numbers in the same notation: one more, one less, zero, and two with one bit flipped."""
-    found = re.fullmatch(r"(0[xX])?([0-9A-Fa-f_]+?|[\d_]+)([uUlL]+|[iu](?:8|16|32|64|128|size))?", text)
+    found = re.fullmatch(r"(0[xX])?([0-9A-Fa-f_]+?|[\d_]+)([uUlL]+|[iu](?:8|16|32|64|128|size)|n)?", text)
     if found is None:
         return _fractions_near(text)
     base = 16 if found[1] else 10
@@ -202,7 +202,7 @@ _CONSTANTS = {
 
 def _exchanged_names(language: str, text: str, tokens: Sequence[Token]) -> Iterator[list[Change]]:
     """A named constant (a status, a type, a member) gives way to another one of the same family in this file."""
-    family = {"c": _c_families, "rust": _rust_families, "python": _python_families}[language](text, tokens)
+    family = {"c": _c_families, "rust": _rust_families}.get(language, _python_families)(text, tokens)
     members: dict[str, list[str]] = {}
     for token, of in family:
         members.setdefault(of, []).append(token.text)
@@ -247,7 +247,7 @@ def _python_families(text: str, tokens: Sequence[Token]) -> Family:
     del text
     found: Family = []
     for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
-        if token.kind != "name" or before.text in ("class", "def") or after.text in ("=", ":"):
+        if token.kind != "name" or before.text in ("class", "def", "extends", "instanceof") or after.text in ("=", ":"):
             continue
         if token.text.endswith("Error"):
             found.append((token, "error"))

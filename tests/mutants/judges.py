@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import resource
@@ -262,4 +263,29 @@ class OfRust(Judge):
         return self.run(program, memory=MEMORY).returncode == 0
 
 
-JUDGES: dict[str, type[Judge]] = {"c": OfC, "python": OfPython, "rust": OfRust}
+class OfTypeScript(Judge):
+    """The runner of vectors on a copy of the packages, as npm lays them out."""
+
+    language = "typescript"
+
+    def prepare(self) -> None:
+        """Lay out the packages beside those that run the vectors."""
+        root = self.work / "typescript"
+        shutil.copytree(ROOT / "templates/typescript/runtime/fieldscribe-conformance", root / "fieldscribe-conformance")
+        (root / "node_modules").mkdir()
+        for package in [path for path in root.iterdir() if (path / "package.json").exists()]:
+            (root / "node_modules" / package.name.replace("_", "-")).symlink_to(package)
+        (root / "node_modules/fieldscribe-conformance").symlink_to(root / "fieldscribe-conformance")
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Run it; a module that cannot be parsed tells nothing."""
+        del build
+        modules, runner = self.work / "typescript/node_modules", ROOT / "tests/support/run_vectors.mjs"
+        words = ("node", runner, modules, device.replace("_", "-"), self.vectors[device])
+        done = self.run(*words, memory=resource.RLIM_INFINITY)  # node reserves more than it uses
+        if "SyntaxError" in done.stderr:
+            raise DoesNotBuildError("it cannot be parsed")
+        return done.returncode == 0 and not json.loads(done.stdout)["failed"]
+
+
+JUDGES: dict[str, type[Judge]] = {"c": OfC, "python": OfPython, "rust": OfRust, "typescript": OfTypeScript}

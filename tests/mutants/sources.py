@@ -33,6 +33,12 @@ KINDS: dict[str, dict[str, str]] = {
         "lib": r"rust/(?P<device>\w+)/src/(?!points|with|enums|flags)\w+\.rs",
         RUNTIME: r"rust/fieldscribe_runtime/src/(?!transports/).*\.rs",  # those have tests of their own
     },
+    "typescript": {
+        "points": r"typescript/(?P<device>\w+)/points\.js",
+        "enums": r"typescript/(?P<device>\w+)/enums\.js",
+        "device": r"typescript/(?P<device>\w+)/index\.js",
+        RUNTIME: r"typescript/fieldscribe-runtime/(?!tcp|serialport|modbus-serial|stream-line|index|types)[\w-]+\.js",
+    },
 }
 """The kinds of files of each language, by their path; the programs that run the vectors are of no kind."""
 

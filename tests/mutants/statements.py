@@ -13,6 +13,7 @@ Edit = tuple[int, int, str]
 _KEEPS = {
     "c": re.compile(r"(?:static|const|extern|typedef|struct|return [^;])|(?:\w+ )+\*?\w+(?:\[|;| =)|\}"),
     "rust": re.compile(r"(?:pub|let|const|static|type|use|fn|return)\b|\}|[\w:]+!"),
+    "typescript": re.compile(r"(?:const|let|static|export|return [^;])|\}"),
 }
 
 
@@ -32,11 +33,11 @@ def _statements(language: str, text: str, tokens: Sequence[Token]) -> Iterator[E
         first_of_line = before is None or before.end <= start
         end = text.find("\n", after.end)
         line = text[after.start : end].partition(" /*")[0].partition(" //")[0].rstrip()
-        indented = after.start - start >= 4
+        indented = after.start - start >= (2 if language == "typescript" else 4)
         if first_of_line and indented and line.endswith(";") and not _KEEPS[language].match(line):
             simple = line.count(";") == 1 and (before is None or before.text in (";", "{", "}", ")", ":"))
             if simple and line.count("(") == line.count(")") and line.count("{") == line.count("}"):
-                yield after.start, after.start + len(line), ";" if language == "c" else ""
+                yield after.start, after.start + len(line), "" if language == "rust" else ";"
 
 
 def _conditions(language: str, text: str, tokens: Sequence[Token]) -> Iterator[Edit]:
@@ -63,7 +64,7 @@ def _end_of_condition(language: str, tokens: Sequence[Token], start: int) -> int
         if language == "rust" and text == "{" and depth == 0:
             return place - 1
         depth += (text in "([") - (text in ")]")
-        if language == "c" and depth == 0:
+        if language != "rust" and depth == 0:
             return place - 1
     return None
 

@@ -1,4 +1,4 @@
-"""Source text of C, Rust and Python as tokens with their places; what is for people is left out."""
+"""Source text of C, Rust, Python and JavaScript as tokens with their places; what is for people is left out."""
 
 from __future__ import annotations
 
@@ -20,12 +20,11 @@ class Token:
     end: int
 
 
-_OPERATORS = (
-    r"<<=|>>=|\.\.=|\.\.|<<|>>|<=|>=|==|!=|&&|\|\||->|=>|::|\+=|-=|\*=|/=|\|=|&=|\^=|[-+*/%<>=!&|^~?:;,.(){}\[\]#@$]"
-)
+_OPERATORS = r"===|!==|\?\?|\?\.|<<=|>>=|\.\.=|\.\.|<<|>>|<=|>=|==|!=|&&|\|\||->|=>|::|\+=|-=|\*=|/=|\|=|&=|\^=|[-+*/%<>=!&|^~?:;,.(){}\[\]#@$]"
 _LEFT_OUT = {
     "c": r"^extern \"C\"|/\*.*?\*/|//[^\n]*|^[ \t]*\#(?!\s*define)(?:\\\n|[^\n])*|\#\s*define[ \t]+\w+(?:\([^)]*\)|$)?",
     "rust": r"/\*.*?\*/|//[^\n]*|\#!?\[[^\]]*\]|^[ ]*(?:pub )?(?:use|mod|extern)\b[^;{]*;|'\w+\b(?!')",
+    "typescript": r"/\*.*?\*/|//[^\n]*|`[^`]*`|^(?:import|export \*)[^;]*;|(?:(?<=[=:] )|(?<=\())/(?![ /*])[^/\n]+/\w*",
 }
 _LEXERS = {
     language: re.compile(

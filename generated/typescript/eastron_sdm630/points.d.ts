@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate eastron_sdm630 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Eastron SDM630-Modbus V2: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   NetworkBaudRate,
   NetworkParityAndStopBits,
@@ -14,9 +14,9 @@ import type {
   SystemType,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "eastron_sdm630">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "eastron_sdm630">;
-type WriteOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.WriteOnly<Value, Facts, "eastron_sdm630">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "eastron_sdm630">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "eastron_sdm630">;
+type WriteOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.WriteOnly<Value, Facts, "eastron_sdm630">;
 
 /** Phase 1 voltage. Exists only when system_type != three_phase_three_wire. */
 export declare const phase1Voltage: ReadOnly<number>;
@@ -264,12 +264,12 @@ export declare const serialNumber: ReadOnly<number>;
 /** Register order: 2141..2141. */
 export declare const registerOrder: ReadWrite<number>;
 /** Reset maximum demand. */
-export declare const resetMaximumDemand: Command;
+export declare const resetMaximumDemand: DeviceCommand;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

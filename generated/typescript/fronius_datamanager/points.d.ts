@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate fronius_datamanager --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Fronius Datamanager with a three-phase inverter: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   ActiveControls,
   ApparentPowerMethod,
@@ -31,8 +31,8 @@ import type {
   VendorOperatingState,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "fronius_datamanager">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "fronius_datamanager">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "fronius_datamanager">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "fronius_datamanager">;
 
 /** Manufacturer. */
 export declare const manufacturer: ReadOnly<string, { raw: bigint }>;
@@ -483,12 +483,12 @@ export declare const siteEnergyOfYear: ReadOnly<bigint, { raw: bigint }>;
 /** Site energy total. */
 export declare const siteEnergyTotal: ReadOnly<bigint, { raw: bigint }>;
 /** Use integers. */
-export declare const useIntegers: Command<Record<never, number>>;
+export declare const useIntegers: DeviceCommand<Record<never, number>>;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

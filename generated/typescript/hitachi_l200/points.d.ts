@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate hitachi_l200 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Hitachi L200: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   Alarm,
   AnalogInputFilter,
@@ -63,8 +63,8 @@ import type {
   VfCharacteristic,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "hitachi_l200">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "hitachi_l200">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "hitachi_l200">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "hitachi_l200">;
 
 /** Run command. */
 export declare const runCommand: ReadWrite<RunCommand | UnknownNumber, { names: typeof RunCommand; takes: RunCommand }>;
@@ -653,12 +653,12 @@ export declare const stabilizationConstant: ReadWrite<number>;
 /** Stabilization constant set 2: 0..255. `enter.send()` keeps it. */
 export declare const stabilizationConstantSet2: ReadWrite<number>;
 /** Enter. */
-export declare const enter: Command;
+export declare const enter: DeviceCommand;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

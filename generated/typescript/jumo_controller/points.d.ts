@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate jumo_controller --target typescript
 // SPDX-License-Identifier: 0BSD
 /** JUMO Controller with MOD-Bus: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   BinaryInputs,
   BinaryOutputControl,
@@ -17,9 +17,9 @@ import type {
   TimerCommands,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "jumo_controller">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "jumo_controller">;
-type WriteOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.WriteOnly<Value, Facts, "jumo_controller">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "jumo_controller">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "jumo_controller">;
+type WriteOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.WriteOnly<Value, Facts, "jumo_controller">;
 
 /**
  * Program status. The manual leaves open whether the command automatic_mode leads to the state automatic_mode
@@ -97,9 +97,9 @@ export declare const operationCommands: ReadWrite<OperationCommands, { names: ty
 export declare const timerCommands: ReadWrite<TimerCommands, { names: typeof TimerCommands; takes: TimerCommands | number }>;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

@@ -2,15 +2,15 @@
 // Regenerate with: fieldscribe generate nord_sk5xxe --target typescript
 // SPDX-License-Identifier: 0BSD
 /** NORD SK 5xxE: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   ControlWord,
   StatusWord,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "nord_sk5xxe">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "nord_sk5xxe">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "nord_sk5xxe">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "nord_sk5xxe">;
 
 /** Control word. */
 export declare const controlWord: ReadWrite<ControlWord, { names: typeof ControlWord; takes: ControlWord | number }>;
@@ -62,14 +62,14 @@ export declare const actualValue4: ReadOnly<number>;
  */
 export declare const actualValue5: ReadOnly<number>;
 /** Make ready to switch on. */
-export declare const makeReadyToSwitchOn: Command;
+export declare const makeReadyToSwitchOn: DeviceCommand;
 /** Switch on. */
-export declare const switchOn: Command;
+export declare const switchOn: DeviceCommand;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

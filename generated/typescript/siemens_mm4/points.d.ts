@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate siemens_mm4 --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Siemens MICROMASTER 4: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   CommandSource,
   ControlWord,
@@ -28,9 +28,9 @@ import type {
   UssRs485AnswerSourceIndex3,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "siemens_mm4">;
-type Stored<Value, Facts extends runtime.PointFacts = {}> = runtime.Stored<Value, Facts, "siemens_mm4">;
-type WriteOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.WriteOnly<Value, Facts, "siemens_mm4">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "siemens_mm4">;
+type Stored<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.Stored<Value, Facts, "siemens_mm4">;
+type WriteOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.WriteOnly<Value, Facts, "siemens_mm4">;
 
 /**
  * User access level. `keep: true` keeps it and wears the EEPROM. The manual leaves open which other settings there are
@@ -225,9 +225,9 @@ export declare const mainActualValue: ReadOnly<number, { scale: "ussNormalisatio
 export declare const secondStatusWord: ReadOnly<number>;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

@@ -2,8 +2,8 @@
 // Regenerate with: fieldscribe generate woodward_mpu2s --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Woodward MPU2-S: its points. */
-import type * as runtime from "fieldscribe-runtime";
-import type { DeviceCommand as Command, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
+import type * as fieldscribe_runtime from "fieldscribe-runtime";
+import type { DeviceCommand, SpecialCode, UnknownNumber } from "fieldscribe-runtime";
 import type {
   AnalogSource,
   BreakerLogic,
@@ -61,8 +61,8 @@ import type {
   Switch2,
 } from "./enums.js";
 
-type ReadOnly<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadOnly<Value, Facts, "woodward_mpu2s">;
-type ReadWrite<Value, Facts extends runtime.PointFacts = {}> = runtime.ReadWrite<Value, Facts, "woodward_mpu2s">;
+type ReadOnly<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadOnly<Value, Facts, "woodward_mpu2s">;
+type ReadWrite<Value, Facts extends fieldscribe_runtime.PointFacts = {}> = fieldscribe_runtime.ReadWrite<Value, Facts, "woodward_mpu2s">;
 
 /** Telegram identification. The manual leaves open whether it is 1301 or 1301h (telegram_identification_base). */
 export declare const telegramIdentification: ReadOnly<number>;
@@ -792,9 +792,9 @@ export declare const engineMonitoringDelay: ReadWrite<number>;
 export declare const monitoringStartFrequency: ReadWrite<number>;
 
 /** All points by their names here. */
-export declare const allPoints: Readonly<Record<string, runtime.Point>>;
+export declare const allPoints: Readonly<Record<string, fieldscribe_runtime.Point>>;
 /** All commands by their names here. */
-export declare const allCommands: Readonly<Record<string, Command>>;
+export declare const allCommands: Readonly<Record<string, DeviceCommand>>;
 /** What points were called before. */
 export declare const oldNames: Readonly<Record<string, string>>;
 export {};

@@ -13,7 +13,7 @@ from fieldscribe.text import camel, js_comment, js_string
 from support.described import compile_in, described, loaded_in
 from support.rust_crates import HOSTILE, rare_device
 from support.toolchains import succeed, tool
-from support.typescript_packages import RUNTIME, compile_types, install
+from support.typescript_packages import RUNTIME, compile_types, install, package_name
 
 OF_POINTS_MODULES = {"allCommands", "allPoints", "oldNames"}
 BREAKING = (
@@ -115,3 +115,28 @@ def test_a_name_never_sets_a_prototype(tmp_path: Path) -> None:
     program = 'import { Constructor } from "made-up";\nconsole.log(Object.keys(Constructor.flags).join(" "));'
     assert in_node(program, tmp_path) == "then_ toString_ raw_"
     assert camel("__proto__") != "__proto__"
+
+
+NAMES_OF_MODULES = "array bigint boolean bits command date extract f32 f64 handles iterable iterator line map number"
+NAMES_OF_MODULES += " object partial place point points promise read_only read_write readonly record runtime s16 s64 s8"
+NAMES_OF_MODULES += " special_code stored stored_write_only string symbol u16 u32 u8 uint8_array unknown_number word"
+NAMES_OF_MODULES += " word_kind write_only"
+
+
+def test_no_name_is_one_that_modules_need(tmp_path: Path) -> None:
+    """Neither of numbers, of flags nor of a device: the packages load, and their types compile."""
+    devices = [("named", "enum: {0: off, 1: run}"), ("words", "flags: {0: off, 1: run}")]
+    devices += [(name, "unit: Hz") for name in ("line", "point", "handles", "modbus_device", "u16")]
+    modules = []
+    for device, meaning in devices:
+        names = enumerate(NAMES_OF_MODULES.split())
+        rows = "".join(f"- {{name: {name}, at: {at}, {meaning}}}\n" for at, name in names)
+        (tmp_path / device).mkdir()
+        made = loaded_in(tmp_path / device, described(rows).replace("device: made_up", f"device: {device}"))
+        install(tmp_path, [made])
+        modules.append(f"node_modules/{package_name(made)}/index")
+    options = {"module": "nodenext", "lib": ["ES2020"], "strict": True, "types": [], "noEmit": True}
+    settings = {"compilerOptions": options, "files": [f"{module}.d.ts" for module in modules]}
+    (tmp_path / "tsconfig.json").write_text(json.dumps(settings), "utf-8")
+    assert compile_types(tmp_path) == ""
+    in_node("".join(f'await import("./{module}.js");\n' for module in modules), tmp_path)

@@ -40,10 +40,13 @@ WORD_MEMBERS = frozenset({"raw", "kind"})
 """Public members of words of flags, which no flag may hide."""
 
 _CLASS_TAKEN = frozenset(
-    {"Array", "Bits", "Date", "Handles", "Object", "Place", "Promise", "ReadOnly", "ReadWrite", "Readonly", "Record"}
-    | {"SpecialCode", "Stored", "StoredWriteOnly", "Uint8Array", "UnknownNumber", "Word", "WordKind", "WriteOnly"}
+    {"Array", "Bits", "Date", "DeviceCommand", "Handles", "Object", "Place", "Promise", "ReadOnly", "ReadWrite"}
+    | {"Readonly", "Record", "SpecialCode", "Stored", "StoredWriteOnly", "Uint8Array", "UnknownNumber", "Word"}
+    | {"WordKind", "WriteOnly", "U8", "U16", "U32", "U64", "S8", "S16", "S32", "S64", "F32", "F64"}
 )
 """Names that generated modules use, so that no class may have them."""
+_BESIDE_DEVICE = frozenset({"Extract", "Iterable", "Line", "Point"})
+"""Names that only the module with the class of the device uses, beside the class of its family."""
 
 _POINT_TAKEN = _RESERVED | OBJECT_MEMBERS | MAKERS | DEVICE_MEMBERS
 _WORD_TAKEN = OBJECT_MEMBERS | WORD_MEMBERS
@@ -80,7 +83,8 @@ class Identifiers(ClassNames):
         self.folder = device.id
         self.package = device.id.replace("_", "-")
         name = pascal(device.id)
-        self.device_class = f"{name}Device" if name in _CLASS_TAKEN else name
+        taken = {*_CLASS_TAKEN, *_BESIDE_DEVICE, f"{pascal(device.family)}Device"}
+        self.device_class = f"{name}Device" if name in taken else name
         self.options = f"{self.device_class}Options"
         super().__init__(device, {self.device_class, self.options, *_CLASS_TAKEN})
 

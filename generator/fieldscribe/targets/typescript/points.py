@@ -148,5 +148,5 @@ class Points:
 def _command_type(made: Call) -> str:
     given = made.keywords.get("arguments")
     if isinstance(given, Mapping):
-        return f"Command<{{ {'; '.join(f'{js_string(str(name))}: number' for name in given)} }}>"
-    return "Command" if made.name == "Command" else "Command<Record<never, number>>"
+        return f"DeviceCommand<{{ {'; '.join(f'{js_string(str(name))}: number' for name in given)} }}>"
+    return "DeviceCommand" if made.name == "Command" else "DeviceCommand<Record<never, number>>"
