@@ -16,7 +16,7 @@ from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe_runtime import AnyDevice
 from fieldscribe_runtime.modbus.planner import plan
-from support.described import DEVICES, group, head, together, write
+from support.described import DEVICES, described, group, head, together, write
 from support.small_drive import Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
@@ -381,3 +381,55 @@ def test_points_that_do_not_exist_now_are_left_out_of_groups(run: Run, tmp_path:
         why = "(illegal_data_address); it exists only when system_type == three_phase_four_wire\n"
         assert (named.code, named.out.endswith(why)) == (1, True), named
         meter.device.complaints.clear()
+
+
+CLOCK = """\
+- {name: hour, at: 0, range: 0..23, write_with: [minute, second], changes: never}
+- {name: minute, at: 1, range: 0..59, write_with: [hour, second], changes: never}
+- {name: second, at: 2, range: 0..59, write_with: [hour, minute], changes: never}
+- {name: level, at: 3, range: 0..9, changes: never}
+"""
+
+
+@pytest.fixture
+def clock(tmp_path: Path) -> Iterator[tuple[Simulated, tuple[str, ...]]]:
+    """A device whose time is written in one request, and the words that name it on its line."""
+    device = write(tmp_path, described(CLOCK))
+    with simulated(tmp_path, values={"hour": 1, "minute": 2, "second": 3, "level": 4}) as drive:
+        yield drive, (str(device), "--line", f"tcp://127.0.0.1:{drive.port}")
+
+
+def test_points_that_are_written_together_travel_in_one_request(
+    clock: tuple[Simulated, tuple[str, ...]], run: Run
+) -> None:
+    drive, (device, *line) = clock
+    before = drive.requests
+    done = run("write", device, "second=56", "level=5", "minute=34", "hour=12", "--yes", *line)
+    assert (done.code, drive.requests - before, done.out.count("written: ")) == (0, 2, 4), done
+    assert [drive.values[name] for name in ("hour", "minute", "second", "level")] == [12, 34, 56, 5]
+    half = run("write", device, "hour=1", "second=2", "--yes", *line)
+    assert (half.code, half.out) == (2, "")
+    assert "hour is written in one request with minute\n  hint: write minute=VALUE, too" in half.err
+    drive.fault("exception")
+    refused = run("write", device, "level=7", "hour=1", "minute=2", "second=3", "--yes", *line)
+    assert (refused.code, "nothing was written" in refused.err) == (1, False)
+    assert "perhaps written: level; not written: hour, minute, second" in refused.err
+
+
+def test_restore_writes_together_what_the_device_takes_together(
+    clock: tuple[Simulated, tuple[str, ...]], run: Run, tmp_path: Path
+) -> None:
+    """Only the minute differs, and the others travel with it; a device that is strict refuses a half."""
+    drive, (device, *line) = clock
+    file = tmp_path / "a.json"
+    assert run("snapshot", device, "--out", str(file), *line).code == 0
+    drive.values["minute"] = 30
+    assert run("restore", str(file), device, "--yes", *line).code == 0
+    assert [drive.values[name] for name in ("hour", "minute", "second")] == [1, 2, 3]
+    drive.values["minute"] = 30
+    alone = run("restore", str(file), device, "--yes", "--only", "minute", *line)
+    assert (alone.code, drive.values["minute"]) == (1, 30)
+    assert "minute: it is written in one request with hour, second, which is not restored" in alone.err
+    drive.fault("silent")
+    lost = run("restore", str(file), device, "--yes", "--timeout", "0.2", "--retries", "0", *line)
+    assert lost.code == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from pathlib import Path
 
 import pytest
 from fieldscribe.families.modbus.frames import crc16, frame
@@ -11,6 +12,7 @@ from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.line import Line, Stream
+from support.described import described, write
 
 
 def line_of(name: str, *units: int, framing: str = "rtu", strict: bool = False, **settings: object) -> Line:
@@ -241,3 +243,18 @@ def test_a_point_whose_condition_does_not_hold_is_refused_where_the_simulator_is
     assert str(device_of(strict).complaints[0]) == text
     device_of(strict).values["system_type"] = "three_phase_four_wire"
     assert [said(strict, request)[:2] for request in requests] == ["04", "04", "04"]
+
+
+def test_a_write_of_half_of_what_belongs_together_is_refused(tmp_path: Path) -> None:
+    """Whole, the limits of each count as the request brings them."""
+    points = (
+        "- {name: low, at: 0, range: 0..high, write_with: [high]}\n"
+        "- {name: high, at: 1, range: low..100, write_with: [low]}\n"
+    )
+    write(tmp_path, described(points))
+    line = line_of(str(tmp_path), strict=True, values={"low": 10, "high": 20})
+    assert said(line, "06 0000 0005")[:2] == "86"
+    assert said(line, "10 0000 0002 04 0032 003c") == "1000000002"
+    assert said(line, "10 0000 0002 04 003c 0032")[:2] == "90"
+    assert [device_of(line).values[name] for name in ("low", "high")] == [50, 60]
+    assert [each.rule for each in device_of(line).complaints] == ["together", "out of range"]

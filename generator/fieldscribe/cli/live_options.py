@@ -90,19 +90,31 @@ def _named(text: str, project: Project) -> str:
 
 
 class Work:
-    """What a command is at, for whoever interrupts it, or an error does: what was `written`, and what is `left`."""
+    """What a command is at, for whoever interrupts it, or an error does: what was `written`, `begun`, and is `left`."""
 
     def __init__(self) -> None:
         self.written: list[str] = []
         self.left: list[str] = []
+        self.begun: list[str] = []
+
+    @contextmanager
+    def writing(self, names: list[str]) -> Iterator[None]:
+        """Note what a request writes: it is `begun`, and then written unless an error comes."""
+        self.begun = names
+        yield
+        self.written += names
+        self.left = [name for name in self.left if name not in names]
+        self.begun = []
 
     def state(self) -> str:
         """Return what was written and what was not, for a command that ends early."""
         if not self.left:
             return f"written: {', '.join(self.written)}" if self.written else "nothing was written"
         written = f"written: {', '.join(self.written)}; " if self.written else ""
-        rest = f"; not written: {', '.join(self.left[1:])}" if self.left[1:] else ""
-        return f"{written}perhaps written: {self.left[0]}{rest}"
+        begun = self.begun or self.left[:1]
+        left = [name for name in self.left if name not in begun]
+        rest = f"; not written: {', '.join(left)}" if left else ""
+        return f"{written}perhaps written: {', '.join(begun)}{rest}"
 
 
 class Live(NamedTuple):

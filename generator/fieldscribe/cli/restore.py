@@ -16,7 +16,7 @@ from fieldscribe.conversation.selection import choose_point
 from fieldscribe.live.journal import Journal, interrupted
 from fieldscribe.live.restoring import Order, ordered, refusals
 from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of, take
-from fieldscribe.live.writing import Planner, Write
+from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.model import Point
 from fieldscribe.report import visible
 from fieldscribe.resources import use_python_runtime
@@ -174,17 +174,20 @@ def _write(live: Live, writes: list[Write], now: Snapshot, journal: Journal) -> 
     """Write all, each with its lines in the journal. Raises FieldscribeError."""
     live.work.left = [write.reading.label for write in writes]
     try:
-        for number, write in enumerate(writes):
-            held = now.points.get(write.item)
-            journal.begin(number, before=held and held.raw, raw=write.raw, text=write.text)
+        for request in in_requests(live.model, writes):
+            numbers = [writes.index(write) for write in request]
+            for number, write in zip(numbers, request, strict=True):
+                held = now.points.get(write.item)
+                journal.begin(number, before=held and held.raw, raw=write.raw, text=write.text)
             try:
-                write.carry_out(live.device)
+                with live.work.writing([write.reading.label for write in request]):
+                    carry_out(request, live.device)
             except FieldscribeError as error:
-                if not error.lost:
+                for number in numbers if not error.lost else ():
                     journal.refused(number, str(error))
                 raise
-            journal.done(number)
-            live.work.written.append(live.work.left.pop(0))
+            for number in numbers:
+                journal.done(number)
         journal.end()
     finally:
         journal.close()

@@ -8,7 +8,7 @@ from argparse import ArgumentParser, Namespace
 from fieldscribe.cli.common import StopError, add_format, print_json
 from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
-from fieldscribe.live.writing import Planner, Write
+from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.report import Line, visible
 from fieldscribe.user_errors import RefusedError
 
@@ -61,9 +61,9 @@ def run(arguments: Namespace) -> int:
             ask(live, writes)
         live.work.left = [write.reading.label for write in writes]
         with live.progress():
-            for write in writes:
-                write.carry_out(live.device)
-                live.work.written.append(live.work.left.pop(0))
+            for request in in_requests(live.model, writes):
+                with live.work.writing([write.reading.label for write in request]):
+                    carry_out(request, live.device)
     if arguments.format == "json":
         written = [write.reading.as_data() for write in writes]
         print_json({"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "written": written})

@@ -59,6 +59,11 @@ def ordered(model: Device, now: Snapshot, wanted: Snapshot, is_chosen: Callable[
             differing[item] = raw
     order.same = len(equal)
     _add_changed(points, differing, equal)
+    names = {points[item].name for item in differing}
+    for item in list(differing):
+        if missing := [name for name in points[item].write_with if name not in names]:
+            order.refused[item] = f"it is written in one request with {', '.join(missing)}, which is not restored"
+            del differing[item]
     _Sorter(model, points, held, order).sort(differing)
     return order
 
@@ -86,9 +91,15 @@ def _will_exist(model: Device, point: Point, raws: Mapping[str, int]) -> bool:
 
 
 def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: dict[str, int]) -> None:
-    """Add points that are as wanted now, but that a write of another point changes."""
+    """Add points that are as wanted now, but that a write of another point changes, or that it travels with."""
     names = {points[item].name for item in differing}
-    while changed := [item for item in equal if names.intersection(points[item].changes_with)]:
+    together = [point for point in points.values() if point.write_with]
+    while changed := [
+        item
+        for item in equal
+        if names.intersection(points[item].changes_with)
+        or any(points[item].name in point.write_with and point.name in names for point in together)
+    ]:
         differing.update({item: equal.pop(item) for item in changed})
         names.update(points[item].name for item in changed)
 

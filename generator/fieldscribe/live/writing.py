@@ -55,6 +55,31 @@ class Write:
             handle.write_raw(self.raw, **({"keep": True} if self.keep else {}))
 
 
+def in_requests(model: Device, writes: list[Write]) -> list[list[Write]]:
+    """Return the writes by request: what the device takes together alone stands where the last of it stood."""
+    names = {point.item: point.name for point in model.points}
+    partners = {point.item: point.write_with for point in model.points if point.write_with}
+    made: list[list[Write]] = []
+    for write in writes:
+
+        def belongs(other: Write, item: str = write.item) -> bool:
+            return names.get(other.item) in partners.get(item, ()) or names.get(item) in partners.get(other.item, ())
+
+        joined = [request for request in made if any(map(belongs, request))]
+        made = [request for request in made if request not in joined]
+        made.append([*(each for request in joined for each in request), write])
+    return made
+
+
+def carry_out(request: list[Write], device: AnyDevice) -> None:
+    """Write what travels in one request, once. Raises FieldscribeError."""
+    if len(request) == 1:
+        request[0].carry_out(device)
+        return
+    with carried_out_once(device):
+        device._run(device._write_together_steps({write.item: write.raw for write in request}, as_raw=True))
+
+
 class Planner:
     """Plans writes one after the other: what is planned counts for the scales and limits of what follows.
 
@@ -83,10 +108,20 @@ class Planner:
         Raises UnclearError, RefusedError, FieldscribeError.
         """
         writes = [self._of_word(word) for word in words]
+        self._require_partners([self._points[write.item] for write in writes if write.item in self._points])
         if self._keep:
             commands = {self._points[write.item].keeps for write in writes if write.item in self._points}
             writes += [self._command(name) for name in self._commands if name in commands]
         return writes
+
+    def _require_partners(self, points: list[Point]) -> None:
+        """Raise UnclearError if a point is missing that the device takes together with another one alone."""
+        others = {point.name for point in self._points.values()} - {point.name for point in points}
+        for point in points:
+            if missing := [name for name in point.write_with if name in others]:
+                given = " ".join(f"{name}=VALUE" for name in missing)
+                message = f"{label(point)} is written in one request with {', '.join(missing)}"
+                raise UnclearError(message, f"write {given}, too")
 
     def _of_word(self, word: str) -> Write:
         name, colon, arguments = word.partition(":")

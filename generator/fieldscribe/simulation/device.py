@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import ChainMap, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -150,7 +150,7 @@ class SimulatedDevice:
                 self.conditions[condition] = all(numbers[each.name] == self.memory.raw(each.name) for each in asked)
                 return points
         for point in points:
-            self._check(point, numbers[point.name])
+            self._check(point, numbers[point.name], numbers if point.write_with else {})
         for point in points:
             self._remember(point, keep)
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
@@ -244,15 +244,17 @@ class SimulatedDevice:
         words: Sequence[int] = held if place.size == 1 else split(joined_cells(held, place.size), point.words)
         return _on_a_step(point, raw_of(point, words))
 
-    def _check(self, point: Point, raw: int) -> None:
-        """Raise Refusal if a point must not take a raw number now."""
+    def _check(self, point: Point, raw: int, numbers: Mapping[str, int]) -> None:
+        """Raise Refusal if a point must not take a raw number now; `numbers` come with it, by name."""
         for condition in point.conditions:
             if not self.conditions[condition]:
                 raise Refusal("condition", f"{label(point)} is written only when {condition}", point)
         if point.text is not None:
             return
+        new = {name: codec.setting_of(self.layout.points[name], number) for name, number in numbers.items()}
+        settings = ChainMap(new, self.memory.settings) if new else self.memory.settings  # type: ignore[arg-type]  # read only
         try:
-            codec.check(point, raw, self.memory.settings)
+            codec.check(point, raw, settings)
         except CodecError as error:
             if point.bits is not None and raw == self.memory.raw(point.name):
                 return  # the bits of another point in the word that the request does not change

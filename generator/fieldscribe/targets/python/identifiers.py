@@ -45,7 +45,7 @@ DEVICE_MEMBERS = frozenset(
         "unit",
         "variants",
     }
-    | {"write_at"}
+    | {"write_at", "write_together"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 

@@ -132,6 +132,13 @@ class AnyDevice(Session):
         values: dict[str, Any] = self._run(self._read_many_steps(what, errors))
         return values
 
+    def write_together(self, values: Mapping[Any, Any]) -> None:
+        """Write several points by one request, as `write_with` asks for: values by the point or its name.
+
+        Raises RequestError (not_together) where a point is missing, or one request cannot write them.
+        """
+        self._run(self._write_together_steps(values))
+
 
 class AnyAsyncDevice(Session):
     """A device of any family, asynchronously. One task at a time talks to it; see `AnyDevice` for shared transports."""
@@ -215,3 +222,10 @@ class AnyAsyncDevice(Session):
         """
         values: dict[str, Any] = await self._run(self._read_many_steps(what, errors))
         return values
+
+    async def write_together(self, values: Mapping[Any, Any]) -> None:
+        """Write several points by one request, as `write_with` asks for: values by the point or its name.
+
+        Raises RequestError (not_together) where a point is missing, or one request cannot write them.
+        """
+        await self._run(self._write_together_steps(values))

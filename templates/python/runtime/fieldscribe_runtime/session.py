@@ -51,6 +51,8 @@ Value = float | str | tuple[int, ...] | Special
 _TRIES = frozenset({"retries", "repeats"})
 _SECONDS = frozenset({"retry_pause", "patience", "fresh_for"})
 _NEVER = "never"
+_JOINT = frozenset({"coil", "holding", "telegram"})
+"""The spaces in which a request writes several points."""
 _KEPT = frozenset({_NEVER, "rarely"})
 _LASTING = frozenset({0x01, 0x02, 0x03})
 """Exceptions that say that a request does not suit the device: no such function, address, or number of words."""
@@ -315,6 +317,51 @@ class Session(NamedPoints, ABC):
             except FieldscribeError as error:
                 self._add_condition(error, point)
                 raise
+
+    def _write_together_steps(self, values: Mapping[Any, Any], *, as_raw: bool = False) -> Steps[None]:
+        """Write several points in one request; each is checked with the new numbers of those before it."""
+        points = {self._writable_point(one): value for one, value in values.items()}
+        place = self._joint_place(points)
+        raws: dict[str, int] = {}
+        for point, value in points.items():
+            (point.require_raw if as_raw else point.require)(value)
+            needs = dict.fromkeys((*point.scale_needs, *point.limit_needs))
+            known = yield from self._raws_steps(point, needs, raws, writes=True)
+            raws[point.facts.item] = value if as_raw else point.encode(value, known)
+            point.check(raws[point.facts.item], known)
+        for command in self.AUTOMATIC.get("before write", ()):
+            yield from command.steps(self, {})
+        words: dict[int, int] = {}
+        with About(self.traffic, *points):
+            for point in points:
+                raw, addresses = raws[point.facts.item], sorted((point.facts.write_at or point.facts.at).addresses)
+                if point.facts.bits is not None:
+                    held = words[addresses[0]] if addresses[0] in words else (yield from self._shared_word_steps(point))
+                    words[addresses[0]] = point.insert(held, raw)
+                else:
+                    words.update(zip(addresses, point.to_words(raw), strict=True))
+            yield from self._put_steps(place, tuple([words[address] for address in place.addresses]))
+
+    def _writable_point(self, one: Any) -> Encoding[Any]:
+        point = self._own(one)
+        self._require(point)
+        if not isinstance(point, Encoding):
+            raise AccessError(f"{point.label} cannot be written")
+        return point
+
+    def _joint_place(self, points: Iterable[Point]) -> Place:
+        """Return the place of points that one request writes; raises RequestError (not_together)."""
+        names = {point.facts.name for point in points}
+        for point in points:
+            if missing := [name for name in point.facts.write_with if name not in names and self._found(name)]:
+                text = f"{point.label} is written in one request with {', '.join(missing)}"
+                raise RequestError("not_together", text)
+        places = [point.facts.write_at or point.facts.at for point in points]
+        addresses = sorted({address for place in places for address in place.addresses})
+        kinds = {place.replaced(addresses=()) for place in places}
+        if len(kinds) != 1 or places[0].space not in _JOINT or addresses[-1] - addresses[0] >= len(addresses):
+            raise RequestError("not_together", "takes points that one request can write: side by side, in one space")
+        return places[0].replaced(addresses=tuple(addresses))
 
     def _put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, and forget what they change."""
