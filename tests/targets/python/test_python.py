@@ -164,7 +164,7 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
                 "retry_pause",
                 "rows",
             ),
-            *("traffic", "transport", "unit", "variants", "write_at"),
+            *("traffic", "transport", "unit", "variants", "write_at", "write_together"),
         }
 
 
