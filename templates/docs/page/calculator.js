@@ -1,6 +1,6 @@
 /* The calculator of a point: value, raw number, words, bits and frames, each from any other, by the generated code. */
 
-/** Fill the calculator of a point; it stays hidden for what has no code. */
+/** Fill the calculator of a point; it stays hidden for what has no code. @param {HTMLElement | null} place @param {Point} point */
 function fillCalculator(place, point) {
   const codec = codecOf(point);
   if (!place || !codec || !codec.access) return;
@@ -9,9 +9,11 @@ function fillCalculator(place, point) {
 }
 
 /** What was entered last stays for a visit: the unit, the framing, and the raw numbers of other points. */
+/** @type {{ unit: number | null, framing: string, raws: Record<string, any>, bases: Record<string, number> }} */
 const entered = { unit: null, framing: "", raws: {}, bases: {} };
 
 class Calculator {
+  /** @param {Point} point @param {Codec} codec */
   constructor(point, codec) {
     this.point = point;
     this.codec = codec;
@@ -43,19 +45,20 @@ class Calculator {
       const starts = [...startsOf(this.other(name), 1)];
       choices = choices.flatMap((made) => starts.map((raw) => ({ ...made, [name]: String(raw) }))).slice(0, MOST_CHOICES);
     }
-    const tried = (test) => firstGood(choices, (made) => {
+    const tried = (/** @type {(raw: any) => any} */ test) => firstGood(choices, (made) => {
       Object.assign(entered.raws, made);
       if (firstGood(startsOf(this.codec), test) === undefined) throw new SyntaxError();
     });
     Object.assign(entered.raws, tried((raw) => this.test(raw)) ?? tried((raw) => this.codec.form.decode(raw, this.raws())) ?? choices[0]);
   }
 
-  /** Raise what is wrong with a raw number. */
+  /** Raise what is wrong with a raw number. @param {any} raw */
   test(raw) {
     this.codec.check?.(raw, this.raws());
     shownValue(this.codec, raw, this.raws());
   }
 
+  /** @param {string} name */
   other(name) {
     const { table } = generatedCode().Device;
     return table.found(name, this.variants()) ?? table.byName.get(name)[0];
@@ -78,6 +81,7 @@ class Calculator {
       this.bits?.box, this.status, this.line(), this.frames].filter(Boolean);
   }
 
+  /** @param {string} label @param {(text: string) => any} read @param {string} [unit] */
   field(label, read, unit = "") {
     const input = element("input", { type: "text", spellcheck: false, autocomplete: "off" });
     input.addEventListener("input", () => this.take(() => read(input.value.trim()), input));
@@ -85,13 +89,13 @@ class Calculator {
   }
 
   chooser() {
-    const list = element("select", {}, element("option", { value: "" }, "…"), ...this.entries.map(([raw, name]) => element("option", { value: raw }, `${raw} ${name}`)));
+    const list = element("select", {}, element("option", { value: "" }, "…"), ...(this.entries ?? []).map(([raw, name]) => element("option", { value: raw }, `${raw} ${name}`)));
     list.addEventListener("input", () => list.value && this.take(() => this.rawOfNumber(list.value.replace(/.*\(([0-9A-F]+h)\)$/, "$1")), list));
     this.list = list;
     return element("label", {}, element("span", {}, "Name"), list);
   }
 
-  /** A field for the raw number of another point, with what it means. */
+  /** A field for the raw number of another point, with what it means. @param {string} name */
   need(name) {
     const other = this.other(name);
     const input = element("input", { type: "text", value: entered.raws[name], spellcheck: false, autocomplete: "off" });
@@ -113,6 +117,7 @@ class Calculator {
     return Object.fromEntries(chosen);
   }
 
+  /** @param {() => any} read @param {HTMLElement} source */
   take(read, source) {
     try {
       this.raw = read();
@@ -122,16 +127,17 @@ class Calculator {
     }
   }
 
+  /** @param {any} error @param {HTMLElement} source */
   fail(error, source) {
-    if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
     this.raw = null;
-    this.status.textContent = error.message;
+    this.status.textContent = knownError(error).message;
     this.status.classList.add("wrong");
-    for (const field of [this.value, this.rawField, this.words]) if (field.input !== source) field.input.value = "";
+    for (const field of [this.value, this.rawField, this.words]) if (field && field.input !== source) field.input.value = "";
     if (this.list && this.list !== source) this.list.value = "";
     this.frames.replaceChildren();
   }
 
+  /** @param {string} text */
   rawOfValue(text) {
     const { codec } = this;
     const { form } = this.point.shared;
@@ -144,6 +150,7 @@ class Calculator {
     return codec.form.wire.raw(codec.form.converted(typed, this.raws()));
   }
 
+  /** @param {string} text */
   rawOfNumber(text) {
     const number = wholeText(text, this.isBig);
     const [low, high] = this.codec.form.wire.limits(this.codec.width);
@@ -151,22 +158,24 @@ class Calculator {
     throw new SyntaxError(`${text} is outside ${low}..${high}`);
   }
 
+  /** @param {string} text */
   rawOfWords(text) {
     const words = (text.match(/[0-9a-f]+/gi) ?? []).map((word) => parseInt(word, 16));
     return this.codec.fromWords(words);
   }
 
-  /** Show what follows from the raw number in all fields but the one that is edited. */
+  /** Show what follows from the raw number in all fields but the one that is edited. @param {HTMLElement} [source] */
   show(source) {
     const { codec, raw } = this;
     if (raw === null) return;
-    const set = (field, text) => { if (field.input !== source) field.input.value = text; };
+    const set = (/** @type {any} */ field, /** @type {string} */ text) => { if (field.input !== source) field.input.value = text; };
     let raws = {};
+    /** @type {string[]} */
     const problems = [];
-    const attempt = (work, other) => {
+    const attempt = (/** @type {() => any} */ work, /** @type {any} */ other) => {
       try { return work(); } catch (error) {
-        if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
-        if (!problems.includes(error.message)) problems.push(error.message);
+        const { message } = knownError(error);
+        if (!problems.includes(message)) problems.push(message);
         return other;
       }
     };
@@ -174,8 +183,8 @@ class Calculator {
     set(this.value, attempt(() => shownValue(codec, raw, raws), ""));
     set(this.rawField, String(raw));
     set(this.words, attempt(() => hexWords(this.wordsOf(raw)), ""));
-    if (this.list && this.list !== source) this.list.value = this.entries.find(([number]) => number.replace(/ \(.*/, "") === String(raw))?.[0] ?? "";
-    if (codec.check) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); });
+    if (this.list && this.list !== source) this.list.value = this.entries?.find(([number]) => number.replace(/ \(.*/, "") === String(raw))?.[0] ?? "";
+    if (codec.check) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); }, undefined);
     const told = attempt(() => codec.told(raw, raws), "");
     const name = codec.nameOf(raw);
     this.status.textContent = [told, typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
@@ -196,6 +205,7 @@ class Calculator {
     return told.filter(Boolean).join(", ");
   }
 
+  /** @param {any} raw */
   wordsOf(raw) {
     return this.codec.facts.bits ? [this.codec.insert(0, raw)] : this.codec.toWords(raw);
   }
@@ -208,7 +218,7 @@ class Calculator {
       const flag = flags.find(([from, size]) => bit >= from && bit < from + size);
       const button = element("button", { type: "button", title: flag ? flag[2] : "" }, element("span", { className: "unseen" }, "Bit "), element("small", {}, String(bit + low)), flag ? element("span", { className: "unseen" }, ` ${flag[2]} `) : null, element("b", {}));
       button.dataset.bit = bit;
-      button.addEventListener("click", () => this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit)))));
+      button.addEventListener("click", () => this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit))), button));
       return button;
     });
     const show = () => {
@@ -230,6 +240,7 @@ class Calculator {
     return BigInt.asUintN(codec.width, pattern);
   }
 
+  /** @param {bigint} bits */
   pattern(bits) {
     const { wire } = this.codec.form;
     return wire.number(wire.raw(bits), this.codec.width);
@@ -258,21 +269,23 @@ class Calculator {
     return element("div", { className: "fields" }, ...fields);
   }
 
-  /** Show the requests and replies that read and write this number. */
+  /** Show the requests and replies that read and write this number. @param {any} raws @param {boolean} isAllowed */
   async exchange(raws, isAllowed) {
     const turn = (this.turn = {});
     const { codec, raw } = this;
     if (this.isCyclic || !codec.at.addresses.length) return;
     const boxes = [];
-    if (codec.decode) boxes.push(this.readBox(await this.sent(raw, raws, (point) => point.readRaw())));
-    if (codec.encode && isAllowed) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (point) => point.writeRaw(raw))));
+    if (codec.decode) boxes.push(this.readBox(await this.sent(raw, raws, (/** @type {any} */ point) => point.readRaw())));
+    if (codec.encode && isAllowed) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (/** @type {any} */ point) => point.writeRaw(raw))));
     if (this.turn === turn && !this.frames.contains(document.activeElement)) this.frames.replaceChildren(...boxes);
   }
 
-  /** The exchanges of an operation on a device that holds this number; `reply` is answered instead of its own. */
+  /** The exchanges of an operation on a device that holds this number; `reply` is answered instead of its own.
+   * @param {any} raw @param {any} raws @param {any} work @param {any} [reply] */
   async sent(raw, raws, work, reply = null) {
     const { codec } = this;
     const { FieldscribeError, Device } = generatedCode();
+    /** @type {any} */
     let line = { exchanges: [] };
     try {
       const bases = codec.at.base === undefined ? {} : { [codec.at.base]: entered.bases[codec.at.base] ?? 0 };
@@ -292,31 +305,34 @@ class Calculator {
     }
   }
 
-  /** The exchange that reads, with a reply that can be edited: what a device sent says what it means. */
+  /** The exchange that reads, with a reply that can be edited: what a device sent says what it means. @param {any} done */
   readBox(done) {
     const box = exchangeBox("Read", done);
     const reply = box.querySelector(".reply input");
     reply?.addEventListener("input", async () => {
       const frame = frameOf(reply.value, device.family === "can");
       if (!frame) { this.fail(new SyntaxError("this is no frame in hexadecimal"), reply); return; }
-      const { result, error } = await this.sent(this.codec.form.wire.raw(0), this.raws(), (point) => point.readRaw(), frame);
+      const { result, error } = await this.sent(this.codec.form.wire.raw(0), this.raws(), (/** @type {any} */ point) => point.readRaw(), frame);
       if (error) this.failReply(error); else this.take(() => result, reply);
     });
     return box;
   }
 
+  /** @param {any} error */
   failReply(error) {
     this.status.textContent = error.message;
     this.status.classList.add("wrong");
   }
 }
 
+/** @param {AnsweringLine} line @param {Codec} codec @param {any[]} words */
 function hold(line, codec, words) {
   line.hold(codec.at, line.framing === "uss" && words.length > 1 ? [words] : words);
 }
 
+/** @param {string} what @param {any} facts */
 function exchangeBox(what, { exchanges, error }) {
-  const rows = exchanges.flatMap(({ request, reply }, at) => {
+  const rows = exchanges.flatMap((/** @type {any} */ { request, reply }, /** @type {number} */ at) => {
     const isLast = at === exchanges.length - 1;
     const name = exchanges.length > 1 ? `${what} ${at + 1}` : what;
     return [frameRow(`${name}: request`, frameText(request)), reply ? frameRow(`${name}: reply`, frameText(reply), what === "Read" && isLast) : ""];
@@ -324,13 +340,14 @@ function exchangeBox(what, { exchanges, error }) {
   return element("div", {}, ...rows, error ? element("p", { className: "wrong" }, error.message) : "");
 }
 
+/** @param {string} name @param {string} text @param {boolean} [isEdited] */
 function frameRow(name, text, isEdited = false) {
   if (!isEdited) return element("p", { className: "frame" }, element("span", {}, name), element("code", {}, text), copyButton("Copy", () => text));
   const input = element("input", { type: "text", value: text, spellcheck: false, autocomplete: "off" });
   return element("label", { className: "frame reply" }, element("span", {}, name), input);
 }
 
-/** Return the value of a raw number as a field has it: without its unit. */
+/** Return the value of a raw number as a field has it: without its unit. @param {Codec} codec @param {any} raw @param {any} raws */
 function shownValue(codec, raw, raws) {
   const special = codec.specialOf(raw);
   if (special) return special.name;
@@ -340,7 +357,8 @@ function shownValue(codec, raw, raws) {
 
 const MOST_CHOICES = 400;
 
-/** Yield raw numbers to begin with: the default, then `first`, 0, and the ends of what is allowed and named. */
+/** Yield raw numbers to begin with: the default, then `first`, 0, and the ends of what is allowed and named.
+ * @param {Codec} codec @param {number} [first] */
 function* startsOf(codec, first = 0) {
   const { form, facts, rawLimits: [low, high], names } = codec;
   const raws = [facts.default, () => codec.encode(facts.default), facts.fixed && !facts.bits ? facts.fixed[1] : first, 0, () => codec.encode(""), () => form.converted(codec.minimum, {}), () => form.converted(100, {}), () => form.converted(50, {}), low, high];
@@ -354,24 +372,26 @@ function* startsOf(codec, first = 0) {
   }
 }
 
-/** Return the first of these for which a test raises nothing; undefined if there is none. */
+/** Return the first of these for which a test raises nothing; undefined if there is none.
+ * @param {Iterable<any>} candidates @param {(candidate: any) => any} test */
 function firstGood(candidates, test) {
   for (const each of candidates) {
     try {
       test(each);
       return each;
     } catch (error) {
-      if (!(error instanceof generatedCode().FieldscribeError) && !(error instanceof SyntaxError)) throw error;
+      knownError(error);
     }
   }
   return undefined;
 }
 
+/** @param {number[]} words */
 function hexWords(words) {
   return words.map((word) => word.toString(16).toUpperCase().padStart(4, "0")).join(" ");
 }
 
-/** Return a whole number, decimal, or hexadecimal as `1F4h` and `0x1F4`. */
+/** Return a whole number, decimal, or hexadecimal as `1F4h` and `0x1F4`. @param {string} text @param {boolean} isBig */
 function wholeText(text, isBig) {
   const hexadecimal = /^(?:0x|\$)([0-9a-f]+)$|^([0-9a-f]+)h$/i.exec(text);
   const plain = hexadecimal ? `0x${hexadecimal[1] ?? hexadecimal[2]}` : text;
@@ -379,10 +399,16 @@ function wholeText(text, isBig) {
   return isBig ? BigInt(plain) : Number(plain);
 }
 
-/** Return a number, with a point or a comma. */
+/** Return a number, with a point or a comma. @param {string} text */
 function numberText(text) {
   const plain = text.replace(",", ".").replace(/\s+/g, "");
   if (/^[+-]?\d{16,}$/.test(plain)) return BigInt(plain);
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) throw new SyntaxError(`${text || "nothing"} is no number`);
   return Number(plain);
+}
+
+/** Return what generated code raised, or that a text is no number; raise any other error. @param {any} error @returns {Error} */
+function knownError(error) {
+  if (error instanceof generatedCode().FieldscribeError || error instanceof SyntaxError) return error;
+  throw error;
 }

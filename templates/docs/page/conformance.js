@@ -24,7 +24,7 @@ function conformancePart() {
     status.textContent = wrong ? `${countedText(wrong, "vector")} failed, ${good} passed` : `all ${good} vectors passed`;
     status.classList.toggle("wrong", wrong > 0);
     results.append(tableOf(["Kind", "Passed", "Failed"], kinds.map((kind) => [kind, String(passed[kind] ?? 0), failed[kind] ? String(failed[kind]) : ""]), "Vectors by kind"));
-    if (shown.length) results.append(element("ul", {}, ...shown.map((vector) => element("li", { className: "wrong" }, failureText(vector)))));
+    if (shown.length) results.append(element("ul", {}, ...shown.map((/** @type {any} */ vector) => element("li", { className: "wrong" }, failureText(vector)))));
   });
   const about = "This page carries the conformance vectors of the device, which are computed from the description alone. Its calculator and its decoder use the code that is held against them here.";
   return part("Conformance", element("p", {}, about), button, status, results);

@@ -8,6 +8,14 @@ const SLICE_TIME = 20; // milliseconds between two looks at what the reader does
 
 const USS_FRAMINGS = { pkw: "parameter part alone", pzd: "process data of the master", "pzd response": "process data of the device", broadcast: "broadcast alone" };
 
+/** The decoders by family; a page has that of its family alone. @type {Record<string, () => any>} */
+const DECODERS = { modbus: () => ModbusDecoder, uss: () => UssDecoder, can: () => CanDecoder };
+
+/** @param {object} settings @returns {FrameDecoder} */
+function newDecoder(settings) {
+  return new (DECODERS[device.family]())(settings);
+}
+
 /** What a reader pasted and set stays for a visit. */
 const pastedBefore = { text: "", known: "", framing: "", pkw: "", pzd: "", onlyWrong: false };
 
@@ -114,7 +122,7 @@ class DecoderView {
     this.heard = [];
     this.show();
     let sliced = performance.now();
-    const decoder = new FamilyDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
+    const decoder = newDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
     for (const heard of decodedFrames(text, decoder)) {
       this.heard.push(heard);
       if (performance.now() - sliced < SLICE_TIME) continue;

@@ -12,7 +12,7 @@ const NO_ANSWER = {
   wrong_length: "it has too few words for its response",
 };
 
-/** Decodes the frames of a device one after the other; the class FamilyDecoder of each family says in `decode` what they are. */
+/** Decodes the frames of a device one after the other; a class for each family says in `decode` what they are. */
 class FrameDecoder {
   /** @param {{ known?: Record<string, number>, framing?: string, pkw?: number, pzd?: number }} settings */
   constructor(settings) {
@@ -20,17 +20,17 @@ class FrameDecoder {
     this.places = new Places(settings.known ?? {});
     const { profile } = generatedCode().Device.table.facts;
     this.profile = profile;
-    this.forget();
-  }
-
-  /** Begin anew, as on another line. */
-  forget() {
     /** @type {Map<string, UnitState>} */
     this.states = new Map();
     /** The requests without an answer. @type {Map<string, any>} */
     this.open = new Map();
     /** What collects the words of telegrams. @type {Map<string, any>} */
     this.receivers = new Map();
+  }
+
+  /** Begin anew, as on another line. */
+  forget() {
+    for (const kept of [this.states, this.open, this.receivers]) kept.clear();
   }
 
   /** @param {number | string | null} unit @returns {UnitState} */
@@ -68,7 +68,7 @@ function hexText(number, digits) {
   return `${number.toString(16).toUpperCase().padStart(digits, "0")}h`;
 }
 
-/** @param {ArrayLike<number>} there @param {ArrayLike<number>} right */
+/** @param {Iterable<number>} there @param {Iterable<number>} right */
 function checkText(there, right) {
   const [here, due] = [hexBytes(there), hexBytes(right)];
   return here === due ? `ok (${here})` : here ? `wrong: ${here}; these bytes give ${due}` : `missing; it would be ${due}`;

@@ -1,6 +1,6 @@
 /* Frames of CAN in words: telegrams, signals, and parameters that are asked for by messages. */
 
-class FamilyDecoder extends FrameDecoder {
+class CanDecoder extends FrameDecoder {
   /** The messages with the identifier of a frame, with the unit. @param {any} frame @returns {[any, number | null][]} */
   senders(frame) {
     const [low, high] = this.profile.units;
@@ -19,7 +19,7 @@ class FamilyDecoder extends FrameDecoder {
     const senders = this.senders(frame);
     const head = `CAN ${hexText(frame.id, 3)}`;
     if (!senders.length) return decodedFrame({ kind: "other", summary: `${head}: not of this device`, notes: [`no message of ${device.id} has this identifier: ${this.identifiers()}`] });
-    const first = ([{ roles }]) => roles.findIndex((/** @type {any} */ role) => role.kind === "constant");
+    const first = (/** @type {[any, number | null]} */ [{ roles }]) => roles.findIndex((/** @type {any} */ role) => role.kind === "constant");
     const fitting = senders.filter((sender) => frame.data.length === sender[0].length && (first(sender) < 0 || frame.data[first(sender)] === sender[0].roles[first(sender)].number));
     if (pasted.remote || !fitting.length) return decodedFrame({ unit: senders[0][1], summary: `${head}: not readable`, faults: [this.unknownKind(pasted, senders.map((sender) => sender[0]))] });
     const rated = fitting.map(([message, unit]) => ({ message, unit, faults: this.faults(message, unit ?? 0, frame) })).sort((one, other) => one.faults.length - other.faults.length);
@@ -61,8 +61,8 @@ class FamilyDecoder extends FrameDecoder {
   /** @param {any} message @param {any} frame */
   checks(message, frame) {
     const sums = message.roles.map((/** @type {any} */ role, /** @type {number} */ at) => ({ ...role, at })).filter((/** @type {any} */ role) => role.kind === "xor");
-    const due = sums.map(({ number }) => frame.data.reduce((sum, byte, at) => ((number >> at) & 1 ? sum ^ byte : sum), 0));
-    return sums.length ? checkText(sums.map(({ at }) => frame.data[at]), due) : "";
+    const due = sums.map((/** @type {any} */ { number }) => frame.data.reduce((/** @type {number} */ sum, /** @type {number} */ byte, /** @type {number} */ at) => ((number >> at) & 1 ? sum ^ byte : sum), 0));
+    return sums.length ? checkText(sums.map((/** @type {any} */ { at }) => frame.data[at]), due) : "";
   }
 
   /** Words of a telegram, which may come in several frames.
@@ -91,9 +91,13 @@ class FamilyDecoder extends FrameDecoder {
         throw error;
       }
     };
-    const starting = positions.flatMap((at) => {
+    /** @type {{ at: number, spot: Spot | null, raw: any }[]} */
+    const starting = positions.flatMap((/** @type {number} */ at) => {
       const spots = this.places.at(name, at);
-      return spots.length ? spots.filter((spot) => Math.min(...spot.addresses.filter((each) => there.has(each))) === at).map((spot) => ({ at, spot, raw: rawOf(spot) })) : [{ at, spot: null, raw: undefined }];
+      const here = spots.filter((spot) => Math.min(...spot.addresses.filter((each) => there.has(each))) === at);
+      /** @type {(Spot | null)[]} */
+      const owners = spots.length ? here : [null];
+      return owners.map((spot) => ({ at, spot, raw: spot === null ? undefined : rawOf(spot) }));
     });
     const isRaw = (/** @type {any} */ raw) => raw !== undefined && !(raw instanceof Error);
     for (const { spot, raw } of starting) if (spot && isRaw(raw)) this.places.learn(state, spot.codec, raw);
@@ -107,6 +111,7 @@ class FamilyDecoder extends FrameDecoder {
   /** @param {any} message @param {number | null} unit @param {any} frame @param {string} own @param {Partial<Decoded>} facts @returns {Decoded} */
   parameter(message, unit, frame, own, facts) {
     const { carriesRole } = generatedCode();
+    /** @type {Record<string, number>} */
     const carried = { address: 0, raw: 0 };
     for (const [at, { kind, number }] of message.roles.entries()) if (kind === "address" || kind === "raw") carried[kind] += frame.data[at] << number;
     const { address } = carried;

@@ -77,7 +77,7 @@ function modbusRequestIn(unit, pdu) {
   return { unit, function: code, address, count, values: valuesIn(code, data).slice(0, count) };
 }
 
-class FamilyDecoder extends FrameDecoder {
+class ModbusDecoder extends FrameDecoder {
   /** @param {Pasted} pasted @returns {Pasted[]} */
   frames(pasted) {
     const { data } = pasted;
@@ -149,7 +149,7 @@ class FamilyDecoder extends FrameDecoder {
       return { values: parseModbusReply(open, Uint8Array.of(unit, ...pdu), this.profile, "pdu"), status: "ok" };
     } catch (error) {
       if (!(error instanceof FrameError)) throw error;
-      return { status: error.status };
+      return { status: /** @type {any} */ (error).status };
     }
   }
 

@@ -3,7 +3,7 @@
 const RESPONSE_WIDTHS = { 1: 1, 2: 2, 4: 1, 5: 2, 6: 1 };
 const TASK_WIDTHS = { 2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1 };
 
-class FamilyDecoder extends FrameDecoder {
+class UssDecoder extends FrameDecoder {
   /** @param {Pasted} pasted @returns {Pasted[]} */
   frames(pasted) {
     const sound = (/** @type {Uint8Array} */ rest) => (rest[0] === 2 && rest[1] + 2 <= rest.length && rest[1] > 1 && !rest.subarray(0, rest[1] + 2).reduce((check, byte) => check ^ byte, 0) ? rest[1] + 2 : 0);
@@ -37,7 +37,7 @@ class FamilyDecoder extends FrameDecoder {
     if (!lacksCheck && check !== data[data.length - 1]) faults.push("the check byte is wrong");
     if (body.length % 2 === 0) faults.push("its data is no whole number of words");
     const unit = data[2];
-    const words = valuesIn(body.subarray(3));
+    const words = wordsIn(body.subarray(3));
     const isForeign = data[0] !== 2 && faults.length > 1;
     const made = isForeign ? decodedFrame({}) : unit === this.profile.broadcast ? this.broadcast(words) : this.telegram(unit, words);
     return { ...made, unit, faults: [...faults, ...made.faults], checks: checkText(lacksCheck ? [] : data.subarray(-1), [check]), summary: `USS, unit ${unit}: ${made.summary}` };
@@ -45,7 +45,7 @@ class FamilyDecoder extends FrameDecoder {
 
   /** Words of one part alone, as manuals print them. @param {string} framing @param {Uint8Array} data @returns {Decoded} */
   bare(framing, data) {
-    const words = valuesIn(data);
+    const words = wordsIn(data);
     const faults = data.length % 2 ? [`the part is made of words of two bytes, here are ${data.length} bytes`] : [];
     const direction = framing === "pzd response" ? "response" : "request";
     let made = decodedFrame({ kind: direction === "response" ? "reply" : "request", summary: `${direction === "response" ? "reply" : "request"}, process data`, said: framing.startsWith("pzd") ? this.process(null, direction, words) : [] });
@@ -186,6 +186,6 @@ function bareFraming(data) {
 }
 
 /** Return the whole words of bytes. @param {Uint8Array} data @returns {number[]} */
-function valuesIn(data) {
+function wordsIn(data) {
   return generatedCode().wordsOfBytes(data.subarray(0, data.length & ~1));
 }

@@ -2,6 +2,7 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** @param {string} name @param {any} facts @param {...any} children */
 function drawn(name, facts, ...children) {
   const made = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(facts)) made.setAttribute(key, String(value));
@@ -9,11 +10,13 @@ function drawn(name, facts, ...children) {
   return made;
 }
 
+/** @param {number} width @param {number} height @param {string} label @param {...Element} children */
 function picture(width, height, label, ...children) {
   return drawn("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label, class: "drawing" }, ...children);
 }
 
-/** Return a text that is cut where it would be wider than `width`; the whole text is its title. */
+/** Return a text that is cut where it would be wider than `width`; the whole text is its title.
+ * @param {number} x @param {number} y @param {string} text @param {number} width @param {any} [facts] */
 function label(x, y, text, width, facts = {}) {
   const most = Math.max(1, Math.floor(width / (facts.class === "inside" ? 5.8 : 6.7)));
   const shown = [...text].length > most ? [...text].slice(0, most - 1).join("") + "…" : text;
@@ -22,7 +25,8 @@ function label(x, y, text, width, facts = {}) {
   return made;
 }
 
-/** Draw a word: a cell for each bit, the highest first, and a line from each field to its name. */
+/** Draw a word: a cell for each bit, the highest first, and a line from each field to its name.
+ * @param {number} bits @param {any[]} fields @param {number} width @param {string} caption */
 function drawBits(bits, fields, width, caption) {
   const cell = Math.max(9, Math.min(24, Math.floor((width > 640 ? 400 : width * 0.62) / bits)));
   const named = fields.filter((field) => field.name).sort((a, b) => a.low - b.low);
@@ -48,7 +52,8 @@ function drawBits(bits, fields, width, caption) {
   return picture(width, 46 + named.length * 18, caption, ...parts);
 }
 
-/** Return the fields of a word with the gaps between them; `always` are bits that are a constant. */
+/** Return the fields of a word with the gaps between them; `always` are bits that are a constant.
+ * @param {any[]} fields @param {number} bits @param {number[]} fixed */
 function withGaps(fields, bits, fixed) {
   const owners = new Array(bits).fill(null);
   for (const field of fields) for (let bit = field.low; bit < Math.min(bits, field.low + field.width); bit += 1) owners[bit] = field;
@@ -61,7 +66,8 @@ function withGaps(fields, bits, fixed) {
   return [...fields, ...gaps];
 }
 
-/** Draw boxes in rows: `boxes` have a place, a length, a text, a style and the point that a click opens. */
+/** Draw boxes in rows: `boxes` have a place, a length, a text, a style and the point that a click opens.
+ * @param {any[]} boxes @param {any} facts */
 function drawRows(boxes, { columns, cell, height, head, caption, rowName }) {
   const rows = new Map();
   for (const box of boxes) {
@@ -86,7 +92,7 @@ function drawRows(boxes, { columns, cell, height, head, caption, rowName }) {
     for (const box of rows.get(row)) stacks.set(box.from, [...(stacks.get(box.from) ?? []), box]);
     for (const [from, whole] of stacks) {
       const stack = height / whole.length < 12 ? [together(whole)] : whole;
-      stack.forEach((box, place) => {
+      stack.forEach((/** @type {any} */ box, /** @type {number} */ place) => {
         const share = height / stack.length;
         const shape = drawn("rect", { x: head + from * cell + 0.5, y: y + place * share + 0.5, width: box.count * cell - 1, height: Math.max(share - 1, 1), class: `box ${box.style}`, "data-point": box.point ?? "" }, drawn("title", {}, box.title));
         parts.push(shape);
@@ -99,12 +105,13 @@ function drawRows(boxes, { columns, cell, height, head, caption, rowName }) {
   return picture(head + columns * cell + 1, y + 1, caption, ...parts);
 }
 
-/** Return one box for many at the same place, such as the elements of an array. */
+/** Return one box for many at the same place, such as the elements of an array. @param {any[]} boxes */
 function together(boxes) {
   return { ...boxes[0], text: `${boxes[0].text} +${boxes.length - 1}`, title: boxes.map((box) => box.title).join("\n") };
 }
 
-/** Draw the map of a space: a box for the words of each point, at its address. */
+/** Draw the map of a space: a box for the words of each point, at its address.
+ * @param {Point[]} points @param {number} width @param {string} caption */
 function drawMap(points, width, caption) {
   const columns = width < 600 ? 8 : 16;
   const boxes = points.filter((point) => point.addresses.length).map((point) => {
@@ -114,10 +121,11 @@ function drawMap(points, width, caption) {
   });
   const head = 54;
   const cell = Math.floor((Math.min(width, 1000) - head - 2) / columns);
-  return drawRows(boxes, { columns, cell, height: 22, head, caption, rowName: (at) => shortAddress(at) });
+  return drawRows(boxes, { columns, cell, height: 22, head, caption, rowName: (/** @type {number} */ at) => shortAddress(at) });
 }
 
-/** Draw a telegram: a box for each word, with what lies in it. */
+/** Draw a telegram: a box for each word, with what lies in it.
+ * @param {Point[]} points @param {number} words @param {number} width @param {string} caption */
 function drawTelegram(points, words, width, caption) {
   const columns = width < 600 ? 2 : 4;
   const placed = points.filter((point) => point.addresses.length);
@@ -127,14 +135,14 @@ function drawTelegram(points, words, width, caption) {
     const bits = point.shared.isGroup ? ` ${bitsText(point)}` : "";
     return { at, length: point.addresses.length, text: `${point.code || point.name}${bits}`, title: `word ${at} ${point.code} ${point.name}${bits}`, style: `access-${point.shared.access}`, point: point.name, low: -(point.shared.low ?? 0) };
   }).sort((a, b) => a.at - b.at || a.low - b.low);
-  for (let at = 0; at < words; at += 1) if (!used.has(at)) boxes.push({ at, length: 1, text: "", title: `word ${at}: no point`, style: "unused" });
+  for (let at = 0; at < words; at += 1) if (!used.has(at)) boxes.push({ at, length: 1, text: "", title: `word ${at}: no point`, style: "unused", point: "", low: 0 });
   const head = 34;
   const cell = Math.floor((Math.min(width, 1000) - head - 2) / columns);
   const most = Math.max(1, ...boxes.map((box) => boxes.filter((other) => other.at === box.at).length));
   return drawRows(boxes, { columns, cell, height: Math.max(24, most * 15), head, caption, rowName: String });
 }
 
-/** Draw the bytes of a message with what each holds. */
+/** Draw the bytes of a message with what each holds. @param {string[]} roles @param {number} width @param {string} caption */
 function drawBytes(roles, width, caption) {
   const columns = width < 600 ? 4 : 8;
   const boxes = roles.map((role, at) => ({ at, length: 1, text: role, title: `byte ${at}: ${role}`, style: "role" }));

@@ -1,37 +1,55 @@
 /* A line that answers by itself: it shows what generated code sends, and what a device would reply. */
 
+/** What was made of the code of the device. @type {{ code?: any, points?: Map<string, Codec> }} */
+const opened = {};
+
 /** Return the code of the device, which is made when it is first needed; null for a family without it. */
 function generatedCode() {
-  if (generatedCode.made === undefined) generatedCode.made = globalThis.openCode?.() ?? null;
-  return generatedCode.made;
+  if (opened.code === undefined) opened.code = globalThis.openCode?.() ?? null;
+  return opened.code;
 }
 
-/** Return the generated point of a point of the page. */
+/** Return the generated point of a point of the page. @param {Point} point */
 function codecOf(point) {
   const code = generatedCode();
   if (!code || !point.shared.generated) return null;
-  codecOf.byItem ??= new Map([...code.Device.table.points.values()].map((codec) => [codec.item, codec]));
-  return codecOf.byItem.get(point.name) ?? null;
+  opened.points ??= new Map([...code.Device.table.points.values()].map((codec) => [codec.item, codec]));
+  return opened.points.get(point.name) ?? null;
 }
 
 /** A line on which everything holds what `memory` has by place; `exchanges` are the frames that went over it. */
 class AnsweringLine {
+  /** @param {string} framing */
   constructor(framing) {
     this.framing = framing;
     this.memory = new Map();
+    /** @type {{ request: any, reply: any }[]} */
     this.exchanges = [];
-    this.answer = null; // what is answered instead, to the last request
+    /** What is answered instead, to the last request. @type {any} */
+    this.answer = null;
+    this.unit = 0;
+    this.pkw = 0;
+    this.isSingleLast = false;
   }
 
+  /** @param {any} at @param {number[]} words */
   hold(at, words) {
     const ascending = [...at.addresses].sort((one, other) => one - other);
     ascending.forEach((address, each) => this.memory.set(this.key(at.space, address, at.index), words[each] ?? 0));
   }
 
-  key(space, address, index) {
-    return `${space} ${address} ${index ?? 0}`;
+  /** @param {string} space @param {number} address @param {number} [index] */
+  key(space, address, index = 0) {
+    return `${space} ${address} ${index}`;
   }
 
+  /** The words of a parameter of USS; undefined for one that is not held. @param {number} parameter @param {number} index */
+  wordsOf(parameter, index) {
+    const words = this.memory.get(this.key("parameter", parameter, index));
+    return words === undefined ? undefined : [words].flat();
+  }
+
+  /** @param {any} request @param {any} shape */
   async exchange(request, shape) {
     const reply = request && (this.answer ?? ANSWERS[this.framing === "can" || this.framing === "uss" ? this.framing : "modbus"](this, request, shape));
     if (request) this.exchanges.push({ request, reply: shape.broadcast ? null : reply });
@@ -40,16 +58,19 @@ class AnsweringLine {
   }
 }
 
+/** The spaces by function. @type {Record<number, string>} */
 const MODBUS_SPACES = { 1: "coil", 2: "discrete", 3: "holding", 4: "input", 5: "coil", 6: "holding", 15: "coil", 16: "holding" };
 
+/** @type {Record<string, (line: AnsweringLine, request: any, shape: any) => any>} */
 const ANSWERS = {
+  /** @param {AnsweringLine} line @param {any} request */
   modbus(line, request) {
     const tcp = line.framing === "tcp";
     const body = tcp ? request.subarray(6) : request.subarray(0, -2);
     const [, code] = body;
     const [address, count] = [body[2] * 256 + body[3], body[4] * 256 + body[5]];
     const space = MODBUS_SPACES[code];
-    const held = (at) => line.memory.get(line.key(space, at)) ?? line.memory.get(line.key(code === 4 ? "holding" : "input", at)) ?? 0;
+    const held = (/** @type {number} */ at) => line.memory.get(line.key(space, at)) ?? line.memory.get(line.key(code === 4 ? "holding" : "input", at)) ?? 0;
     let reply = [...body.subarray(0, 6)];
     if (code <= 2) {
       const bits = new Array(Math.ceil(count / 8)).fill(0);
@@ -63,16 +84,18 @@ const ANSWERS = {
     const check = generatedCode().modbusCrc(Uint8Array.from(reply));
     return Uint8Array.of(...reply, check & 255, check >> 8);
   },
+  /** @param {AnsweringLine} line @param {any} frame */
   can(line, frame) {
     const { Device, carriesRole, canFrameFault, parseCanFrame, buildCanFrame } = generatedCode();
     const { profile } = Device.table.facts;
-    const request = profile.messages.find((each) => each.direction === "request" && each.roles.length && !canFrameFault(each, line.unit, frame));
-    const answer = request && profile.messages.find((each) => each.answers === request.name);
+    const request = profile.messages.find((/** @type {any} */ each) => each.direction === "request" && each.roles.length && !canFrameFault(each, line.unit, frame));
+    const answer = request && profile.messages.find((/** @type {any} */ each) => each.answers === request.name);
     if (!answer) return null;
     const { address, raw } = parseCanFrame(request, line.unit, frame);
     const writes = carriesRole(request, "raw");
     return buildCanFrame(answer, profile, line.unit, address, writes ? raw : line.memory.get(line.key("parameter", address)) ?? 0);
   },
+  /** @param {AnsweringLine} line @param {any} request */
   uss(line, request) {
     const { profile } = generatedCode().Device.table.facts;
     const reply = Uint8Array.from(request);
@@ -82,7 +105,7 @@ const ANSWERS = {
     const words = line.wordsOf(parameter, request[6]);
     const wide = (words?.length ?? 1) > 1;
     const responses = profile.tasks[task] ?? [0];
-    const response = responses.find((each) => [2, 5].includes(each) === wide) ?? responses[0] ?? 0;
+    const response = responses.find((/** @type {number} */ each) => [2, 5].includes(each) === wide) ?? responses[0] ?? 0;
     reply[3] = response << 4 | request[3] & 15;
     if (task && responses.length && words && !writesValue(task)) {
       const [high, low] = wide ? words : line.isSingleLast ? [0, words[0]] : [words[0], 0];
@@ -93,40 +116,37 @@ const ANSWERS = {
   },
 };
 
-/** Return true for a task of USS that brings a value. */
+/** Return true for a task of USS that brings a value. @param {number} task */
 function writesValue(task) {
   return [2, 3, 7, 8, 11, 12, 13, 14].includes(task);
 }
 
-/** Return the device on a line that answers by itself; `facts` may have unit, framing, variants and numbers of bases. */
+/** Return the device on a line that answers by itself; `facts` may have unit, framing, variants and numbers of bases. @param {any} facts */
 function answeringDevice({ unit, framing, variants, bases = {} }) {
   const { Device } = generatedCode();
   const line = new AnsweringLine(framing);
   line.unit = unit;
-  const link = framing === "uss" ? { pkw: Math.max(...Device.table.facts.profile.pkw.filter((words) => words <= 4)), pzd: 2 } : undefined;
+  const link = framing === "uss" ? { pkw: Math.max(...Device.table.facts.profile.pkw.filter((/** @type {number} */ words) => words <= 4)), pzd: 2 } : undefined;
   line.pkw = link?.pkw ?? 0;
   line.isSingleLast = line.pkw === 4;
-  line.wordsOf = (parameter, index) => {
-    const words = [parameter].map((address) => line.memory.get(line.key("parameter", address, index)));
-    return words[0] === undefined ? undefined : [words[0]].flat();
-  };
   const made = new Device(line, { unit, ...(link && { link }), ...variants, ...bases });
   for (const [name, address] of Object.entries(bases)) made.setBase?.(name, address, 0xffff);
   return { made, line };
 }
 
-/** Return bytes as people print them. */
+/** Return bytes as people print them. @param {Iterable<number>} bytes */
 function hexBytes(bytes) {
   return [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
 }
 
-/** Return the frame as text: bytes, for CAN behind the identifier. */
+/** Return the frame as text: bytes, for CAN behind the identifier. @param {any} frame */
 function frameText(frame) {
   if (frame instanceof Uint8Array) return hexBytes(frame);
   return frame ? `${frame.id.toString(16).toUpperCase().padStart(frame.extended ? 8 : 3, "0")}#${hexBytes(frame.data).replaceAll(" ", "")}` : "";
 }
 
-/** Return the frame that a text says, written as `frameText` does or with other signs between the bytes; null if it says none. */
+/** Return the frame that a text says, written as `frameText` does or with other signs between the bytes; null if it says none.
+ * @param {string} text @param {boolean} isCan */
 function frameOf(text, isCan) {
   const can = /^\s*([0-9a-f]{3,8})\s*#\s*([0-9a-f\s]*)$/i.exec(text);
   const digits = (can ? can[2] : text).replaceAll(/0x|[\s,;:-]/gi, "");

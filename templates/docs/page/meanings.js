@@ -112,9 +112,9 @@ function meaningOf(point, codec, raw, raws) {
     codec.form.decode(raw, raws);
     return shared.form === "text" ? JSON.stringify(codec.told(raw, raws)) : codec.told(raw, raws);
   } catch (error) {
-    if (!(error instanceof generatedCode().FieldscribeError)) throw error;
+    const { text } = generatedError(error);
     const missing = codec.scaleNeeds.filter((/** @type {string} */ name) => raws[name] === undefined);
-    return missing.length ? `not known: its scale depends on ${missing.map(neededLabel).join(" and ")}` : `not known: ${error.text}`;
+    return missing.length ? `not known: its scale depends on ${missing.map(neededLabel).join(" and ")}` : `not known: ${text}`;
   }
 }
 
@@ -128,17 +128,27 @@ function neededLabel(name) {
  * @param {any} codec @param {any} raw @param {any} raws @returns {string} */
 function outside(codec, raw, raws) {
   if (!codec.check) return "";
-  const { FieldscribeError } = generatedCode();
   try {
     codec.requireRaw(raw);
     codec.check(raw, raws);
     return "";
   } catch (error) {
-    if (!(error instanceof FieldscribeError)) throw error;
-    if (error.status === "missing" || (codec.limitNeeds ?? []).some((/** @type {string} */ name) => raws[name] === undefined)) return "";
-    try { codec.encode(codec.form.decode(raw, raws), raws); } catch (other) { if (other instanceof FieldscribeError && other.status === error.status) return other.text; }
-    return error.text;
+    const refusal = generatedError(error);
+    if (refusal.status === "missing" || (codec.limitNeeds ?? []).some((/** @type {string} */ name) => raws[name] === undefined)) return "";
+    try {
+      codec.encode(codec.form.decode(raw, raws), raws);
+    } catch (other) { // the same in units
+      const inUnits = generatedError(other);
+      if (inUnits.status === refusal.status) return inUnits.text;
+    }
+    return refusal.text;
   }
+}
+
+/** Return what generated code raised; raise any other error. @param {any} error @returns {{ status: string, text: string }} */
+function generatedError(error) {
+  if (error instanceof generatedCode().FieldscribeError) return error;
+  throw error;
 }
 
 /** Return the raw number in both notations: `raw 500 = 01F4h`. @param {any} point @param {any} codec @param {any} raw */
@@ -253,7 +263,7 @@ function withoutRepeats(said) {
 
 /** The label of what holds for all variants of a point. @param {Said} said */
 function codeAndName({ point = "", name = "" }) {
-  const { code } = device.byName.get(point);
+  const code = device.byName.get(point)?.code;
   return code ? `${code} ${name}` : name;
 }
 

@@ -1,25 +1,28 @@
 /* The page of a device: what the address after # names is shown; nothing is kept but the reader's choices. */
 
 const device = readDevice();
+/** @type {Record<string, any>} */
 const state = { query: "", group: "", access: "", type: "", order: "manual", variants: recalled(`${device.id} variants`, {}), language: recalled("language", "") };
+/** The parts of the page. @type {any} */
 const ui = {};
 
-/** Return the data of the page, its points as objects with what they share. */
+/** Return the data of the page, its points as objects with what they share. @returns {PageDevice} */
 function readDevice() {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const data = JSON.parse(document.getElementById("data")?.textContent ?? "");
   const usual = { code: "", title: "", group: 0, addresses: [], numbers: [], printed: 0, rows: [], source: [], errata: [], note: "", variant: "", index: "", written: [], default: "", was: [], identifiers: [] };
-  data.points = data.points.map((row, place) => {
+  data.points = data.points.map((/** @type {any[]} */ row, /** @type {number} */ place) => {
+    /** @type {Record<string, any>} */
     const point = { ...usual, place };
     row.forEach((value, at) => { point[data.fields[at]] = value; });
     point.shared = data.kinds[point.kind];
     point.allowed = data.limits[point.limits];
     return point;
   });
-  data.byName = new Map(data.points.map((point) => [point.name, point]));
+  data.byName = new Map(data.points.map((/** @type {Point} */ point) => [point.name, point]));
   return data;
 }
 
-/** Return a title in all its languages, that of the reader first. */
+/** Return a title in all its languages, that of the reader first. @param {Title | undefined} title */
 function titlesOf(title) {
   if (!title) return [];
   if (typeof title === "string") return [title];
@@ -46,12 +49,12 @@ function placesOf() {
   return places;
 }
 
-/** Return a text of a table without its marks. */
+/** Return a text of a table without its marks. @param {string} text */
 function plain(text) {
   return text.replace(/\ue000[^\ue001]*\ue001([^\ue002]*)\ue002/g, "$1");
 }
 
-/** Return a text of a table as nodes: its marks become code and links. */
+/** Return a text of a table as nodes: its marks become code and links. @param {string} text */
 function marked(text) {
   return text.split(/(\ue000[^\ue002]*\ue002)/).filter(Boolean).map((piece) => {
     const mark = /^\ue000([^\ue001]*)\ue001([^\ue002]*)\ue002$/.exec(piece);
@@ -63,15 +66,17 @@ function marked(text) {
   });
 }
 
+/** @param {string} text @param {string} caption */
 function markedTable(text, caption) {
   const [heads, ...rows] = text.split("\ue004").map((row) => row.split("\ue003"));
   if (!rows.length) return element("p", {}, ...marked(text));
   return tableOf(heads, rows.map((row) => row.map((cell) => element("span", { className: "lines" }, ...marked(cell)))), caption);
 }
 
+/** The sections by their addresses, with their names. @type {Record<string, string>} */
 const SECTIONS = { points: "Points", decoder: "Decoder", maps: "Maps", bus: "Bus", frames: "Frames", errata: "Errata", device: "Device" };
-/** The sections by their addresses, with their names. */
 
+/** @param {string} name */
 function sectionArticle(name) {
   const article = element("article", {}, element("h2", { tabIndex: -1 }, SECTIONS[name]));
   const width = Math.max(280, ui.detail.clientWidth - 24);
@@ -83,8 +88,9 @@ function sectionArticle(name) {
   return article;
 }
 
+/** @param {number} width */
 function mapParts(width) {
-  const spaces = Map.groupBy ? Map.groupBy(device.points, keyOfSpace) : groupedBy(device.points, keyOfSpace);
+  const spaces = groupedBy(device.points, keyOfSpace);
   const parts = [accessLegend()];
   for (const [name, titles, direction, identifier, roles] of device.messages) {
     if (roles.length) parts.push(part(`Message ${name}`, element("p", { className: "soft" }, `${titlesOf(titles).join(" / ")} · ${direction} · ${identifier}`), drawBytes(roles, width, `Message ${name}`)));
@@ -98,10 +104,12 @@ function mapParts(width) {
   return parts;
 }
 
+/** @param {Point} point */
 function keyOfSpace(point) {
   return point.shared.telegram ?? [point.shared.space, point.shared.base].filter(Boolean).join(", counted from ");
 }
 
+/** @param {any[]} items @param {(item: any) => string} keyOf */
 function groupedBy(items, keyOf) {
   const groups = new Map();
   for (const item of items) groups.set(keyOf(item), [...(groups.get(keyOf(item)) ?? []), item]);
@@ -109,6 +117,7 @@ function groupedBy(items, keyOf) {
 }
 
 function accessLegend() {
+  /** @type {Record<string, string>} */
   const kinds = { r: "read only", rw: "read and write", w: "write only", none: "not over the bus" };
   const used = Object.keys(kinds).filter((access) => device.points.some((point) => point.shared.access === access));
   return element("p", { className: "legend" }, ...used.flatMap((access) => [element("span", { className: `swatch access-${access}` }), ` ${kinds[access]}  `]));
@@ -118,6 +127,7 @@ function accessLegend() {
 
 const CHUNK = 200;
 
+/** @param {Point} point */
 function isWanted(point) {
   return (!state.group || device.groups[point.group]?.[0] === state.group)
     && (!state.access || point.shared.access === state.access)
@@ -125,15 +135,19 @@ function isWanted(point) {
     && hasVariant(point);
 }
 
+/** @param {Point} point */
 function hasVariant(point) {
   const [axis, value] = point.variant.split("=");
   return !value || !state.variants[axis] || state.variants[axis] === value;
 }
 
+/** @param {Point} point */
 function typeName(point) {
   return (point.shared.type ?? "").split(",")[0];
 }
 
+/** @typedef {(a: Point, b: Point) => number} Compare */
+/** @type {Record<string, [string, Compare | null]>} */
 const ORDERS = {
   manual: ["as in the manual", null],
   address: ["by address", (a, b) => keyOfSpace(a).localeCompare(keyOfSpace(b)) || Math.min(...a.addresses) - Math.min(...b.addresses) || (b.shared.low ?? 0) - (a.shared.low ?? 0)],
@@ -147,7 +161,7 @@ function showList() {
   ui.shown = found.points;
   const [points, places] = [found.points.length, found.places.length];
   ui.status.textContent = `${points} of ${device.points.length} points${places ? `, ${places} other place${places > 1 ? "s" : ""}` : ""}`;
-  ui.places.replaceChildren(...found.places.slice(0, 12).map((place) => element("li", {}, element("a", { href: `#${encodeHash(place.hash)}` }, place.title), element("span", { className: "soft" }, ` ${place.kind}`))));
+  ui.places.replaceChildren(...found.places.slice(0, 12).map((/** @type {any} */ place) => element("li", {}, element("a", { href: `#${encodeHash(place.hash)}` }, place.title), element("span", { className: "soft" }, ` ${place.kind}`))));
   ui.places.hidden = !places;
   ui.rows.replaceChildren();
   ui.listed = 0;
@@ -157,7 +171,7 @@ function showList() {
   ui.nothing.hidden = Boolean(points + places);
 }
 
-/** Add rows to the list until `count` are there. */
+/** Add rows to the list until `count` are there. @param {number} count */
 function extendList(count) {
   const grouped = state.order === "manual" && !state.query.trim();
   const rows = [];
@@ -173,6 +187,7 @@ function extendList(count) {
   ui.rows.append(...rows);
 }
 
+/** @param {Point} point */
 function listRow(point) {
   const { shared } = point;
   const [first = ""] = titlesOf(point.title);
@@ -196,7 +211,7 @@ function build() {
   ui.find = search_;
   ui.status = element("p", { className: "status", role: "status" });
   ui.places = element("ul", { className: "places", hidden: true, ariaLabel: "Other places" });
-  ui.rows = element("tbody");
+  ui.rows = element("tbody", {});
   ui.table = element("table", { className: "points" }, element("caption", { className: "unseen" }, "Points"), element("thead", {}, element("tr", {}, ...["Code", "Name", "Address", "Type", "R/W", "Range", "Unit"].map((head) => element("th", { scope: "col" }, head)))), ui.rows);
   ui.nothing = element("p", { hidden: true }, "Nothing has all these words. Try fewer words, or clear the filters.");
   ui.list = element("section", { id: "list", ariaLabel: "List of points" }, ui.status, ui.places, ui.nothing, ui.table);
@@ -211,12 +226,13 @@ function build() {
 
 /** Keep what stands below the header in sight, however many lines that has. */
 function followHeader() {
-  const header = document.querySelector("header");
+  const header = /** @type {HTMLElement} */ (document.querySelector("header"));
   const measure = () => document.documentElement.style.setProperty("--top", `${header.offsetHeight}px`);
   measure();
   new ResizeObserver(measure).observe(header);
 }
 
+/** @param {string} name */
 function hasSection(name) {
   if (name === "points" || name === "maps") return true;
   if (name === "decoder") return typeof globalThis.openCode === "function";
@@ -249,10 +265,12 @@ function filterFields() {
   return fields;
 }
 
+/** @param {string} text @param {string} key @param {string[][]} options @param {boolean} [all] */
 function choice(text, key, options, all = true) {
   return choiceField(text, options, state[key], (value) => { state[key] = value; }, all ? "all" : "");
 }
 
+/** @param {string} text @param {string[][]} options @param {any} value @param {(value: string) => void} change @param {any} [all] */
 function choiceField(text, options, value, change, all = "all") {
   const select = element("select", {}, ...(all ? [element("option", { value: "" }, all)] : []), ...options.map(([of, shown]) => element("option", { value: of }, shown)));
   select.value = value;
@@ -260,6 +278,7 @@ function choiceField(text, options, value, change, all = "all") {
   return element("label", {}, `${text} `, select);
 }
 
+/** @param {string} hash */
 function encodeHash(hash) {
   const [kind, ...name] = hash.split("=");
   return name.length ? `${kind}=${encodeURIComponent(name.join("="))}` : kind;
@@ -289,10 +308,11 @@ function show() {
     if (place) place.scrollIntoView({ block: "center" });
     else scrollTo(0, 0);
     place?.classList.add("found");
-    if (place?.tagName === "DETAILS") place.open = true;
+    if (place instanceof HTMLDetailsElement) place.open = true;
   }
 }
 
+/** @param {Point} point */
 function markRow(point) {
   const at = ui.shown.indexOf(point);
   if (at >= ui.listed) extendList(at + CHUNK);
@@ -301,28 +321,31 @@ function markRow(point) {
   if (row && ui.list.clientHeight && !ui.list.contains(document.activeElement)) ui.list.scrollTop = row.offsetTop - ui.list.clientHeight / 3;
 }
 
+/** @param {string} name */
 function showGroup(name) {
-  const at = ui.shown.findIndex((point) => device.groups[point.group]?.[0] === name);
+  const at = ui.shown.findIndex((/** @type {Point} */ point) => device.groups[point.group]?.[0] === name);
   if (at >= 0) extendList(Math.max(ui.listed, at + CHUNK));
   document.getElementById(`group=${name}`)?.scrollIntoView();
 }
 
-/** Return the section whose tables have the target of a link. */
+/** Return the section whose tables have the target of a link. @param {string} hash */
 function holderOf(hash) {
   const [kind, name] = hash.split("=");
   const mark = `\ue000=${kind}\ue001${name}\ue002`;
   return Object.keys(device.sections).find((section) => device.sections[section].some(([, table]) => table.includes(mark))) ?? (kind === "telegram" || kind === "message" || kind === "map" ? "maps" : "points");
 }
 
+/** @param {Point} point */
 function withNeighbours(point) {
   const article = pointArticle(device, point, Math.max(280, Math.min(ui.detail.clientWidth - 24, 900)));
   const at = ui.shown.indexOf(point);
   const [before, after] = [ui.shown[at - 1], at < 0 ? undefined : ui.shown[at + 1]];
-  const step = (other, text) => (other ? element("a", { href: `#point=${encodeURIComponent(other.name)}`, title: other.name }, text) : element("span", { className: "soft" }, text));
+  const step = (/** @type {Point | undefined} */ other, /** @type {string} */ text) => (other ? element("a", { href: `#point=${encodeURIComponent(other.name)}`, title: other.name }, text) : element("span", { className: "soft" }, text));
   article.prepend(element("p", { className: "steps" }, element("a", { href: "#points" }, "All points"), step(before, "← Previous"), step(after, "Next →"), copyButton("Copy link", () => location.href)));
   return article;
 }
 
+/** @param {KeyboardEvent} event */
 function keys(event) {
   const links = [...ui.list.querySelectorAll("a")];
   const at = links.indexOf(document.activeElement);
@@ -360,13 +383,13 @@ function start() {
   addEventListener("keydown", keys);
   addEventListener("beforeprint", () => {
     extendList(ui.shown.length);
-    for (const box of document.querySelectorAll("article details")) box.open = true;
+    for (const box of document.querySelectorAll("details")) box.open = true;
   });
-  ui.detail.addEventListener("click", (event) => {
+  ui.detail.addEventListener("click", (/** @type {any} */ event) => {
     const name = event.target.closest?.("[data-point]")?.dataset.point;
     if (name) location.hash = `#point=${encodeURIComponent(name)}`;
   });
-  new IntersectionObserver((seen) => seen.some((each) => each.isIntersecting) && ui.listed < ui.shown.length && extendList(ui.listed + CHUNK), { rootMargin: "800px" }).observe(document.querySelector("footer"));
+  new IntersectionObserver((seen) => seen.some((each) => each.isIntersecting) && ui.listed < ui.shown.length && extendList(ui.listed + CHUNK), { rootMargin: "800px" }).observe(/** @type {Element} */ (document.querySelector("footer")));
 }
 
 start();

@@ -3,7 +3,8 @@
 const MOST_HITS = 50;
 const SHOWN = 90;
 
-/** Start a page; `places` are [path, name, [anchor, title, words, heading above][]]. The words of a point are numbers. */
+/** Start a page; `places` are [path, name, [anchor, title, words, heading above][]]. The words of a point are numbers.
+ * @param {[string, string, [string, string, string, string][]][]} places */
 function startPages(places) {
   const top = document.documentElement.dataset.top;
   const rows = places.flatMap(([path, name, inside]) => inside.map(([anchor, title, words, above]) => {
@@ -11,13 +12,14 @@ function startPages(places) {
     const [numbers, rest] = path.includes("/") ? ["", folded(words)] : [` ${folded(words)} `, ""];
     return { href: `${top}/${path}${anchor && "#"}${anchor}`, name: title, place, words, key, keys: [key, ...key.split(/[\s:]+/)], title: folded(place), numbers, rest, kind: 0 };
   }));
-  const header = document.querySelector("header");
+  const header = /** @type {HTMLElement} */ (document.querySelector("header"));
   startSearch(header, rows);
   header.append(schemeButton());
-  for (const box of document.querySelectorAll(".code")) box.append(copyButton("Copy", () => box.querySelector("code").textContent));
-  if (matchMedia("(max-width: 48rem)").matches) document.querySelector(".columns details").open = false;
+  for (const box of document.querySelectorAll(".code")) box.append(copyButton("Copy", () => box.querySelector("code")?.textContent ?? ""));
+  if (matchMedia("(max-width: 48rem)").matches) document.querySelector(".columns details")?.removeAttribute("open");
 }
 
+/** @param {HTMLElement} header @param {any[]} rows */
 function startSearch(header, rows) {
   const input = element("input", { type: "search", id: "search", placeholder: "Search: press /", ariaLabel: "Search", autocomplete: "off", spellcheck: false });
   const [status, list] = [element("p", { className: "soft", role: "status" }), element("ol", {})];
@@ -48,7 +50,7 @@ function startSearch(header, rows) {
   header.after(hits);
 }
 
-/** Return the text around the first word that it has, which is marked. */
+/** Return the text around the first word that it has, which is marked. @param {string} text @param {string[]} words */
 function excerpt(text, words) {
   const small = text.toLowerCase();
   const word = words.find((each) => small.includes(each)) ?? "";

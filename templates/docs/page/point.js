@@ -5,7 +5,7 @@ const COLUMNS = ["Type", "Access", "Range", "Unit", "Raw range", "Scale", "Defau
 
 const IN_COLUMNS = new Set([...COLUMNS, "Wire address", "Addresses"]);
 
-/** Return the article of a point. */
+/** Return the article of a point. @param {PageDevice} device @param {Point} point @param {number} width */
 function pointArticle(device, point, width) {
   const [first, ...others] = titlesOf(point.title);
   const heading = element("h2", { id: "point-name", tabIndex: -1 }, point.code ? element("span", { className: "code" }, point.code) : null, point.code ? " " : null, first);
@@ -20,14 +20,16 @@ function pointArticle(device, point, width) {
   return article;
 }
 
+/** @param {Title} title @param {...any} children */
 function part(title, ...children) {
   return element("section", {}, element("h3", {}, title), ...children);
 }
 
-/** Return a table with heads; rows are texts or elements. */
+/** Return a table with heads; rows are texts or elements.
+ * @param {string[]} heads @param {any[]} rows @param {string} caption @param {string} [className] */
 function tableOf(heads, rows, caption, className = "") {
   const kept = heads.map((_, at) => rows.some((row) => row[at] !== "" && row[at] !== undefined));
-  const cells = (name, row) => heads.map((_, at) => at).filter((at) => kept[at]).map((at) => {
+  const cells = (/** @type {string} */ name, /** @type {any[]} */ row) => heads.map((_, at) => at).filter((at) => kept[at]).map((at) => {
     const cell = element(name, name === "th" ? { scope: "col" } : {}, row[at] ?? "");
     if (name === "td") cell.dataset.head = heads[at];
     return cell;
@@ -36,10 +38,12 @@ function tableOf(heads, rows, caption, className = "") {
   return element("div", { className: "wide", tabIndex: 0, role: "group", ariaLabel: caption }, table);
 }
 
+/** @param {Point} point */
 function allRows(point) {
   return [...point.rows, ...point.shared.rows].sort((a, b) => a[0] - b[0]);
 }
 
+/** @param {Point} point */
 function factColumns(point) {
   const texts = Object.fromEntries(allRows(point).filter((row) => IN_COLUMNS.has(row[1])).map((row) => [row[1], row[2]]));
   texts.Range = point.allowed.range ?? "";
@@ -49,6 +53,7 @@ function factColumns(point) {
   return tableOf(heads, [heads.map((head) => texts[head])], "Type, limits and unit", "facts");
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function addressTable(device, point) {
   const texts = Object.fromEntries(allRows(point).map((row) => [row[1], row[2]]));
   if (!point.addresses.length) return texts["Wire address"] ? element("p", {}, texts["Wire address"]) : null;
@@ -63,12 +68,14 @@ function addressTable(device, point) {
   return tableOf(heads, [[where, shortAddress(at), String(at), ...printed, texts.Addresses ?? ""]], "Addresses", "facts");
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function errataOf(device, point) {
   if (!point.errata.length) return null;
   return element("div", {}, ...point.errata.map((at) => erratumBox(device, device.errata[at])));
 }
 
-/** Return an erratum as a box: what is taken, and opened, what is printed, why, and where. */
+/** Return an erratum as a box: what is taken, and opened, what is printed, why, and where.
+ * @param {PageDevice} device @param {Erratum} erratum @param {boolean} [withPoints] */
 function erratumBox(device, erratum, withPoints = false) {
   const open = erratum.open.map((text) => `the manual leaves open ${text}`).join("; ");
   const rows = [["Printed", erratum.printed], ["Taken", erratum.taken], ["Why", erratum.why], ["Open", open], ["Place", placeText(device, erratum.source)]];
@@ -79,16 +86,19 @@ function erratumBox(device, erratum, withPoints = false) {
   return element("details", { className: "erratum", id: withPoints ? `erratum=${erratum.id}` : "", open: withPoints }, summary, factList(rows.filter((row) => row[1])));
 }
 
+/** @param {any[]} rows */
 function factList(rows) {
   return element("dl", {}, ...rows.flatMap(([label, ...texts]) => [element("dt", {}, label), element("dd", {}, ...texts)]));
 }
 
+/** @param {Point} point */
 function noteOf(point) {
   const [first, ...others] = titlesOf(point.note);
   return first ? element("p", { className: "note" }, first, ...others.map((text) => element("bdi", { className: "soft block" }, text))) : null;
 }
 
-/** Return the flags of a point, or of a word that it shares, drawn and listed. */
+/** Return the flags of a point, or of a word that it shares, drawn and listed.
+ * @param {PageDevice} device @param {Point} point @param {number} width */
 function bitsOf(device, point, width) {
   if (point.shared.word === undefined) return null;
   const low = point.shared.low ?? 0;
@@ -103,7 +113,7 @@ function bitsOf(device, point, width) {
   return part("Bits", drawBits(bits, withGaps(fields, bits, point.shared.fixed ?? []), width, `Bits of ${point.name}`), tableOf(["Bits", "Name", "Title", "True at", "Means"], rows, "Flags"));
 }
 
-/** Return the drawing of the word that a point shares with others. */
+/** Return the drawing of the word that a point shares with others. @param {PageDevice} device @param {Point} point @param {number} width */
 function sharedWord(device, point, width) {
   if (!point.shared.isGroup || !point.addresses.length) return null;
   const at = point.addresses[0];
@@ -112,6 +122,7 @@ function sharedWord(device, point, width) {
   return part("The word that it shares", drawBits(16, withGaps(fields, 16, point.shared.fixed ?? []), width, `Word ${shortAddress(at)}`), element("p", {}, "With ", ...listed(others.filter((other) => other !== point).map((other) => pointLink(other.name)))));
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function meaningsOf(device, point) {
   const { shared } = point;
   const parts = [];
@@ -128,6 +139,7 @@ function meaningsOf(device, point) {
   return parts.length ? element("div", {}, ...parts) : null;
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function remarksOf(device, point) {
   const known = new Set([...(point.shared.links ?? []), ...(point.shared.needs ?? []), ...(point.allowed.needs ?? "").split(", ")].filter(Boolean));
   const rows = allRows(point).filter((row) => !IN_COLUMNS.has(row[1])).map((row) => [row[1], ...withLinks(row[2], known)]);
@@ -136,11 +148,12 @@ function remarksOf(device, point) {
   return rows.length ? part("Facts", factList(rows)) : null;
 }
 
-/** Return a text in which the names of these points are links. */
+/** Return a text in which the names of these points are links. @param {string} text @param {Set<string>} names */
 function withLinks(text, names) {
   return names.size ? text.split(/(\w+)/).map((word) => (names.has(word) ? pointLink(word) : word)) : [text];
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function codeOf(device, point) {
   const snippets = snippetsOf(device, point);
   const languages = Object.keys(snippets);
@@ -148,7 +161,7 @@ function codeOf(device, point) {
   const code = element("code", {});
   const box = element("div", { className: "code-box" }, element("pre", { tabIndex: 0, role: "group", ariaLabel: "Code" }, code), copyButton("Copy", () => code.textContent));
   const buttons = languages.map((language) => element("button", { type: "button" }, LANGUAGE_NAMES[language]));
-  const choose = (at) => {
+  const choose = (/** @type {number} */ at) => {
     code.textContent = snippets[languages[at]];
     buttons.forEach((button, place) => button.setAttribute("aria-pressed", String(place === at)));
   };
@@ -157,33 +170,38 @@ function codeOf(device, point) {
   return part("Code", element("div", { className: "choices", role: "group", ariaLabel: "Language of the code" }, ...buttons), box);
 }
 
+/** @param {PageDevice} device @param {Point} point */
 function sourceOf(device, point) {
   return part("In the manual", element("p", {}, placeText(device, point.source)));
 }
 
-/** Return a place in a manual as text. */
+/** Return a place in a manual as text. @param {PageDevice} device @param {any} place */
 function placeText(device, [document = -1, section = "", page = "", line = 0]) {
   return [device.documents[document] ?? "", section, page && `page ${page}`, line ? `line ${line} of its text` : ""].filter(Boolean).join(", ");
 }
 
+/** @param {string} name */
 function pointLink(name) {
   return element("a", { href: `#point=${encodeURIComponent(name)}` }, element("code", {}, name));
 }
 
-/** Return elements with commas between them. */
+/** Return elements with commas between them. @param {any[]} items */
 function listed(items) {
   return items.flatMap((item, at) => (at ? [", ", item] : [item]));
 }
 
+/** @param {number} address */
 function shortAddress(address) {
   return `${address.toString(16).toUpperCase().padStart(4, "0")}h`;
 }
 
+/** @param {Point} point */
 function bitsText(point) {
   const low = point.shared.low ?? 0;
   return point.shared.width === 1 ? `bit ${low}` : `bits ${low + point.shared.width - 1}..${low}`;
 }
 
+/** @param {string} text */
 function capital(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

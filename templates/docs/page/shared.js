@@ -4,29 +4,30 @@
 
 const ASCII = /^[\0-\x7f]*$/;
 
-/** Return text as a search compares it: small letters without marks. */
+/** Return text as a search compares it: small letters without marks. @param {string} text */
 function folded(text) {
   return ASCII.test(text) ? text.toLowerCase() : text.toLowerCase().normalize("NFD").replace(/\p{M}/gu, "");
 }
 
-/** Return an element with these properties and children; texts become text nodes, never markup. */
+/** Return an element with these properties and children; texts become text nodes, never markup.
+ * @param {string} name @param {any} facts @param {...any} children */
 function element(name, facts, ...children) {
   const made = Object.assign(document.createElement(name), facts);
   made.append(...children.filter((child) => child !== null && child !== ""));
   return made;
 }
 
-/** Return what is stored under a key, or the usual value where a browser stores nothing. */
+/** Return what is stored under a key, or the usual value where a browser stores nothing. @param {string} key @param {any} usual */
 function recalled(key, usual) {
-  try { return JSON.parse(localStorage.getItem(`fieldscribe ${key}`)) ?? usual; } catch { return usual; }
+  try { return JSON.parse(localStorage.getItem(`fieldscribe ${key}`) ?? "null") ?? usual; } catch { return usual; }
 }
 
-/** Store a choice of the reader; without storage it ends with the page. */
+/** Store a choice of the reader; without storage it ends with the page. @param {string} key @param {any} value */
 function remember(key, value) {
   try { localStorage.setItem(`fieldscribe ${key}`, JSON.stringify(value)); } catch { /* a browser may refuse to store */ }
 }
 
-/** Return true if a word starts at this place of a text. */
+/** Return true if a word starts at this place of a text. @param {string} text @param {number} at */
 function startsWord(text, at) {
   return at === 0 || !/[\p{L}\p{N}]/u.test(text[at - 1]);
 }
@@ -48,7 +49,8 @@ function schemeButton() {
   return button;
 }
 
-/** Return a button that copies the text that a function returns; null where the browser cannot copy. */
+/** Return a button that copies the text that a function returns; null where the browser cannot copy.
+ * @param {string} label @param {() => string} textOf */
 function copyButton(label, textOf) {
   const button = element("button", { type: "button", className: "copy" }, label);
   button.addEventListener("click", async () => {
@@ -59,6 +61,7 @@ function copyButton(label, textOf) {
   return button;
 }
 
+/** @param {string} text */
 function copyBySelection(text) {
   const box = element("textarea", { value: text });
   document.body.append(box);

@@ -1,9 +1,11 @@
 /* Code that reads and writes one point, to copy: the names are those of the generated code, which come with the point. */
 
+/** @type {Record<string, string>} */
 const LANGUAGE_NAMES = { c: "C", python: "Python", rust: "Rust", typescript: "TypeScript" };
 
-/** Return the code of a point by language; empty for what is only documented. */
+/** Return the code of a point by language; empty for what is only documented. @param {PageDevice} device @param {Point} point */
 function snippetsOf(device, point) {
+  /** @type {Record<string, string>} */
   const made = {};
   if (!point.shared.generated) return made;
   for (const [language, deviceName] of Object.entries(device.names)) {
@@ -13,26 +15,30 @@ function snippetsOf(device, point) {
   return made;
 }
 
-/** Return true for a word of a telegram, or a signal of a message: nobody asks for it by itself. */
+/** Return true for a word of a telegram, or a signal of a message: nobody asks for it by itself. @param {Point} point */
 function isCyclic(point) {
   return point.shared.telegram !== undefined;
 }
 
+/** @param {Point} point */
 function reads(point) {
   return point.shared.access.includes("r");
 }
 
+/** @param {Point} point */
 function writes(point) {
   return point.shared.access.includes("w");
 }
 
-/** Return the unit of integers in C: `10^-1 Hz`. */
+/** Return the unit of integers in C: `10^-1 Hz`. @param {Point} point */
 function countUnit(point) {
   const { counts, unit = "" } = point.shared;
   return counts > 0 ? `in 10^-${counts} ${unit}`.trim() : unit && `in ${unit}`;
 }
 
+/** @type {Record<string, (device: PageDevice, point: Point, type: string, name: string) => (string | false)[]>} */
 const SNIPPETS = {
+  /** @param {PageDevice} device @param {Point} point @param {string} prefix @param {string} name */
   c(device, point, prefix, name) {
     const what = point.shared.counts >= 0 ? "count" : "value";
     const tail = point.shared.counts >= 0 ? "_count" : "";
@@ -54,6 +60,7 @@ const SNIPPETS = {
       writes(point) && `status = ${prefix}_write_${name}(&drive, ${what});${remark}`,
     ];
   },
+  /** @param {PageDevice} device @param {Point} point @param {string} type @param {string} name */
   python(device, point, type, name) {
     const remark = point.shared.unit ? `  # ${point.shared.unit}` : "";
     const head = `from ${device.id} import ${type}\n`;
@@ -64,6 +71,7 @@ const SNIPPETS = {
       writes(point) && `device.${name}.write(value)${remark}`,
     ];
   },
+  /** @param {PageDevice} device @param {Point} point @param {string} crate @param {string} name */
   rust(device, point, crate, name) {
     const remark = point.shared.unit ? ` // ${point.shared.unit}` : "";
     const head = `use ${crate}::points as p;\n`;
@@ -74,6 +82,7 @@ const SNIPPETS = {
       writes(point) && `device.write::<p::${name}>(value)?;${remark}`,
     ];
   },
+  /** @param {PageDevice} device @param {Point} point @param {string} type @param {string} name */
   typescript(device, point, type, name) {
     const remark = point.shared.unit ? ` // ${point.shared.unit}` : "";
     const head = `import { ${type} } from "${device.id.replaceAll("_", "-")}";\n`;

@@ -35,7 +35,7 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
     const decoders = new Map();
     const heard = all.map(({ text, settings }) => {
       const key = JSON.stringify(settings);
-      if (!decoders.has(key)) decoders.set(key, new FamilyDecoder(settings));
+      if (!decoders.has(key)) decoders.set(key, newDecoder(settings));
       decoders.get(key).forget();
       return [...decodedFrames(text, decoders.get(key))];
     });
