@@ -10,7 +10,7 @@ from fieldscribe.cli.common import StopError, add_descriptions, open_device, rep
 from fieldscribe.cli.vendor import deliver_all, print_deliveries
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
-from fieldscribe.pages.site import load_pages
+from fieldscribe.pages.site import NAME, load_pages
 from fieldscribe.vendoring.deliveries import Order
 from fieldscribe.vendoring.requests import FORMATS, DocumentRequest, IndexRequest
 
@@ -53,9 +53,10 @@ def run(arguments: Namespace) -> int:
             devices.append(open_device(Namespace(device=name, descriptions=arguments.descriptions)))
         except StopError as stop:
             code = max(code, stop.tell())
-    request = DocumentRequest(arguments.format)
+    has_index = arguments.format == "html" and (arguments.pages or len(devices) > 1)
+    request = DocumentRequest(arguments.format, index=f"{NAME}.html" if has_index else "")
     orders = [Order(device.id, request, arguments.out, partial(request.contents, device)) for device in devices]
-    if arguments.format == "html" and (arguments.pages or len(devices) > 1):
+    if has_index:
         orders.append(_index(arguments, devices))
     deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
     return max(code, print_deliveries(deliveries, "text", check=arguments.check))

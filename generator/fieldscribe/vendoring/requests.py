@@ -104,6 +104,8 @@ class DocumentRequest:
 
     language: str
     name: None = None
+    index: str = ""
+    """The page that lists the device with others, if there is one."""
     extra = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
     """The message and the hint if the library of an extra is missing."""
 
@@ -126,8 +128,10 @@ class DocumentRequest:
             return
         if self.language == "csv":
             texts = csv_files(scope)
+        elif self.language == "html":
+            texts = html_files(scope, render, self.index)
         else:
-            texts = (html_files if self.language == "html" else markdown_files)(scope, render)
+            texts = markdown_files(scope, render)
         for path, text in texts:
             yield path, text.encode()
 

@@ -190,6 +190,7 @@ class Calculator {
     this.status.textContent = [told, typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
     this.status.classList.toggle("wrong", problems.length > 0);
     this.bits?.show();
+    this.drawBits();
     void this.exchange(raws, problems.length === 0);
   }
 
@@ -234,6 +235,17 @@ class Calculator {
     return { box: element("div", { className: "bit-row", role: "group", ariaLabel: "Bits of the raw number" }, ...bytes), show };
   }
 
+  /** Mark the bits that are set in the drawings of the point. */
+  drawBits() {
+    const { shared } = this.point;
+    if (this.codec.form.wire.bits > 64 || shared.form === "text") return;
+    const [now, low] = [this.bitsNow(), shared.low ?? 0];
+    for (const box of document.querySelectorAll("#detail [data-bit].bit")) {
+      const bit = Number(/** @type {SVGElement} */ (box).dataset.bit) - low;
+      box.classList.toggle("set", bit >= 0 && bit < this.codec.width && ((now >> BigInt(bit)) & 1n) === 1n);
+    }
+  }
+
   bitsNow() {
     const { codec, raw } = this;
     const pattern = BigInt(codec.form.wire.pattern(raw ?? codec.form.wire.raw(0), codec.width, Math.ceil(codec.form.wire.bits / 16)));
@@ -248,13 +260,12 @@ class Calculator {
 
   /** The settings of the line: unit, framing, and what addresses count from. */
   line() {
-    if (this.isCyclic) return "";
     const { profile, bases } = generatedCode().Device.table.facts;
     const [low, high] = profile.units;
     const unit = element("input", { type: "number", min: low, max: high, value: String(entered.unit) });
     unit.addEventListener("input", () => { entered.unit = Number(unit.value); this.show(unit); });
     const fields = [element("label", {}, element("span", {}, "Unit"), unit)];
-    if (device.framings.length > 1) {
+    if (device.framings.length > 1 && !this.isCyclic) {
       const list = element("select", {}, ...device.framings.map((name) => element("option", { value: name, selected: name === entered.framing }, name)));
       list.addEventListener("input", () => { entered.framing = list.value; this.show(list); });
       fields.push(element("label", {}, element("span", {}, "Framing"), list));
@@ -273,11 +284,25 @@ class Calculator {
   async exchange(raws, isAllowed) {
     const turn = (this.turn = {});
     const { codec, raw } = this;
-    if (this.isCyclic || !codec.at.addresses.length) return;
+    if (this.isCyclic) { this.showCyclic(); return; }
+    if (!codec.at.addresses.length) return;
     const boxes = [];
     if (codec.decode) boxes.push(this.readBox(await this.sent(raw, raws, (/** @type {any} */ point) => point.readRaw())));
     if (codec.encode && isAllowed) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (/** @type {any} */ point) => point.writeRaw(raw))));
     if (this.turn === turn && !this.frames.contains(document.activeElement)) this.frames.replaceChildren(...boxes);
+  }
+
+  /** Show the frames that carry this number in a telegram. */
+  showCyclic() {
+    const { codec, raw } = this;
+    const isAsked = device.telegrams.some(([name, , direction]) => name === codec.at.telegram && direction === "request");
+    try {
+      const frames = cyclicFrames(codec, this.wordsOf(raw), raw, entered.unit ?? 0);
+      const rows = frames.map((frame) => frameRow(isAsked ? "To the device" : "From the device", frameText(frame)));
+      this.frames.replaceChildren(...rows, rows.length ? element("p", { className: "soft" }, "All other words are 0 here.") : "");
+    } catch (error) {
+      this.frames.replaceChildren(element("p", { className: "wrong" }, knownError(error).message));
+    }
   }
 
   /** The exchanges of an operation on a device that holds this number; `reply` is answered instead of its own.

@@ -134,6 +134,43 @@ function answeringDevice({ unit, framing, variants, bases = {} }) {
   return { made, line };
 }
 
+/** Return the frames of a cyclic telegram with these words of a point, and its raw number; all other words are 0.
+ * @param {Codec} codec @param {number[]} words @param {any} raw @param {number} unit @returns {any[]} */
+function cyclicFrames(codec, words, raw, unit) {
+  const { Device, buildUssRequest, canFrameOf, messageNamed, SignalPacking, wordPlaces } = generatedCode();
+  const { profile } = Device.table.facts;
+  const telegram = profile.telegrams.find((/** @type {any} */ each) => each.name === codec.at.telegram);
+  if (!telegram) return [];
+  const ascending = [...codec.at.addresses].sort((one, other) => one - other);
+  const last = ascending[ascending.length - 1];
+  const held = Array.from({ length: Math.max(telegram.words, last + 1) }, (_, at) => words[ascending.indexOf(at)] ?? 0);
+  if (device.family === "uss") {
+    const pzd = Math.min(profile.pzd[1], Math.max(2, last + 1));
+    return [buildUssRequest({ unit, words: held.slice(0, pzd) }, profile, { pkw: Math.min(...profile.pkw), pzd })];
+  }
+  const message = messageNamed(profile, telegram.message);
+  if (message.signals.length) {
+    const packing = new SignalPacking(message.signals, message.length);
+    const number = packing.firsts().indexOf(ascending[0]);
+    const selecting = message.signals[number].when.map((/** @type {any} */ [at, raws]) => [at, raws[0]]);
+    return [canFrameOf(message, profile, unit, packing.pack([...selecting, [number, raw]]))];
+  }
+  const each = wordPlaces(message).length;
+  const slots = [...new Set(ascending.map((at) => Math.floor(at / each)))];
+  return slots.map((slot) => canFrameOf(message, profile, unit, telegramBytes(message, unit, slot, held.slice(slot * each, (slot + 1) * each))));
+}
+
+/** The bytes of a message that carries words. @param {any} message @param {number} unit @param {number} slot @param {number[]} words */
+function telegramBytes(message, unit, slot, words) {
+  /** @type {Record<string, (number: number) => number>} */
+  const carried = { constant: (number) => number, unit: (number) => unit >> number, multiplexer: () => slot, word: (number) => (words[number >> 1] ?? 0) >> (number & 1 ? 0 : 8) };
+  const data = Uint8Array.from(message.roles, ({ kind, number }) => (carried[kind]?.(number) ?? 0) & 255);
+  message.roles.forEach((/** @type {any} */ { kind, number }, /** @type {number} */ place) => {
+    if (kind === "xor") data[place] = data.reduce((sum, byte, at) => ((number >> at) & 1 ? sum ^ byte : sum), 0);
+  });
+  return data;
+}
+
 /** Return bytes as people print them. @param {Iterable<number>} bytes */
 function hexBytes(bytes) {
   return [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");

@@ -125,7 +125,7 @@ function accessLegend() {
 
 /* The list of points. */
 
-const CHUNK = 200;
+const CHUNK = 80;
 
 /** @param {Point} point */
 function isWanted(point) {
@@ -216,7 +216,7 @@ function build() {
   ui.nothing = element("p", { hidden: true }, "Nothing has all these words. Try fewer words, or clear the filters.");
   ui.list = element("section", { id: "list", ariaLabel: "List of points" }, ui.status, ui.places, ui.nothing, ui.table);
   ui.detail = element("div", { id: "detail", tabIndex: -1 });
-  ui.tabs = element("nav", { ariaLabel: "Sections" }, ...Object.entries(SECTIONS).filter(([name]) => hasSection(name)).map(([name, text]) => element("a", { href: `#${name}` }, text)));
+  ui.tabs = element("nav", { ariaLabel: "Sections" }, device.index ? element("a", { href: device.index }, "All devices") : null, ...Object.entries(SECTIONS).filter(([name]) => hasSection(name)).map(([name, text]) => element("a", { href: `#${name}` }, text)));
   const filters = element("details", { className: "filters" }, element("summary", {}, "Filters"), element("div", {}, ...filterFields()));
   filters.open = matchMedia("(min-width: 60rem)").matches;
   const header = element("header", {}, element("h1", {}, element("a", { href: "#points" }, device.name), element("span", { className: "soft" }, ` ${titlesOf(device.title)[0] ?? ""}`)),

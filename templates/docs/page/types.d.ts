@@ -79,6 +79,8 @@ interface Erratum {
 
 interface PageDevice {
   id: string;
+  /** The page that lists several devices; missing where there is none. */
+  index?: string;
   name: string;
   title: Title;
   note: Title;

@@ -37,11 +37,11 @@ def markdown_files(scope: DocsScope, render: Render) -> Iterable[tuple[str, str]
     yield f"{scope.device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
 
 
-def html_files(scope: DocsScope, render: Render) -> Iterable[tuple[str, str]]:
-    """Yield the page in HTML."""
+def html_files(scope: DocsScope, render: Render, index: str = "") -> Iterable[tuple[str, str]]:
+    """Yield the page in HTML, with a link to `index`."""
     from fieldscribe.targets.docs.html import html_of
 
-    yield f"{scope.device.id}.html", html_of(scope, render)
+    yield f"{scope.device.id}.html", html_of(scope, render, index)
 
 
 def csv_files(scope: DocsScope) -> Iterable[tuple[str, str]]:

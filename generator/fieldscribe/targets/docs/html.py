@@ -32,8 +32,8 @@ Section = tuple[str, list[tuple[str, str]]]
 """A section of the page: what it is called, and its texts or tables with their headings."""
 
 
-def html_of(scope: DocsScope, render: Render) -> str:
-    """Return the page of a device."""
+def html_of(scope: DocsScope, render: Render, index: str) -> str:
+    """Return the page of a device, with a link to `index`."""
     made, command, licence = head_lines(scope.device, "docs", line)
     code, vectors = code_of(scope.device, render)
     decoder = [name.format(scope.device.family) for name in _DECODER] if code else []
@@ -48,7 +48,7 @@ def html_of(scope: DocsScope, render: Render) -> str:
         "vectors": vectors,
         "policy": f"default-src 'none'; style-src '{_digest(style)}'; script-src {digests}; "
         "base-uri 'none'; form-action 'none'",
-        "data": _json(page_data(scope, made)),
+        "data": _json(({"index": index} if index else {}) | page_data(scope, made)),
     }
     return render("docs/page/device.html.j2", context)
 
