@@ -94,6 +94,3 @@ def scope_of(device: Device, names: Identifiers) -> Scope:
     return Scope.of(device, names, attribute)
 
 
-def constants_of(points: tuple[Point, ...]) -> dict[int, str]:
-    """Return the constants of points that have one, by their ids; those of variants are called after their items."""
-    return {id(point): attribute(point.item) for point in points if point.terms.generated}
