@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.model import Device, Flag, Point, Special
+from fieldscribe.model import Device, Flag, Special
 from fieldscribe.targets.runtime_calls.scope import ClassNames, Scope
 from fieldscribe.text import camel, pascal
 
