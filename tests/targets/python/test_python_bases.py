@@ -3,29 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from support.blocks import FOUND, HOSTILE, INVERTER, MODULES, Registers, chain
 from support.described import made
-from support.python_package import Awaited, Slave, imported, status, write_package
-
-SUNS = (0x5375, 0x6E53)
-
-
-def chain(at: int, *blocks: tuple[int, list[int]], end: int = 0xFFFF) -> dict[int, int]:
-    """The registers of a marker and of blocks, each with its id and its words."""
-    words = [*SUNS]
-    for block, held in blocks:
-        words += [block, len(held), *held]
-    words += [end, 0]
-    return dict(enumerate(words, at))
-
-
-INVERTER = (103, [250, 0xFFFF, 0, 0, 0, 7])
-MODULES = (160, [11, 21, 0, 31, 12, 22, 0, 32])
-"""Two elements of four words."""
-FOUND = chain(50000, (1, [9]), INVERTER, MODULES)
+from support.python_package import Awaited, imported, status, write_package
 
 
 @pytest.fixture(scope="module")
@@ -33,27 +17,6 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     """The package of the device with bases."""
     folder = write_package(made("kitchen_blocks"), tmp_path_factory.mktemp("bases"))
     yield from imported(folder, "kitchen_blocks")
-
-
-class Registers(Slave):
-    """Answers from registers; what is not there is refused. `asked` has the first address and count of each read."""
-
-    def __init__(self, held: Mapping[int, int]) -> None:
-        super().__init__()
-        self.held = dict(held)
-        self.asked: list[tuple[int, int]] = []
-
-    def _answer(self, pdu: bytes) -> bytes:
-        address, count = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
-        if pdu[0] == 6:
-            self.held[address] = count
-            return pdu
-        self.asked.append((address, count))
-        places = range(address, address + count)
-        if not self.held.keys() >= set(places):
-            return bytes((pdu[0] | 0x80, 2))
-        words = [self.held[place] for place in places]
-        return bytes((pdu[0], 2 * count)) + b"".join(word.to_bytes(2, "big") for word in words)
 
 
 def test_given(package: Any) -> None:
@@ -133,17 +96,6 @@ def test_found_with_await(package: Any) -> None:
     device = package.KitchenBlocksAsync(Awaited(Registers(FOUND)), 1)
     assert asyncio.run(device.current.read()) == 25.0
     assert asyncio.run(device.find_blocks())[160] == (50013, 9)
-
-
-HOSTILE = {
-    "no_marker": ({40000: 0, 40001: 0}, "no_marker"),
-    "endless": (dict.fromkeys(range(50000, 65536), 0) | dict(enumerate(SUNS, 50000)), "bad_chain"),
-    "too long": (chain(50000, (7, [0] * 3)) | {50003: 0xFFFF}, "bad_chain"),
-    "to the last word": (chain(50000) | {50002: 5, 50003: 65535 - 50004 + 1}, "bad_chain"),
-    "cut off": (dict(list(chain(50000, (7, [0])).items())[:5]), "exception"),
-    "without the block": (chain(50000, (7, [])), "no_block"),
-    "short": (chain(50000, (103, [250])), "behind_end"),
-}
 
 
 @pytest.mark.parametrize("name", HOSTILE)

@@ -92,5 +92,3 @@ class Identifiers(ClassNames):
 def scope_of(device: Device, names: Identifiers) -> Scope:
     """Return the scope of a device in which nothing is used yet."""
     return Scope.of(device, names, attribute)
-
-
