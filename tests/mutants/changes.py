@@ -200,6 +200,12 @@ _CONSTANTS = {
 }
 
 
+_TWINS = {
+    name: {twin} for one, other in (("F32", "U32"), ("F64", "U64")) for name, twin in ((one, other), (other, one))
+}
+"""Wire types of TypeScript that are the same but for their names."""
+
+
 def _exchanged_names(language: str, text: str, tokens: Sequence[Token]) -> Iterator[list[Change]]:
     """A named constant (a status, a type, a member) gives way to another one of the same family in this file."""
     family = {"c": _c_families, "rust": _rust_families}.get(language, _python_families)(text, tokens)
@@ -207,7 +213,7 @@ def _exchanged_names(language: str, text: str, tokens: Sequence[Token]) -> Itera
     for token, of in family:
         members.setdefault(of, []).append(token.text)
     for token, of in family:
-        others = sorted(set(members[of]) - {token.text})
+        others = sorted(set(members[of]) - {token.text} - _TWINS.get(token.text, set()))
         yield [Change("named constant", token.start, token.end, other) for other in others[:12]]
 
 

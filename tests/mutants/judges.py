@@ -113,7 +113,7 @@ class Judge:
         return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
 
     def run(
-        self, *words: object, memory: int = MEMORY, packages: Path | None = None
+        self, *words: object, memory: int = MEMORY, packages: Path | None = None, slow: bool = False
     ) -> subprocess.CompletedProcess[str]:
         """Run a program that may do anything, within limits. Raises TimeoutExpired."""
         return subprocess.run(
@@ -123,9 +123,9 @@ class Judge:
             text=True,
             errors="replace",
             check=False,
-            timeout=RUN_LIMIT,
+            timeout=BUILD_LIMIT if slow else RUN_LIMIT,
             env={**os.environ, **({"FIELDSCRIBE_PACKAGES": str(packages)} if packages else {})},
-            preexec_fn=lambda: _bound(memory),
+            preexec_fn=lambda: _bound(memory, RUN_LIMIT if slow else CPU_LIMIT),
         )
 
     def compile(self, *words: object, folder: Path | None = None) -> str:
@@ -142,9 +142,9 @@ class Judge:
 NO_FLOAT, FLOAT32 = ("-DFIELDSCRIBE_NO_FLOAT",), ("-DFIELDSCRIBE_FLOAT32",)
 
 
-def _bound(memory: int) -> None:
+def _bound(memory: int, seconds: int) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
-    resource.setrlimit(resource.RLIMIT_CPU, (CPU_LIMIT, CPU_LIMIT))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
 
 
 SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
@@ -263,6 +263,10 @@ class OfRust(Judge):
         return self.run(program, memory=MEMORY).returncode == 0
 
 
+SESSIONS = "sessions"
+"""What judges the runtime of TypeScript beside the vectors: the tests that ask simulated devices."""
+
+
 class OfTypeScript(Judge):
     """The runner of vectors on a copy of the packages, as npm lays them out."""
 
@@ -277,9 +281,20 @@ class OfTypeScript(Judge):
             (root / "node_modules" / package.name.replace("_", "-")).symlink_to(package)
         (root / "node_modules/fieldscribe-conformance").symlink_to(root / "fieldscribe-conformance")
 
+    def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
+        """The devices, and for a runtime what its tests do with simulated devices."""
+        return [*super().users(mutant, build), *([SESSIONS] if mutant.kind == RUNTIME else [])]
+
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Run it; a module that cannot be parsed tells nothing."""
         del build
+        if device == SESSIONS:
+            files = [
+                ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in ("bases", "sessions", "lines")
+            ]
+            words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files)
+            packages = self.work / "typescript"
+            return self.run(*words, packages=packages, memory=resource.RLIM_INFINITY, slow=True).returncode == 0
         modules, runner = self.work / "typescript/node_modules", ROOT / "tests/support/run_vectors.mjs"
         words = ("node", runner, modules, device.replace("_", "-"), self.vectors[device])
         done = self.run(*words, memory=resource.RLIM_INFINITY)  # node reserves more than it uses

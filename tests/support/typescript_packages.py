@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -23,8 +24,9 @@ RUNNER = Path(__file__).with_name("run_vectors.mjs")
 def install(folder: Path, packages: Iterable[Path | Device] = ()) -> Path:
     """Install packages, generated ones or those of a model, with the runtime; return the folder of modules."""
     modules = folder / "node_modules"
+    runtime = Path(os.environ.get("FIELDSCRIBE_PACKAGES") or RUNTIME)  # a changed one, where mutants are judged
     for name in ("fieldscribe-runtime", "fieldscribe-conformance"):
-        shutil.copytree(RUNTIME / name, modules / name, dirs_exist_ok=True)
+        shutil.copytree(runtime / name, modules / name, dirs_exist_ok=True)
     for package in packages:
         if isinstance(package, Path):
             shutil.copytree(package, modules / package.name.replace("_", "-"), dirs_exist_ok=True)

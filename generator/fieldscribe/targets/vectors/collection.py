@@ -187,6 +187,7 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         terms.changes_with or None,
         None if point.variant is None else str(point.variant),
         None if terms.when is None else _only_for(terms.when, variants),
+        terms.keeps,
         *(() if elsewhere is None else (terms.space, elsewhere)),
     )
     for old in point.was:
