@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,6 @@ from fieldscribe.targets.docs import html_files
 from fieldscribe.targets.docs.scope import scope_of
 from support.described import shipped
 from support.made_once import made_once
-from support.places import ROOT
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
 FINDS = {
@@ -96,25 +94,6 @@ def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:
 
 def test_print_shows_the_list_alone(seen: dict[str, Any]) -> None:
     assert seen["printed"] == [False, True]
-
-
-def test_the_code_of_a_point_has_the_names_of_the_generated_code(seen: dict[str, Any]) -> None:
-    folder = ROOT / "generated"
-    generated = {
-        "c": [*folder.glob("c/hitachi_l200*.h"), *folder.glob("c/fieldscribe*.h")],
-        "python": [*folder.glob("python/hitachi_l200/*.py")],
-        "rust": [*folder.glob("rust/hitachi_l200/src/*.rs")],
-    }
-    known = {
-        language: {word for file in files for word in re.findall(r"\w+", file.read_text("utf-8"))}
-        for language, files in generated.items()
-    }
-    names = {"c": r"\bhitachi_l200_(?!modbus\b)\w+", "python": r"device\.(\w+)", "rust": r"p::(\w+)"}
-    assert seen["snippets"]
-    for language, pattern in names.items():
-        used = {name for _, snippets in seen["snippets"] for name in re.findall(pattern, snippets[language])}
-        assert used, language
-        assert used - known[language] == set()
 
 
 def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:

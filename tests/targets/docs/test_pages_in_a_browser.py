@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -69,6 +70,13 @@ TYPED = (
     ("woodward_mpu2s", NOISE, "without a frame"),
 )
 """Device, what is pasted, and what the page says then: of all lines, and of single ones."""
+SNIPPETS = {
+    "c": (r"\b(?:{0}|fieldscribe)_(?!\w+\.h)\w+", ("{}*.h", "fieldscribe*.h")),
+    "python": (r"(?:device\.|point = \w+\.|import )(\w+)", ("{}/*.py",)),
+    "rust": (r"p::(\w+)", ("{}/src/*.rs",)),
+    "typescript": (r"(?:device\.|import {{ |from \")([\w-]+)", ("{}/*.d.ts", "{}/package.json")),
+}
+"""The names in the code to copy by language, and the generated files that have them."""
 _LINK = ("pkw", "pzd", "single_first")
 _REQUEST = ("framing", "unit", "transaction", "function", "address", "count", "values")
 _TASK = (*_LINK, "unit", "task", "parameter", "index", "width", "value", "words")
@@ -237,3 +245,15 @@ def test_the_page_runs_its_vectors(device: str, heard: dict[str, Any]) -> None:
     assert spoiled["status"].startswith("1 vector failed")
     assert len(spoiled["failures"]) == 1
     assert "address" in spoiled["failures"][0]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("language", SNIPPETS)
+def test_code_to_copy_has_the_names_of_the_generated_code(language: str, device: str, heard: dict[str, Any]) -> None:
+    names, where = SNIPPETS[language]
+    files = [file for each in where for file in (ROOT / "generated" / language).glob(each.format(device))]
+    known = {word for file in files for word in re.findall(r"[\w-]+", file.read_text("utf-8"))}
+    texts = [each[language] for each in heard[device]["snippets"] if each]
+    used = {name for text in texts for name in re.findall(names.format(device), text, re.IGNORECASE)}
+    assert len(texts) <= 2 * len(used)
+    assert used - known == set()

@@ -58,7 +58,8 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
     vectors.textContent = vectors.textContent.replace(line, () => other);
   }, spoil);
   ran.push(await runVectors());
-  found[file] = { decoded: JSON.parse(decoded), shown, ran };
+  const snippets = await page.evaluate(() => device.points.map((point) => snippetsOf(device, point)));
+  found[file] = { decoded: JSON.parse(decoded), shown, ran, snippets };
 }
 console.log(JSON.stringify({ found, troubles }));
 await browser.close();

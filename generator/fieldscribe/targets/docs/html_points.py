@@ -219,7 +219,7 @@ def _computed(device: Device) -> Mapping[str, int]:
 
 def _identifiers(point: Point) -> list[object]:
     """Return what C, Python, Rust and TypeScript call a point; empty where that is its name."""
-    names = "", attribute(point.name), type_name(point.item), constant(point.name)
+    names = "", attribute(point.name), type_name(point.item), constant(point.item)
     return ["" if name == point.item else name for name in names]
 
 
