@@ -42,9 +42,9 @@ bench:              ## measure the compiler and generated Python against cantool
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 
-prove:              ## prove that no input causes undefined behaviour in the C cores, parsers and builders
+prove:              ## prove that no input causes undefined behaviour in the C cores, parsers and builders (MACHINE=x86_16)
 	@sh generator/setup.sh tests
-	$(PYTHON) tests/proofs/prove.py
+	$(PYTHON) tests/proofs/prove.py $(addprefix --machine ,$(MACHINE))
 
 misra:              ## compare MISRA C:2012 findings in generated headers and runtimes with the table of justified ones
 	@sh generator/setup.sh tests
