@@ -53,20 +53,30 @@ def compare(folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
     """Print a line of counts for each collection, and what differs; return how much that is."""
     print("| collection | devices | points | compared | values in each language | wrong in C | Python | Rust |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
-    different = 0
-    for collection in COLLECTIONS:
-        files = collection.files(folder)
-        if files:
-            with TemporaryDirectory(prefix="fieldscribe-values-") as out:
-                chance = random.Random(seed)
-                chance.shuffle(files)
-                made = _made(collection, files, devices, Path(out))
-                different += _compare(collection, made, values // len(LANGUAGES), chance, Path(out))
-    return different
+    chance = random.Random(seed)
+    with TemporaryDirectory(prefix="fieldscribe-values-") as place:
+        out = Path(place)
+        made = {
+            one: _imported_files(one, files, devices, chance, out)
+            for one in COLLECTIONS
+            if (files := one.files(folder))
+        }
+        _compile(out)
+        compared = {
+            collection: [
+                _asked(collection, one, values // len(LANGUAGES) // len(imported), chance, out) for one in imported
+            ]
+            for collection, imported in made.items()
+        }
+        _write_workspace([one.name for each in compared.values() for one in each], out)
+        return sum(_compare(collection, each, out) for collection, each in compared.items())
 
 
-def _made(collection: Collection, files: Sequence[Path], devices: int, out: Path) -> list[tuple[str, Path]]:
-    """Import files until there are so many devices, and compile these."""
+def _imported_files(
+    collection: Collection, files: list[Path], devices: int, chance: random.Random, out: Path
+) -> list[tuple[str, Path]]:
+    """Import random files until there are so many devices; return each one's name and file."""
+    chance.shuffle(files)
     made: list[tuple[str, Path]] = []
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         for at in range(0, len(files), 4):
@@ -80,11 +90,22 @@ def _made(collection: Collection, files: Sequence[Path], devices: int, out: Path
                 made.append((name, file))
             if len(made) == devices:
                 break
+    return made
+
+
+def _compile(out: Path) -> None:
+    """Compile all descriptions of a folder to all languages."""
     command = (sys.executable, "-m", "fieldscribe", "generate", str(out / "descriptions"), "--out", str(out))
     done = subprocess.run((*command, "--target", "c,python,rust,vectors"), capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(done.stdout[-2000:] + done.stderr[-2000:])
-    return made
+
+
+def _write_workspace(names: Sequence[str], out: Path) -> None:
+    """Make one cargo workspace of the crates of these devices."""
+    without_registry(out / "rust")
+    crates = [*RUNTIMES, *names, *(f"{name}/conformance" for name in names)]
+    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", json.dumps(crates)), "utf-8")
 
 
 def _imported(collection: Collection, file: Path) -> str:
@@ -96,18 +117,12 @@ def _imported(collection: Collection, file: Path) -> str:
     return "" if drafted is None else compilable(drafted.groups, drafted.head, with_head=True)
 
 
-def _compare(
-    collection: Collection, made: Sequence[tuple[str, Path]], values: int, chance: random.Random, out: Path
-) -> int:
-    compared = [_asked(collection, one, values // len(made), chance, out) for one in made]
-    without_registry(out / "rust")
-    crates = [*RUNTIMES, *(one.name for one in compared), *(f"{one.name}/conformance" for one in compared)]
-    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", json.dumps(crates)), "utf-8")
+def _compare(collection: Collection, compared: Sequence[Compared], out: Path) -> int:
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         ran = list(pool.map(lambda one: [_run(language, one, out) for language in LANGUAGES], compared))
     points, known, vectors = (sum(getattr(one, key) for one in compared) for key in ("points", "known", "vectors"))
     wrong = Counter({name: sum(counts[at] for counts in ran) for at, name in enumerate(LANGUAGES)})
-    columns = (collection.name, len(made), points, known, vectors, *wrong.values())
+    columns = (collection.name, len(compared), points, known, vectors, *wrong.values())
     print(f"| {' | '.join(map(str, columns))} |", flush=True)
     for one in compared:
         for text in one.unlike:
