@@ -89,6 +89,7 @@ def devices(small: Path) -> None:
         Path(f"{name}.json").write_text(snapshot.as_text(), "utf-8")
 
 
+@pytest.mark.usefixtures("loads_once")
 @pytest.mark.parametrize("command", COMMANDS)
 def test_exit_codes_and_streams(command: str, run: Callable[..., Output], devices: None) -> None:
     """0 has a result on stdout, 2 only a message on stderr. JSON is whole, and changes no exit code."""

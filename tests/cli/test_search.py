@@ -96,6 +96,7 @@ def test_near_words(entries: list[Entry]) -> None:
     assert near_words(entries, ["Hochlaufzeitt"])[0] == "Hochlaufzeit"
 
 
+@pytest.mark.usefixtures("loads_once")
 def test_search(run: Callable[..., Output]) -> None:
     told = run("search", "base_frequency", "--device", "hitachi_l200")
     assert told.out.startswith("hitachi_l200 A020 base_frequency: Base frequency / ")

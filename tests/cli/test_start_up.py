@@ -12,6 +12,7 @@ import pytest
 from fieldscribe.resources import descriptions_dir
 
 
+@pytest.mark.full(seconds=1)
 def test_check_imports_nothing_that_it_does_not_need() -> None:
     """What takes long to import is left to the commands that use it."""
     code = (

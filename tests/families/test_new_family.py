@@ -81,6 +81,7 @@ def test_findings_of_the_family(tmp_path: Path) -> None:
     assert "this rings nothing" in told
 
 
+@pytest.mark.full(seconds=1)
 def test_what_people_ask(tmp_path: Path) -> None:
     folder = described(tmp_path)
     assert "space tone" in run(folder, "explain", "carillon", "low").stdout

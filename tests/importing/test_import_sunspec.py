@@ -153,6 +153,7 @@ GROUPS: st.SearchStrategy[dict[str, Any]] = st.recursive(
 NUMBERS = count()
 
 
+@pytest.mark.full(seconds=1)
 @settings(
     max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "40")),
     deadline=None,

@@ -168,6 +168,7 @@ LOOPS = (
 )
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("template", LOOPS)
 def test_a_template_that_loops_is_stopped(
     template: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
@@ -259,6 +260,7 @@ _ITEMS = st.dictionaries(st.sampled_from(_KEYS), _VALUES, max_size=9)
 _DRAWN = count()
 
 
+@pytest.mark.full(seconds=2)
 @settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     device=st.fixed_dictionaries(

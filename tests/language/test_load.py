@@ -167,6 +167,7 @@ def test_yaml_is_loaded_only_where_files_are_read(module: str, loaded: bool) -> 
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == loaded
 
 
+@pytest.mark.full(seconds=1)
 def test_a_text_without_findings_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("fieldscribe.language.source.find_positions", lambda _: pytest.fail("read again for places"))
     for device_file in (ROOT / "descriptions").glob("*/device.yaml"):

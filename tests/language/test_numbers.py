@@ -101,6 +101,7 @@ def test_a_message_quotes_hostile_text_clean_and_short() -> None:
     assert caught.value.message.isprintable()
 
 
+@pytest.mark.full(seconds=2)
 @given(st.text(max_size=80) | st.text(alphabet="0123456789.,+-eExXbBhH'aFfF _", max_size=80))
 @example("1" * 64)
 @example("9" * 32 + " " * 31 + "z")

@@ -102,6 +102,7 @@ def test_a_serial_line(name: str, listen: Listen) -> None:
     assert (code, messages) == (1 if any("!" in line for line in exchanges) else 0, "")
 
 
+@pytest.mark.full(seconds=1)
 def test_the_same_from_any_capture_and_from_what_was_written(listen: Listen, tmp_path: Path) -> None:
     pieces = [ASKED, CAME, WRITTEN, WRITTEN]
     _, lines, _ = listen("hitachi_l200", logged(pieces), "--write", str(tmp_path / "again.pcapng"))
@@ -317,6 +318,7 @@ def test_standard_input(listen: Listen, monkeypatch: pytest.MonkeyPatch, capsys:
     assert "standard input is closed" in capsys.readouterr().err
 
 
+@pytest.mark.full(seconds=1.2)
 @pytest.mark.parametrize("framed", [rtu, lambda text: tcp(7, text)], ids=["rtu", "tcp"])
 def test_logs_and_traces_have_frames_of_both_kinds(listen: Listen, framed: Callable[[str], bytes]) -> None:
     asked, came = (framed(text).hex(" ") for text in ("01 03 1001 0002", "01 03 04 01F4 0064"))

@@ -15,6 +15,7 @@ from fieldscribe.live.restoring import ordered
 from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
 from fieldscribe.simulation import Simulated, simulated
 from support.described import DEVICES, described, loaded_in, shipped
+from support.quick import full_but
 from support.small_drive import Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
@@ -92,6 +93,7 @@ def test_a_snapshot_has_all_but_the_point_without_an_answer(drive: Simulated, on
     assert "did not reply" in done.err
 
 
+@pytest.mark.full(seconds=20)
 def test_what_no_description_calls_a_setting_is_restored_by_all(run: Run, tmp_path: Path) -> None:
     """No parameter of the MPU2-S has a word on how it is kept."""
     file, line = str(tmp_path / "a.json"), ("--line", "can://virtual/woodward_mpu2s", "--timeout", "5")
@@ -123,7 +125,7 @@ def test_another_device_gets_all_settings(device: str, run: Run, tmp_path: Path)
 
 
 @pytest.mark.parametrize("after", [False, True])
-@pytest.mark.parametrize("number", [0, 1, 2])
+@pytest.mark.parametrize("number", full_but((1,), range(3)))
 def test_the_journal_of_a_killed_restore_is_right(number: int, *, after: bool, drive: Simulated, on_line: Run) -> None:
     """The process ends at once, before or after the device has the number; then the restore starts again."""
     assert FIRST[number]  # three settings differ

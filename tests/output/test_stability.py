@@ -20,6 +20,7 @@ def compiled(folder: Path) -> dict[str, str]:
     return {path: text for _, path, text in outputs(loaded(folder / "device.yaml"), CODE)}
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize(
     "change",
     [

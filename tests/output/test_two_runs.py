@@ -225,6 +225,7 @@ def test_two_runs_with_different_input_leave_no_mixture(folder: Path, monkeypatc
     assert main(["generate", "1.0.0", "--out", "made", "--check"]) == 1
 
 
+@pytest.mark.full(seconds=1)
 def test_check_calls_no_mixture_current(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was current when it was read, but was written since, is not current."""
     from fieldscribe.cli import main
@@ -242,6 +243,7 @@ def test_check_calls_no_mixture_current(folder: Path, monkeypatch: pytest.Monkey
     assert done == [0]
 
 
+@pytest.mark.full(seconds=1)
 def test_check_writes_nothing_and_needs_no_lock(folder: Path) -> None:
     from fieldscribe.cli import main
 

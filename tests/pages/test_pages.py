@@ -101,6 +101,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
+@pytest.mark.full(seconds=1)
 def test_the_files_of_the_page_are_made(site: Path) -> None:
     named = re.findall(r"(?m)^\| `(.*?)`", PAGE)
     assert "index.html" in named
@@ -159,6 +160,7 @@ def test_the_command_says_what_it_lacks(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.full(seconds=2)
 def test_a_second_run_finds_nothing_to_do(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["docs", *DEVICES, "--pages", "--format", "html", "--out", str(site)]
     assert main([*words, "--check"]) == 0

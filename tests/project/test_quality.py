@@ -57,6 +57,7 @@ def test_generated_is_current_whatever_the_order_of_hashes(seed: str) -> None:
     assert_clean(run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--check", PYTHONHASHSEED=seed))
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize(
     "pattern",
     [r"(?<![\w.])/(?:root|home|work|usr/local)/\w", r"pypi\.org|crates\.io/|registry\.npmjs|deb\.debian\.org"],

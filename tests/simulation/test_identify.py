@@ -9,6 +9,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import simulated
 from support.places import TESTS
+from support.quick import full_but
 
 SINK = TESTS / "devices/kitchen_sink"
 TOLD = ("fronius_datamanager",)
@@ -17,7 +18,8 @@ MODBUS = ("eastron_sdm630", "fronius_datamanager", "hitachi_l200", "jumo_control
 LINES = {**dict.fromkeys(MODBUS, ("tcp", "")), "siemens_mm4": ("serial", "uss://"), "woodward_mpu2s": ("can", "")}
 
 
-@pytest.mark.parametrize("name", LINES)
+@pytest.mark.parametrize("name", full_but(("hitachi_l200", *TOLD), LINES))
+@pytest.mark.usefixtures("loads_once")
 def test_each_device_is_itself_and_no_other(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     on, scheme = LINES[name]
     with simulated(name, on=on) as device:

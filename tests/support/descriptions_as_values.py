@@ -37,7 +37,7 @@ HOSTILE = (
 def whole(folder: str) -> dict[str, Any]:
     """The documents of a device's files by name, as plain values that can be changed."""
     texts = {path.name: path.read_text("utf-8") for path in sorted((DEVICES / folder).glob("*.yaml"))}
-    return {name: _typed(list(yaml.load_all(text, Loader=yaml.BaseLoader))) for name, text in texts.items()}
+    return {name: _typed(list(yaml.load_all(text, Loader=yaml.CBaseLoader))) for name, text in texts.items()}
 
 
 def _typed(value: Any, key: str = "") -> Any:

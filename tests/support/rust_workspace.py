@@ -12,6 +12,7 @@ from pathlib import Path
 from fieldscribe.model import Device
 
 from support.described import kitchen_sink, made, shipped
+from support.files import write_files
 from support.models import sample_device, trip_device
 from support.places import ROOT
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
@@ -64,7 +65,15 @@ def write_workspace(out: Path) -> None:
     devices = [*MODELS, *SHIPPED]
     without_registry(out / "rust")
     members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
-    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
+    config = (
+        f"build.rustc-workspace-wrapper = {json.dumps(tool('clippy-driver'))}\nenv.CLIPPY_ARGS = {json.dumps(LINTS)}\n"
+    )
+    texts = {"Cargo.toml": WORKSPACE.replace("@MEMBERS@", members), ".cargo/config.toml": config}
+    write_files(texts, out / "rust")
+
+
+LINTS = "".join(f"-Wclippy::{group}__CLIPPY_HACKERY__" for group in ("pedantic", "incompatible_msrv"))
+"""What clippy looks for beside its usual lints, as `cargo clippy` passes it to the compiler that warns as it builds."""
 
 
 def bring_up_to_date(kept: Path, made: Path) -> None:

@@ -30,6 +30,8 @@ _PACKAGES = {
     "frama-c": "frama-c-base",
     "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
+    "rustdoc": "rustc, or rustup from https://rustup.rs",
+    "clippy-driver": "rust-clippy, or rustup from https://rustup.rs",
     "rustfmt": "rustfmt",
     "bash": "bash",
     "zsh": "zsh",

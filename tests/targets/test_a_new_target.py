@@ -75,6 +75,7 @@ def test_it_is_named(compiler: Compiler) -> None:
     assert listed == ["made/manifest/made_up.json", "made/toy/made_up.csv", "made/toy/spaces.csv"]
 
 
+@pytest.mark.full(seconds=0.6)
 def test_its_names_are_checked(compiler: Compiler) -> None:
     compiler.describe(second="acceleration_time", third="acceleration_limit")
     done = compiler.run("check", ".")

@@ -106,6 +106,7 @@ def test_frames_here_are_those_of_the_manual() -> None:
     assert crc("05 03 00 11 00 03") in MANUAL.read_text("utf-8")  # the other example, likewise
 
 
+@pytest.mark.full(seconds=1)
 def test_the_first_program_is_short(page: Page) -> None:
     assert sum(1 for line in page.firmware.splitlines() if line.strip()) <= LINES
 

@@ -41,6 +41,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.full(seconds=1)
 def test_one_command_leaves_and_checks_all_of_it(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.copytree(ROOT / "descriptions/siemens_mm4", project / "own/siemens_mm4")
     shutil.copy(ROOT / "descriptions/glossary.yaml", project / "own/glossary.yaml")

@@ -199,6 +199,7 @@ def test_each_point_alone_compiles(device: str, tmp_path: Path) -> None:
         succeed([tool(compiler), *WARNINGS, *standard, f"-I{folder}", folder / "each.c", *result])
 
 
+@pytest.mark.full(seconds=1)
 def test_all_in_one_file_beside_another_version(tmp_path: Path) -> None:
     """Two devices, and two versions of one, live in one program."""
     older = ROOT / "descriptions/hitachi_l200"
@@ -404,6 +405,7 @@ def test_words_keep_parts_of_the_runtime(words: str, kept: set[str], tmp_path: P
     compiles(tmp_path, "hitachi_l200_modbus.h")
 
 
+@pytest.mark.full(seconds=1)
 def test_devices_in_one_folder_have_what_each_of_them_uses(tmp_path: Path) -> None:
     """In whatever order they come; a foreign edit, a choice that changed and a device that went are noticed."""
     l200 = ("c", "hitachi_l200", "--out", tmp_path, "--points", "A020")

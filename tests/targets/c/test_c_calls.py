@@ -12,6 +12,7 @@ from fieldscribe.targets.c.word_functions import has_form
 from support.c_device import SANITIZING, program, run_program, write_headers
 from support.described import made
 from support.python_families import uss_device
+from support.quick import full_but
 
 HANDLES = {
     "modbus": "{{NULL, &ask, 3U, 0U, 0U, false}}",
@@ -68,6 +69,8 @@ def check(device: Device, way: str, out: Path) -> None:
 
 
 @pytest.mark.parametrize("way", SANITIZING)
-@pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_codes", "sample_uss"])
+@pytest.mark.parametrize(
+    "device", full_but(("kitchen_codes", "sample_uss"), ("kitchen_sink", "kitchen_codes", "sample_uss"), seconds=3)
+)
 def test_a_call_does_what_codec_and_frames_do(device: str, way: str, tmp_path: Path) -> None:
     check(uss_device() if device == "sample_uss" else made(device), way, tmp_path)

@@ -174,6 +174,7 @@ def test_a_point_comes_out_of_a_block(way: str, folder: Path, tmp_path: Path) ->
     run_program(BLOCK, way, folder, tmp_path)
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("language", ["c", "c++"])
 @pytest.mark.parametrize("family", ["modbus", "can", "uss"])
 def test_the_definition_may_be_asked_for_late(family: str, language: str, folder: Path, tmp_path: Path) -> None:
@@ -212,6 +213,7 @@ def renamed(point: Point) -> Point:
     return changed(point, was=was, enum=replace(enum, was=was))
 
 
+@pytest.mark.full(seconds=0.6)
 def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
     """Frames, structs and enums of its own like constants and functions."""
     for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss"):

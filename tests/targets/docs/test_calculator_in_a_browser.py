@@ -14,7 +14,7 @@ from support.described import shipped
 from support.places import ROOT
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
-RANDOM_NUMBERS = 1000
+RANDOM_NUMBERS = 400
 BY_HAND = (
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "50"}, "500", "01F4"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "12,5"}, "125", "007D"),

@@ -157,6 +157,7 @@ async def use_async(drive: SampleDriveAsync) -> None:
 """
 
 
+@pytest.mark.full(seconds=3)
 def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
     assert typed_findings(MISUSE, folder, "sample_drive", tmp_path) == ""
 

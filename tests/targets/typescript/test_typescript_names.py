@@ -43,6 +43,7 @@ def test_comments_end_where_they_end(text: str) -> None:
     assert not re.search(r"[\n\r\u2028\u2029\u202e@]|</", comment)
 
 
+@pytest.mark.full(seconds=2)
 def test_a_hostile_description_is_text(tmp_path: Path) -> None:
     """Its package compiles, and a code is the text that it was."""
     modules = install(tmp_path, [rare_device()])

@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 
+import pytest
 from fieldscribe.simulation import simulated
 from support.node_device import installed
 from support.places import ROOT
@@ -16,6 +17,7 @@ PAGE = (ROOT / "descriptions/using/typescript.md").read_text("utf-8")
 BLOCKS = re.findall(r"^```typescript\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 
 
+@pytest.mark.full(seconds=3)
 def test_the_programs_compile(tmp_path: Path) -> None:
     installed(tmp_path)
     (tmp_path / "page.ts").write_text("declare const console: { log(...of: unknown[]): void };\n" + "\n".join(BLOCKS))

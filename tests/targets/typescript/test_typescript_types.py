@@ -23,6 +23,7 @@ DEVICES = sorted(path for path in SHIPPED.iterdir() if path.name != "fieldscribe
 STRICT = {"strict": True, "exactOptionalPropertyTypes": True, "noUncheckedIndexedAccess": True, "skipLibCheck": False}
 
 
+@pytest.mark.full(seconds=10)
 def test_the_types_of_the_runtime_are_current(tmp_path: Path) -> None:
     """The compiler checks its sources strictly, and makes the types of them that lie beside."""
     for name, text in declarations(tmp_path).items():
@@ -31,6 +32,7 @@ def test_the_types_of_the_runtime_are_current(tmp_path: Path) -> None:
         assert (SOURCES / name).read_text("utf-8") == text, name
 
 
+@pytest.mark.full(seconds=3)
 def test_programs_of_users(tmp_path: Path) -> None:
     """All devices in one program under the strictest settings, with what must not compile."""
     install(tmp_path, DEVICES)

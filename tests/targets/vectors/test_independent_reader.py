@@ -114,6 +114,7 @@ def test_the_vectors_say_what_the_yaml_says(folder: Path) -> None:
     assert min(answered["check"], answered["decode_count"]) > 0
 
 
+@pytest.mark.full(seconds=2)
 def test_this_reader_can_disagree() -> None:
     """A description that says something else than the vectors is noticed, for each kind of answer."""
     folder = ROOT / "tests/devices/kitchen_sink"
