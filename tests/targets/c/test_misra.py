@@ -1,19 +1,8 @@
-"""What stays of MISRA C:2012 is known, with how often and why."""
+"""What stays of MISRA C:2012 has a reason; `make misra` counts it."""
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import pytest
-from misra.misra import TABLE, differences, found, written
-from support.toolchains import tool
-
-
-@pytest.mark.full(seconds=15)
-def test_the_table_is_true(tmp_path: Path) -> None:
-    """`make misra` says what differs; `--accept` counts again."""
-    tool("cppcheck")
-    assert list(differences(found(tmp_path))) == []
+from misra.misra import TABLE, written
 
 
 def test_every_rule_has_a_reason() -> None:
