@@ -12,6 +12,8 @@ class UnclearError(Exception):
         super().__init__(message)
         self.message = message
         self.hint = hint
+        if hint:
+            self.add_note(f"hint: {hint}")  # tests of users see it
 
 
 class RefusedError(Exception):

@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -117,7 +118,17 @@ def test_the_console_reads_writes_and_spoils() -> None:
     )
     assert (line.faults.waiting, bench.clock.now()) == ([], 2.5)
     assert carry_out(bench, "help").startswith("get POINT")
-    for wrong in ("@9 get A020", "get A020", "@1 set A020", "@1 set A020=fast", "advance far", "met hope", "fault"):
+    for wrong in (
+        "@9 get A020",
+        "get A020",
+        "@1 set A020",
+        "@1 set A020=fast",
+        "get",
+        "advance",
+        "advance far",
+        "met hope",
+        "fault",
+    ):
         with pytest.raises(UnclearError):
             carry_out(bench, wrong)
     with pytest.raises(EOFError):
@@ -155,6 +166,14 @@ def test_the_fixture_runs_devices(simulated_device: Callable[..., Simulated]) ->
         drive.values["A999"] = 1
     with pytest.raises(ValueError, match="cannot hold"):
         drive.values["A020"] = 1e9
+    wrong: tuple[tuple[dict[str, Any], str], ...] = (
+        ({"on": "usb"}, "there is no line `usb`"),
+        ({"variants": ["400V"]}, "`400V` is no variant"),
+    )
+    for settings, message in wrong:
+        with pytest.raises(UnclearError, match=message) as error:
+            simulated_device(L200, **settings)
+        assert error.value.__notes__[0].startswith("hint: ")
 
 
 def test_clients_that_do_not_wait_for_their_answers_do_no_harm(

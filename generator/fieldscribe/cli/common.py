@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from difflib import get_close_matches
 from functools import lru_cache
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 
     Parser = ArgumentParser | _ArgumentGroup
 
+_LONGEST = 1e8
+"""The most seconds that an option takes: three years."""
+
 LOCAL = Path("descriptions")
 """The usual folder of a project's descriptions."""
 
@@ -43,6 +48,28 @@ class StopError(UnclearError):
         if self.message:
             usage_error(self.message, self.hint)
         return self.code
+
+
+def duration(text: str) -> float:
+    """Return a number of seconds above 0, for argparse."""
+    return _number(text, "seconds above 0", lambda seconds: 0 < seconds <= _LONGEST)
+
+
+def period(text: str) -> float:
+    """Return a number of seconds from 0 on, for argparse."""
+    return _number(text, "seconds from 0 on", lambda seconds: 0 <= seconds <= _LONGEST)
+
+
+def times(text: str) -> int:
+    """Return a whole number above 0, for argparse."""
+    return int(_number(text, "times from 1 on", lambda number: 1 <= number < inf and number == int(number)))
+
+
+def _number(text: str, what: str, is_allowed: Callable[[float], bool]) -> float:
+    with suppress(ValueError):
+        if is_allowed(number := float(text)):
+            return number
+    raise ArgumentTypeError(f"`{shortened(text)}` is no number of {what}")
 
 
 def usage_error(message: str, hint: str = "") -> int:

@@ -6,8 +6,16 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 
 from fieldscribe.cli.common import StopError, add_format, open_device, print_json, searched_devices
-from fieldscribe.cli.frame_options import placed
-from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, connected, line_of, print_requests
+from fieldscribe.cli.live_options import (
+    LINES,
+    Progress,
+    add_live,
+    add_unit,
+    connected,
+    line_of,
+    model_of,
+    print_requests,
+)
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.live.lines import families_of
 from fieldscribe.model import Device
@@ -73,7 +81,7 @@ def run(arguments: Namespace) -> int:
 def _models(arguments: Namespace) -> Iterator[Device]:
     """Yield the device of the command line, or all that are known; one with errors is left out with a message."""
     if arguments.device:
-        yield placed(open_device(arguments), arguments)
+        yield model_of(arguments)
         return
     for file in searched_devices(arguments).values():
         try:
@@ -89,6 +97,6 @@ def _lines(fits: dict[str, dict[str, str]], others: dict[str, str], silent: list
     for name, why in others.items():
         yield [("", f"it is not {name}: {visible(why)}")]
     if silent:
-        yield [("hint", f"nothing under `identify`: {', '.join(silent)}")]
+        yield [("hint", f"cannot be told, for want of `identify` in the description: {', '.join(silent)}")]
     if not (fits or others or silent):
         yield [("", "no known device has such a line")]

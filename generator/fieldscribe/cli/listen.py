@@ -15,7 +15,7 @@ from io import BufferedReader
 from pathlib import Path
 from typing import cast
 
-from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, open_device, usage_error
+from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, duration, open_device, usage_error
 from fieldscribe.cli.frame_options import add_family_options, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
@@ -72,7 +72,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_with(parser)
     add_repeated(parser, "--capture", "FILE", "read a capture; - is standard input")
     add("--line", metavar="LINE", help=f"listen on a line: rtu:///dev/ttyUSB0?baud=9600, or a name from {NAME}")
-    add("--for", type=float, metavar="SECONDS", dest="duration", help="stop listening on the line after this time")
+    add("--for", type=duration, metavar="SECONDS", dest="duration", help="stop listening on the line after this time")
     add_repeated(parser, "--port", "N", "a TCP port of the devices (default: that of the protocol)", type=int)
     add("--write", metavar="FILE", help="also write everything to a new capture (pcapng)")
     add("--summary", action="store_true", help="print only the summary, not each exchange")

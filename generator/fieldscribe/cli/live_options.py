@@ -12,7 +12,7 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.cli.common import StopError, add_device, add_repeated, open_device
+from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, USAGE
 from fieldscribe.live.connection import Connection, advice
@@ -37,7 +37,7 @@ def add_live(parser: ArgumentParser, *, optional: bool = False) -> None:
     add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="settings")
     add = parser.add_argument
     add("--line", metavar="LINE", help=f"where the device is: tcp://192.168.0.20, or a name from {NAME}")
-    add("--timeout", type=float, metavar="SECONDS", help="how long to wait for an answer")
+    add("--timeout", type=duration, metavar="SECONDS", help="how long to wait for an answer")
     add("-v", "--verbose", action="store_true", help="print the frames, and how many requests it took, on stderr")
 
 
@@ -130,11 +130,21 @@ class Live(NamedTuple):
         return Progress().shown(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
 
 
+def model_of(arguments: Namespace) -> Device:
+    """Return the device of the command line, at its bases. Raises StopError, also for numbers that none depends on."""
+    model = placed(open_device(arguments), arguments)
+    if arguments.settings:
+        known = ", ".join(each.name for each in model.given)
+        message = f"--with: no address of {model.id} depends on `{shortened(arguments.settings[0])}`"
+        raise StopError(message, f"given numbers: {known}" if known else "leave it out")
+    return model
+
+
 @contextmanager
 def opened(arguments: Namespace) -> Iterator[Live]:
     """Return the device of the command line on its line. Raises StopError, also for errors of the line meanwhile."""
     line = line_of(arguments)
-    model = placed(open_device(arguments), arguments)
+    model = model_of(arguments)
     unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
     with connected(arguments, line) as (connection, work):
         device = connection.device(model, unit, arguments.retries)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import gc
 import sys
 import time
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from datetime import datetime
 from typing import TYPE_CHECKING
 
+from fieldscribe.cli.common import period, times
 from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, opened
 from fieldscribe.cli.read import style_of
 from fieldscribe.cli.terminal import FINE, is_coloured, print_lines, terminal_size
@@ -46,21 +47,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="points by code, name or address; or groups, records, sets, arrays",
     )
     add_unit(parser)
-    add("--every", type=_seconds, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
-    add("--count", type=int, metavar="N", help="so often (default: until Ctrl-C)")
+    add("--every", type=period, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
+    add("--count", type=times, metavar="N", help="so often (default: until Ctrl-C)")
     add("--all", action="store_true", help="print all points each time, not only what changed")
     add("--format", choices=("text", "csv", "jsonl"), default="text", help="how to print (default: text)")
-
-
-def _seconds(text: str) -> float:
-    """Return a number of seconds that is not negative."""
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = -1.0
-    if not 0 <= seconds <= 86400:
-        raise ArgumentTypeError(f"`{text}` is no number of seconds from 0 to 86400")
-    return seconds
 
 
 def run(arguments: Namespace) -> int:

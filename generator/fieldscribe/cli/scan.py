@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
-from fieldscribe.cli.common import add_format, open_device, print_json
-from fieldscribe.cli.frame_options import placed
-from fieldscribe.cli.live_options import LINES, Progress, add_live, connected, line_of, print_requests
+from fieldscribe.cli.common import add_format, print_json
+from fieldscribe.cli.live_options import LINES, Progress, add_live, connected, line_of, model_of, print_requests
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.live.scanning import Answer, Scanner, read_units
 from fieldscribe.report import visible
@@ -36,7 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Ask all units and print who answers; return the exit code."""
     line = line_of(arguments)
-    model = placed(open_device(arguments), arguments) if arguments.device else None
+    model = model_of(arguments) if arguments.device else None
     arguments.timeout = _TIMEOUT if arguments.timeout is None else arguments.timeout
     found: list[Answer] = []
     progress = Progress()

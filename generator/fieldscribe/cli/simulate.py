@@ -18,6 +18,7 @@ from fieldscribe.cli.common import (
     add_descriptions,
     add_repeated,
     device_file,
+    period,
     report_findings,
     some_path,
     usage_error,
@@ -77,7 +78,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="FILE",
         help="write requests and answers as JSON lines (- for standard output)",
     )
-    add("--for", type=float, metavar="SECONDS", dest="seconds", help="end after that time")
+    add("--for", type=period, metavar="SECONDS", dest="seconds", help="end after that time")
 
 
 def run(arguments: Namespace) -> int:

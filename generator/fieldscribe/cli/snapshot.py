@@ -8,11 +8,13 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import replace
 from pathlib import Path
 
+from fieldscribe.cli.common import StopError
 from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.live.snapshots import take
 from fieldscribe.output import writing
 from fieldscribe.report import visible
+from fieldscribe.safe_files import kind_of
 
 EXAMPLE = f"""examples:
   fieldscribe snapshot hitachi_l200 --line tcp://192.168.0.20 --out before.json
@@ -35,6 +37,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Read all and write the file; return the exit code."""
+    if arguments.out.exists() and (kind := kind_of(os.stat(arguments.out))) is not None:
+        raise StopError(f"{kind}: {arguments.out}", "name a file")
     progress, given = Progress(), list(arguments.settings)
     with opened(arguments) as live:
         try:

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.selection import points_by_name
 from fieldscribe.model import Device, Enum, Point, Special
-from fieldscribe.text import line
+from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import number_text
@@ -169,7 +169,7 @@ def _out_of_range(
     given = amount_with_unit(point, value) if value is not None else f"raw {raw}"
     span = range_of(device, point, settings, raw_alone=value is None)
     nearest = _nearest(point, value, raw, settings) if hinted else ""
-    return _refused(point, "out_of_range", f"{given} is outside {span}", nearest)
+    return _refused(point, "out_of_range", f"{shortened(given)} is outside {span}", nearest)
 
 
 def _entries(enum: Enum) -> str:

@@ -46,6 +46,8 @@ def carry_out(bench: Bench, text: str) -> str:
 
 
 def _one(device: SimulatedDevice, verb: str, rest: str) -> str:
+    if verb != "restart" and not rest.strip():
+        raise UnclearError(f"`{verb}` needs more", "`help` says what")
     if verb == "get":
         return f"{device.unit} {rest} = {device.values[rest]}"
     if verb == "set":

@@ -14,7 +14,10 @@ from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.line import Line, Trace
 from fieldscribe.simulation.servers import Server, serve
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError
 
+_LINES = ("tcp", "serial", "can")
 _OF_LINE, _OF_BENCH = ("framing", "faults"), ("seed", "strict", "time_scale")
 
 
@@ -63,6 +66,10 @@ def simulated(
     """
     line: dict[str, Any] = {key: settings.pop(key) for key in _OF_LINE if key in settings}
     bench = {key: settings.pop(key) for key in _OF_BENCH if key in settings}
+    if on not in ("", *_LINES):
+        raise UnclearError(f"there is no line `{shortened(on)}`", f"`on` is one of {', '.join(_LINES)}")
+    if wrong := [text for text in variants if "=" not in text]:
+        raise UnclearError(f"`{shortened(wrong[0])}` is no variant", "write AXIS=VALUE, as in voltage=400V")
     settings["variant"] = dict(text.split("=", 1) for text in variants)
     line["devices"] = [{"device": str(device), "behaviour": behaviour, **settings}]
     if on:
