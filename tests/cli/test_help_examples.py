@@ -363,6 +363,7 @@ def _interrupted(seconds: float) -> None:
         raise KeyboardInterrupt
 
 
+@pytest.mark.usefixtures("loads_once")
 @pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("command", CLAIMS)
 def test_examples_do_what_they_show(
