@@ -149,8 +149,10 @@ def test_every_field_of_the_model_counts(name: str) -> None:
         for other in (other for other in others(value) if other != value):
             mutant = changed(device, path, other)
             try:
-                assert all_facts(mutant) != usual, owner
-                assert (digest(mutant) != device.digest) == (for_code(mutant) != plain), owner
+                seen = for_code(mutant)
+                digested = with_digest(mutant, seen)[0]
+                assert facts_digest(digested) != usual, owner
+                assert (digested.digest != device.digest) == (seen != plain), owner
                 found = {each.weight for each in differences(exported, export_model(mutant))}
             except (AttributeError, TypeError, KeyError):
                 continue  # no value of that kind belongs there
