@@ -173,10 +173,10 @@ export function tcpReplySize(received) {
 
 /**
  * What a line must know of the reply to a request.
- * @param {Uint8Array} request @param {string} framing @param {boolean} [broadcast]
+ * @param {Uint8Array} request @param {string} framing @param {boolean} broadcast
  * @returns {import("./receiving.js").ReplyShape}
  */
-export function modbusReplyShape(request, framing, broadcast = false) {
+export function modbusReplyShape(request, framing, broadcast) {
   if (framing === "tcp") {
     const isOwn = (/** @type {Uint8Array} */ frame) => frame[0] === request[0] && frame[1] === request[1];
     return { framing, broadcast, shortest: 9, longest: 260, size: tcpReplySize, isOwn };

@@ -137,6 +137,14 @@ def test_a_device_that_cannot_be_is_not_made(folder: Path, name: str, options: d
         assert status_of(node, None, "table") == status
 
 
+@pytest.mark.parametrize(("name", "framing"), [(L200, "tcp"), (L200, "uss"), (MM4, "rtu")])
+def test_a_line_that_frames_otherwise_is_refused(folder: Path, name: str, framing: str) -> None:
+    line = {"kind": "tcp", "port": 1, "framing": framing}
+    options = {"link": {"pkw": 4, "pzd": 2}} if name == MM4 else {}
+    with node_device(folder, name, line, unit=1, **options) as node:
+        assert status_of(node, None, "table") == "bad_framing"
+
+
 def test_a_device_says_what_it_is(folder: Path) -> None:
     with running(folder, FRONIUS) as (drive, node):
         assert node(None, "identify") == {}

@@ -45,10 +45,10 @@ export function rtuReplySize(received: Uint8Array): number | null;
 export function tcpReplySize(received: Uint8Array): number | null;
 /**
  * What a line must know of the reply to a request.
- * @param {Uint8Array} request @param {string} framing @param {boolean} [broadcast]
+ * @param {Uint8Array} request @param {string} framing @param {boolean} broadcast
  * @returns {import("./receiving.js").ReplyShape}
  */
-export function modbusReplyShape(request: Uint8Array, framing: string, broadcast?: boolean): import("./receiving.js").ReplyShape;
+export function modbusReplyShape(request: Uint8Array, framing: string, broadcast: boolean): import("./receiving.js").ReplyShape;
 /**
  * What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
  *
