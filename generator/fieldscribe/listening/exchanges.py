@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.listening.chunks import Cut
@@ -14,7 +15,7 @@ _MOST_BYTES = 16
 """How many bytes of what is no frame are printed."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Exchange:
     """A request with its answer, one of them alone, or a frame that nobody answers.
 
@@ -48,7 +49,7 @@ class Exchange:
         """What is said of frames without items; the bytes of those that are foreign, or none."""
         return self.main.summary if self.main else spaced(self.cuts[0].data[:_MOST_BYTES])
 
-    @property
+    @cached_property
     def findings(self) -> dict[str, str]:
         """What is against the manual and which numbers are outside their range, by point; and what was refused."""
         found: dict[str, str] = {}
