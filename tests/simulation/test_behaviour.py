@@ -55,6 +55,9 @@ MM4: list[Step] = [
     ({"short_circuit": 0, "STW": 0x0CFF}, 0, {"ZSW": 0xFA70}),
     ({"STW": 0x0C7E}, 0, {"ZSW": 0xFA31}),
     ({"STW": 0x047D}, 0, {"ZSW": 0xFA60}),
+    ({"STW": 0x047E, "silent_master": 1}, 5, {"ZSW": 0xFA31}),
+    ({"uss_telegram_off_time_index_0": 500}, 0.4, {"ZSW": 0xFA31}),
+    ({}, 0.2, {"ZSW": 0xFA78}),
 ]
 MPU2S: list[Step] = [
     ({}, 1, {"generator_frequency": 0, "generator_state": "absent", "mains_state": "present", "battery_voltage": 24}),
