@@ -47,7 +47,7 @@ bench:              ## measure the compiler and generated Python against cantool
 
 prove:              ## prove that no input causes undefined behaviour in the C cores, parsers and builders (MACHINE=x86_16)
 	@sh generator/setup.sh tests
-	$(PYTHON) tests/proofs/prove.py $(addprefix --machine ,$(MACHINE))
+	$(PYTHON) tests/proofs/prove.py $(if $(MACHINE),--machine $(MACHINE))
 
 misra:              ## compare MISRA C:2012 findings in generated headers and runtimes with the table of justified ones
 	@sh generator/setup.sh tests
