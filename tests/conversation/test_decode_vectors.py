@@ -29,6 +29,7 @@ def holds(vector: Vector, heard: FrameResult, sound: bool) -> None:
     assert sound == (not heard.faults and heard.kind not in ("other", "unreadable")), (vector, heard)
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("device", [made("kitchen_sink"), shipped("jumo_controller")], ids=lambda one: one.id)
 def test_replies_of_modbus(device: Device) -> None:
     """Whole replies and exceptions are sound; a changed byte, unit, function, transaction or echo is a fault."""

@@ -339,6 +339,7 @@ def test_a_message_alone_needs_no_selector() -> None:
     assert found.signals[0].name == "read_request_byte_0"
 
 
+@pytest.mark.full(seconds=0.7)
 def test_the_command(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     assert main(["export", "dbc", "woodward_mpu2s", "--unit", "3", "--variant", "voltage=400V"]) == 0
     out = capfdbinary.readouterr().out

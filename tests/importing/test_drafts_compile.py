@@ -80,6 +80,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 NUMBERS = count()
 
 
+@pytest.mark.full(seconds=1)
 @settings(
     max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "40")),
     deadline=None,

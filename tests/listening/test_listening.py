@@ -262,6 +262,7 @@ def test_a_bus_that_others_talk_on() -> None:
     chunks.close()
 
 
+@pytest.mark.full(seconds=0.7)
 def test_lines_and_stations_of_a_project(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -288,6 +289,7 @@ def test_lines_and_stations_of_a_project(
     assert f"{READ}\n\n1 exchange\n" in capsys.readouterr().out
 
 
+@pytest.mark.full(seconds=0.6)
 def test_what_never_comes_again_does_not_fill_the_memory() -> None:
     """Each connection, unit, address and finding is new; what no longer fits is counted together."""
     listener, statistics = Listener([Station(shipped("hitachi_l200"))], Options()), Statistics()
@@ -308,6 +310,7 @@ def test_what_never_comes_again_does_not_fill_the_memory() -> None:
     assert len(listener._requests) <= 1024
 
 
+@pytest.mark.full(seconds=0.7)
 def test_standard_input(listen: Listen, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     expected = listen("hitachi_l200", logged([ASKED, CAME]))
     monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(logged([ASKED, CAME]).encode())))

@@ -39,6 +39,7 @@ def printed(drive: Simulated, words: str, capsys: pytest.CaptureFixture[str]) ->
     return re.sub(r"(?<=after )[\d.]+|^20\d\d-[^,]*", "…", text, flags=re.MULTILINE)
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.usefixtures("loads_once")
 def test_the_blocks_of_the_page_print_what_stands_there(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

@@ -63,6 +63,7 @@ def on_line(drive: Simulated, run: Run, tmp_path: Path, monkeypatch: pytest.Monk
     return lambda *words: run(*words, *(() if words[0] == "compare" else line))
 
 
+@pytest.mark.full(seconds=0.7)
 def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None:
     """A command that the description does not call a setting stays, unless it is named."""
     assert on_line("snapshot", "hitachi_l200", "--out", "b.json").code == 0
@@ -108,6 +109,7 @@ def test_what_no_description_calls_a_setting_is_restored_by_all(run: Run, tmp_pa
         assert genset.values["generator_rated_frequency"] == held
 
 
+@pytest.mark.full(seconds=0.6)
 @pytest.mark.parametrize("device", ["hitachi_l200", "eastron_sdm630"])
 def test_another_device_gets_all_settings(device: str, run: Run, tmp_path: Path) -> None:
     """One whose numbers differ: two simulated devices of different seeds."""

@@ -155,6 +155,7 @@ def test_a_broken_memory_is_made_anew_or_ignored(place: Path, kind: str, compile
     assert len(compiled) == (2 if kind == "folder" else 1)
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("kind", ["file", "shared", "link to nowhere"])
 def test_without_a_private_cache_everything_works(place: Path, kind: str) -> None:
     shutil.rmtree(place / "cache")

@@ -29,6 +29,7 @@ def test_each_device_is_itself_and_no_other(name: str, capsys: pytest.CaptureFix
     assert (name in found["without_identify"]) == (name not in TOLD)
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize(("voltage", "model"), [*product(("230V", "400V"), ("small", "large"))])
 def test_variants_are_what_was_simulated(voltage: str, model: str, capsys: pytest.CaptureFixture[str]) -> None:
     """Texts and numbers, facts of the device and of variants about one point."""

@@ -29,11 +29,13 @@ def imported(folder: Path, package: str) -> Iterator[Any]:
         del sys.modules[name]
     sys.path.insert(0, str(folder))
     importlib.invalidate_caches()
-    yield importlib.import_module(package)
-    sys.path.remove(str(folder))
-    for name in [name for name in sys.modules if _is_generated(name, package)]:
-        del sys.modules[name]
-    sys.modules.update(before)
+    try:
+        yield importlib.import_module(package)
+    finally:  # a test that fails changes nothing for the next
+        sys.path.remove(str(folder))
+        for name in [name for name in sys.modules if _is_generated(name, package)]:
+            del sys.modules[name]
+        sys.modules.update(before)
 
 
 def _is_generated(module: str, package: str) -> bool:

@@ -51,6 +51,7 @@ def compiler(tmp_path_factory: pytest.TempPathFactory) -> Compiler:
     return Compiler(tmp_path_factory.mktemp("compiler"))
 
 
+@pytest.mark.full(seconds=2)
 def test_it_is_generated_and_checked(compiler: Compiler) -> None:
     compiler.describe()
     done = compiler.run("generate", ".", "--out", "made")

@@ -25,7 +25,7 @@ from support.vector_file import counts_of, spoil
 
 GENERATED = ROOT / "generated"
 RUNNER = TESTS / "conformance"
-QUICK = ("hitachi_l200", "siemens_mm4")
+QUICK = ("siemens_mm4",)
 PROMISES = 1 + len(CHECKS)
 """What the runner holds beside the vectors: the widths of flags, and what the runtime promises for any device."""
 

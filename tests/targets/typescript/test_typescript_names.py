@@ -124,6 +124,7 @@ NAMES_OF_MODULES += " special_code stored stored_write_only string symbol u16 u3
 NAMES_OF_MODULES += " word_kind write_only"
 
 
+@pytest.mark.full(seconds=3)
 def test_no_name_is_one_that_modules_need(tmp_path: Path) -> None:
     """Neither of numbers, of flags nor of a device: the packages load, and their types compile."""
     devices = [("named", "enum: {0: off, 1: run}"), ("words", "flags: {0: off, 1: run}")]

@@ -127,6 +127,7 @@ def differs(device: Device, sound: str) -> bool:
         return True
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("part", range(5), ids=["shape", "allowed", "bits", "order", "symbol"])
 def test_a_forgotten_part_of_an_encoding_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
     sharing_more(monkeypatch, PointEncodings, "_known", part)
