@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from random import Random
 from typing import Any, NamedTuple
 
 import pytest
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Point
 from fieldscribe.targets.vectors.oracle import INFINITY, Oracle, Ratio, quotient
 from support.described import shipped
+from support.made_once import made_once
 from support.places import ROOT
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
-RANDOM_NUMBERS = 400
+RANDOM_NUMBERS = 500
+DEVICES = ("hitachi_l200", "woodward_mpu2s")
 BY_HAND = (
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "50"}, "500", "01F4"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "12,5"}, "125", "007D"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Word", "text": "0FA0"}, "4000", "0FA0"),
-    ("hitachi_l200", {"point": "base_frequency", "bits": [2, 8]}, "260", "0104"),
+    ("hitachi_l200", {"point": "base_frequency", "anew": True, "bits": [2, 8]}, "260", "0104"),
     ("hitachi_l200", {"point": "run_command", "field": "Name", "text": "1"}, "1", "0001"),
     ("siemens_mm4", {"point": "control_word", "field": "Word", "text": "047F"}, "1151", "047F"),
     ("jumo_controller", {"point": "setpoint_1", "field": "Value", "text": "1"}, "1065353216", "0000 3F80"),
@@ -32,21 +36,24 @@ FRAMES = (
         "Write: reply": "01 06 10 28 01 F4 0D 15",
     }),
     ("woodward_mpu2s", {"point": "generator_voltage_factor"}, {"Read: request": "33F#FF0101FB0000FEFA"}),
+    ("woodward_mpu2s", {"point": "generator_frequency", "field": "Raw", "text": "5000"}, {
+        "From the device": "321#DD00000013880000",
+    }),
+    ("siemens_mm4", {"point": "control_word", "field": "Word", "text": "047F"}, {
+        "To the device": "02 06 01 04 7F 00 00 7E",
+    }),
 )  # fmt: skip
+"""Device, what is typed, frames: of the manuals, and put together by hand after them."""
+REFUSED = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "")]
+REPLIES = [
+    {"point": "base_frequency", "field": "Read: reply", "text": text}
+    for text in ("01 03 02 01 F4 B8 53", "01 03 02 01 F4 B8 54", "01 83 02 C0 F1")
+]
+"""The answer of the manual's example, the same with a wrong CRC, and an exception."""
 
-pytestmark = pytest.mark.full(seconds=30)
+Typed = Callable[[str, dict[str, Any]], dict[str, Any]]
 
-
-def _typed(device: str, steps: list[dict[str, Any]], folder: Path) -> list[dict[str, Any]]:
-    """What the fields of the calculators say after each step."""
-    npm_package("playwright-core")
-    page, listed = ROOT / f"generated/docs/{device}.html", folder / "steps.json"
-    listed.write_text(json.dumps(steps), "utf-8")
-    program = Path(__file__).with_name("calculate.mjs")
-    done = json.loads(succeed([tool("node"), program, page, tool("chromium-headless-shell"), NODE_MODULES, listed]))
-    assert done["troubles"] == []
-    said: list[dict[str, Any]] = done["said"]
-    return said
+pytestmark = pytest.mark.full(seconds=5)
 
 
 class _Sample(NamedTuple):
@@ -55,16 +62,28 @@ class _Sample(NamedTuple):
     raw: int
     ratio: Ratio
 
+    @property
+    def value(self) -> float:
+        value = quotient(self.ratio.numerator(self.raw), self.ratio.denominator)
+        assert abs(value) < INFINITY
+        return value
+
+    def steps(self) -> list[dict[str, Any]]:
+        """The raw number typed, and then its value."""
+        return [self.step("Raw", str(self.raw)), self.step("Value", repr(self.value))]
+
     def step(self, field: str, text: str) -> dict[str, Any]:
         return {"point": self.point.item, "needs": self.settings, "field": field, "text": text}
 
 
-def _samples(device: Device, count: int) -> list[_Sample]:
+@cache
+def _samples(device_id: str) -> list[_Sample]:
     """Random raw numbers of points with a scale, and of what the scale needs."""
+    device = shipped(device_id)
     random, oracle = Random(device.id), Oracle({point.name: point for point in device.points})
     points = [point for point in device.points if point.generated and point.form == "scaled" and not point.specials]
     samples: list[_Sample] = []
-    while len(samples) < count:
+    while len(samples) < RANDOM_NUMBERS // len(DEVICES):
         point = random.choice(points)
         settings = {}
         for name in point.arguments:
@@ -77,49 +96,78 @@ def _samples(device: Device, count: int) -> list[_Sample]:
     return sorted(samples, key=lambda sample: sample.point.item)
 
 
-@pytest.mark.parametrize("device_id", ["hitachi_l200", "woodward_mpu2s"])
-def test_random_numbers_are_those_of_the_oracle(device_id: str, tmp_path: Path) -> None:
-    """Raw to value, and the value that is shown back to a raw number."""
-    samples = _samples(shipped(device_id), RANDOM_NUMBERS // 2)
-    forth = _typed(device_id, [sample.step("Raw", str(sample.raw)) for sample in samples], tmp_path)
-    back = []
-    for sample, said in zip(samples, forth, strict=True):
-        value = quotient(sample.ratio.numerator(sample.raw), sample.ratio.denominator)
-        assert abs(value) < INFINITY
-        assert float(said["value"]) == value, (sample, said)
-        if not said["wrong"] and sample.point.encodes_values:
-            back.append((sample.step("Value", said["value"]), sample.ratio.raw_of_float(value)))
-    assert len(back) > len(samples) // 10
-    for (step, raw), said in zip(back, _typed(device_id, [step for step, _ in back], tmp_path), strict=True):
-        assert said["raw"] == str(raw), (step, said)
+def _steps(device_id: str) -> list[dict[str, Any]]:
+    """All that is typed on the page of a device, one after the other."""
+    by_hand = [step for device, step, *_ in (*BY_HAND, *FRAMES) if device == device_id]
+    samples = _samples(device_id) if device_id in DEVICES else []
+    l200 = [*REPLIES, *REFUSED] if device_id == "hitachi_l200" else []
+    return [*by_hand, *l200, *(step for sample in samples for step in sample.steps())]
+
+
+@pytest.fixture(scope="module")
+def typed(tmp_path_factory: pytest.TempPathFactory) -> Typed:
+    """What the fields say after a step on the page of a device: one browser visits all pages."""
+    npm_package("playwright-core")
+    devices = sorted({device for device, *_ in (*BY_HAND, *FRAMES)})
+    pages = {str(ROOT / f"generated/docs/{device}.html"): _steps(device) for device in devices}
+
+    def calculate(folder: Path) -> None:
+        listed = folder / "steps.json"
+        listed.write_text(json.dumps(pages), "utf-8")
+        program, browser = Path(__file__).with_name("calculate.mjs"), tool("chromium-headless-shell")
+        said = succeed([tool("node"), program, browser, NODE_MODULES, listed])
+        (folder / "said.json").write_text(said, "utf-8")
+
+    done = json.loads((made_once(tmp_path_factory, "calculated", calculate) / "said.json").read_text("utf-8"))
+    assert done["troubles"] == []
+    said = {
+        (Path(page).stem, json.dumps(step)): found
+        for page, steps in pages.items()
+        for step, found in zip(steps, done["said"][page], strict=True)
+    }
+    return lambda device, step: said[device, json.dumps(step)]
+
+
+@pytest.mark.parametrize("device_id", DEVICES)
+def test_random_numbers_are_those_of_the_oracle(device_id: str, typed: Typed) -> None:
+    """Raw to value, and the value back to a raw number."""
+    back = 0
+    for sample in _samples(device_id):
+        forth, again = (typed(device_id, step) for step in sample.steps())
+        assert float(forth["value"]) == sample.value, (sample, forth)
+        if not forth["wrong"] and sample.point.encodes_values:
+            assert again["raw"] == str(sample.ratio.raw_of_float(sample.value)), (sample, again)
+            back += 1
+    assert back > len(_samples(device_id)) // 10
 
 
 @pytest.mark.parametrize(("device_id", "step", "raw", "words"), BY_HAND)
-def test_fields_follow_each_other(device_id: str, step: dict[str, Any], raw: str, words: str, tmp_path: Path) -> None:
-    [said] = _typed(device_id, [step], tmp_path)
+def test_fields_follow_each_other(device_id: str, step: dict[str, Any], raw: str, words: str, typed: Typed) -> None:
+    said = typed(device_id, step)
     assert (said["raw"], said["words"], said["wrong"]) == (raw, words, False)
+
+
+def test_drawn_bits_follow_the_number(typed: Typed) -> None:
+    step = {"point": "control_word", "field": "Word", "text": "047F"}
+    assert typed("siemens_mm4", step)["drawn"] == [0, 1, 2, 3, 4, 5, 6, 10]
 
 
 @pytest.mark.parametrize(("device_id", "step", "frames"), FRAMES)
 def test_frames_are_those_of_the_manual(
-    device_id: str, step: dict[str, Any], frames: dict[str, str], tmp_path: Path
+    device_id: str, step: dict[str, Any], frames: dict[str, str], typed: Typed
 ) -> None:
-    [said] = _typed(device_id, [step], tmp_path)
-    assert frames.items() <= said["frames"].items()
+    assert frames.items() <= typed(device_id, step)["frames"].items()
 
 
-def test_what_may_not_be_written_says_so_and_has_no_frame(tmp_path: Path) -> None:
-    steps = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "")]
-    for said in _typed("hitachi_l200", steps, tmp_path):
+def test_what_may_not_be_written_says_so_and_has_no_frame(typed: Typed) -> None:
+    for step in REFUSED:
+        said = typed("hitachi_l200", step)
         assert said["wrong"]
         assert "Write: request" not in said["frames"]
 
 
-def test_a_reply_that_came_is_decoded(tmp_path: Path) -> None:
-    """The answer of the manual's example, and one with a wrong CRC."""
-    texts = ("01 03 02 01 F4 B8 53", "01 03 02 01 F4 B8 54", "01 83 02 C0 F1")
-    steps = [{"point": "base_frequency", "field": "Read: reply", "text": text} for text in texts]
-    good, torn, refused = _typed("hitachi_l200", steps, tmp_path)
+def test_a_reply_that_came_is_decoded(typed: Typed) -> None:
+    good, torn, refused = (typed("hitachi_l200", step) for step in REPLIES)
     assert (good["value"], good["raw"], good["wrong"]) == ("50", "500", False)
     assert torn["wrong"]
     assert "CRC" in torn["status"]
