@@ -106,6 +106,8 @@ def test_the_files_of_the_page_are_made(site: Path) -> None:
     named = re.findall(r"(?m)^\| `(.*?)`", PAGE)
     assert "index.html" in named
     assert all((site / name).is_file() for name in named)
+    assert '"index":"index.html"' in (site / "hitachi_l200.html").read_text("utf-8")
+    assert '"index":' not in (ROOT / "generated/docs/hitachi_l200.html").read_text("utf-8")
 
 
 def test_every_page_is_there_and_every_link_leads_somewhere(site: Path) -> None:

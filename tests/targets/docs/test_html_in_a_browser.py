@@ -92,8 +92,8 @@ def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:
     assert light != dark == again
 
 
-def test_print_shows_the_list_alone(seen: dict[str, Any]) -> None:
-    assert seen["printed"] == [False, True]
+def test_print_shows_the_list_alone_and_opens_errata(seen: dict[str, Any]) -> None:
+    assert seen["printed"] == [False, True, True]
 
 
 def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:
