@@ -21,11 +21,21 @@ const pastedBefore = { text: "", known: "", framing: "", pkw: "", pzd: "", onlyW
 
 /** Yield the frames in pasted text, one after the other. @param {string} text @param {FrameDecoder} decoder @returns {Generator<Heard>} */
 function* decodedFrames(text, decoder) {
+  /** @type {number | null} */
+  let asked = null;
   for (const line of linesOf(text)) {
     const pasted = pastedLine(line, device.family === "can");
     if (!pasted) continue;
     if (pasted.problem) yield { ...decodedFrame({ kind: "no frame", summary: "no frame", notes: [pasted.problem] }), text: pasted.text, time: pasted.time };
-    else for (const frame of decoder.frames(pasted)) yield { ...decoder.decode(frame), text: pastedText(frame), time: pasted.time };
+    else {
+      for (const frame of decoder.frames(pasted)) {
+        const decoded = decoder.decode(frame);
+        const isAnswer = decoded.kind === "reply" || decoded.kind === "exception";
+        if (isAnswer && asked !== null && pasted.time !== null) decoded.notes.push(`answered after ${durationText(pasted.time - asked)}`);
+        asked = decoded.kind === "request" ? pasted.time : null;
+        yield { ...decoded, text: pastedText(frame), time: pasted.time };
+      }
+    }
   }
 }
 
@@ -77,7 +87,7 @@ class DecoderView {
 
   parts() {
     const example = element("button", { type: "button" }, "Frames of the manual");
-    example.addEventListener("click", () => { this.area.value = pastedBefore.text = device.frames.map((/** @type {string[]} */ frame) => frame[0]).join("\n"); void this.decode(); });
+    example.addEventListener("click", () => { this.area.value = pastedBefore.text = device.frames.map(([way, bytes]) => `${way} ${bytes}`).join("\n"); void this.decode(); });
     const clear = element("button", { type: "button" }, "Clear");
     clear.addEventListener("click", () => { this.area.value = pastedBefore.text = ""; void this.decode(); this.area.focus(); });
     const onlyWrong = element("input", { type: "checkbox", checked: pastedBefore.onlyWrong });
@@ -183,6 +193,11 @@ function heardBox(heard) {
   for (const each of notes) rows.push(["Note", each]);
   const head = element("p", { className: "frame-text" }, time === null ? "" : element("span", { className: "soft" }, `${timeText(time)} `), element("code", {}, text));
   return element("section", { className: isWrong(heard) ? "one wrong-one" : "one" }, head, factList(rows));
+}
+
+/** Return `4.2 ms`, `1.25 s`. @param {number} seconds */
+function durationText(seconds) {
+  return seconds < 1 ? `${(1000 * seconds).toFixed(1)} ms` : `${seconds.toFixed(2)} s`;
 }
 
 /** @param {number} time seconds of a day, or since 1970 */

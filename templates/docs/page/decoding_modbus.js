@@ -109,8 +109,8 @@ class ModbusDecoder extends FrameDecoder {
   decode({ data }) {
     const unwrapped = this.recognised(data);
     const decoded = this.read(unwrapped);
-    const misprint = device.frames.find((/** @type {string[]} */ [bytes, note]) => note && bytes === hexBytes(data));
-    if (misprint) decoded.notes.push(misprint[1]);
+    const misprint = device.frames.find(([, bytes, note]) => note && bytes === hexBytes(data));
+    if (misprint) decoded.notes.push(misprint[2]);
     if (unwrapped.fault) decoded.faults.unshift(unwrapped.fault);
     else if (data.length > (unwrapped.framing === "tcp" ? 260 : 256)) decoded.faults.unshift(`the frame has ${data.length} bytes, ${unwrapped.framing === "tcp" ? 260 : 256} are the most`);
     if (device.framings.length && !device.framings.includes(unwrapped.framing) && !unwrapped.fault && !this.isToldOfFraming) {

@@ -23,9 +23,9 @@ class UssDecoder extends FrameDecoder {
   }
 
   /** @param {Pasted} pasted @returns {Decoded} */
-  decode({ data }) {
+  decode({ data, isReply = false }) {
     const framing = this.settings.framing ?? bareFraming(data);
-    if (framing) return this.bare(framing, data);
+    if (framing) return this.bare(framing === "pzd" && isReply ? "pzd response" : framing, data, isReply);
     if (data.length < 4) return decodedFrame({ summary: "USS: not readable", faults: [`a telegram has at least 4 bytes, here ${data.length === 1 ? "is" : "are"} ${data.length}`] });
     const lacksCheck = data[1] === data.length - 1 && data.length % 2 === 1;
     const body = lacksCheck ? data : data.subarray(0, -1);
@@ -39,23 +39,23 @@ class UssDecoder extends FrameDecoder {
     const unit = data[2];
     const words = wordsIn(body.subarray(3));
     const isForeign = data[0] !== 2 && faults.length > 1;
-    const made = isForeign ? decodedFrame({}) : unit === this.profile.broadcast ? this.broadcast(words) : this.telegram(unit, words);
+    const made = isForeign ? decodedFrame({}) : unit === this.profile.broadcast ? this.broadcast(words) : this.telegram(unit, words, isReply);
     return { ...made, unit, faults: [...faults, ...made.faults], checks: checkText(lacksCheck ? [] : data.subarray(-1), [check]), summary: `USS, unit ${unit}: ${made.summary}` };
   }
 
-  /** Words of one part alone, as manuals print them. @param {string} framing @param {Uint8Array} data @returns {Decoded} */
-  bare(framing, data) {
+  /** Words of one part alone, as manuals print them. @param {string} framing @param {Uint8Array} data @param {boolean} isReply @returns {Decoded} */
+  bare(framing, data, isReply) {
     const words = wordsIn(data);
     const faults = data.length % 2 ? [`the part is made of words of two bytes, here are ${data.length} bytes`] : [];
     const direction = framing === "pzd response" ? "response" : "request";
     let made = decodedFrame({ kind: direction === "response" ? "reply" : "request", summary: `${direction === "response" ? "reply" : "request"}, process data`, said: framing.startsWith("pzd") ? this.process(null, direction, words) : [] });
     if (framing === "broadcast") made = this.broadcast(words);
-    if (framing === "pkw") made = this.telegram(null, words, { pkw: words.length, pzd: 0, isSure: false });
+    if (framing === "pkw") made = this.telegram(null, words, isReply, { pkw: words.length, pzd: 0, isSure: false });
     return { ...made, faults: [...faults, ...made.faults], summary: `USS: ${made.summary}` };
   }
 
-  /** @param {number | null} unit @param {number[]} words @param {any} [given] how the words are divided @returns {Decoded} */
-  telegram(unit, words, given) {
+  /** @param {number | null} unit @param {number[]} words @param {boolean} isReply @param {any} [given] how the words are divided @returns {Decoded} */
+  telegram(unit, words, isReply, given) {
     const open = this.open.get(String(unit));
     const link = given ?? this.link(words.length, open);
     const size = link.pkw === 127 ? Math.max(0, words.length - link.pzd) : link.pkw;
@@ -65,14 +65,14 @@ class UssDecoder extends FrameDecoder {
     const sizes = link.pkw === 127 ? `at least ${3 + link.pzd}` : link.pkw + link.pzd;
     const faults = isMisfit ? [`it has ${countedText(words.length, "word")}; a parameter part ${link.pkw === 127 ? "of variable length" : `of ${link.pkw}`} and ${countedText(link.pzd, "word")} of process data make ${sizes}`] : [];
     if (part.length < 2) {
-      const isReply = open !== undefined;
-      if (isReply) this.open.delete(String(unit));
+      const answers = isReply || open !== undefined;
+      if (answers) this.open.delete(String(unit));
       else this.open.set(String(unit), { task: 0, pzd: data.length });
-      return decodedFrame({ kind: isReply ? "reply" : "request", summary: `${isReply ? "reply" : "request"}, process data`, faults, said: this.process(unit, isReply ? "response" : "request", data) });
+      return decodedFrame({ kind: answers ? "reply" : "request", summary: `${answers ? "reply" : "request"}, process data`, faults, said: this.process(unit, answers ? "response" : "request", data) });
     }
     const page = [15, 12, 13, 14].reduce((bits, place, at) => bits | (((part[1] >> place) & 1) << at), 0);
     const named = { code: part[0] >> 12, parameter: (part[0] & 0x7ff) + 2000 * page, index: part[1] & 0xff, values: part.slice(2), data, link };
-    const isAnswer = open && this.answers(open, named);
+    const isAnswer = isReply || (open && this.answers(open, named));
     const made = isAnswer ? this.response(unit, named, open) : this.request(unit, named, part);
     return { ...made, faults: [...made.faults, ...faults] };
   }
@@ -112,7 +112,7 @@ class UssDecoder extends FrameDecoder {
   response(unit, part, open) {
     const { code, parameter, index, data, values } = part;
     const made = decodedFrame({ kind: "reply", summary: `reply, ${codeText("responses", code, `response ${code}`)}${this.element(code, parameter, index)}` });
-    if (code || !open.task) this.open.delete(String(unit));
+    if (code || !open?.task) this.open.delete(String(unit));
     if (code === 7 || code === 8) made.kind = "exception";
     if (code === 7 && values.length) {
       made.exception = values[0];

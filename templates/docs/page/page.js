@@ -125,7 +125,7 @@ function accessLegend() {
 
 /* The list of points. */
 
-const CHUNK = 80;
+const CHUNK = 40;
 
 /** @param {Point} point */
 function isWanted(point) {

@@ -1,13 +1,14 @@
 /* Frames as people paste them: bytes in any usual notation, one frame a line, and the lines of logs and of candump. */
 
-/** What a line holds: a frame as bytes, or of CAN with its identifier; `problem` says why it holds none.
- * @typedef {{ text: string, time: number | null, data: Uint8Array, id?: number, remote?: boolean, problem?: string }} Pasted */
+/** What a line holds: a frame as bytes, or of CAN with its identifier; `isReply` if the log says that it came from the device; `problem`
+ * says why it holds none.
+ * @typedef {{ text: string, time: number | null, data: Uint8Array, id?: number, isReply?: boolean, remote?: boolean, problem?: string }} Pasted */
 
 const LONGEST_LINE = 8192;
 const TIME = /^[[(]?(?:(\d{4}-\d\d-\d\d)[T ])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d{1,9})?)(?:Z|[+-]\d\d:?\d\d)?[\])]?(?:[\s;,]+|:\s+)|^[[(]?(\d{1,12}\.\d{1,9})[\])]?[\s:;,]+/;
 const WAYS = /^(?:(?:TX|RX|REQ|RES|SENT|RECV|SEND|REQUEST|RESPONSE|REPLY|<-|->|<<|>>|<|>)[\s:]*){1,4}/i;
 /** A line that the packages of Python, Rust and TypeScript log. */
-const LOGGED = /\bunit \d+(?: (?:->|<-) (?:([0-9A-F]{1,8})[:h] )?\[?([0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?|: )/;
+const LOGGED = /\bunit \d+(?: (->|<-) (?:([0-9A-F]{1,8})[:h] )?\[?([0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?|: )/;
 const CANDUMP = /^(?:[A-Za-z][\w.-]{0,31}\s+)?(?:0x)?([0-9a-f]{1,8})#([^\s#]*)/i;
 const CAN_TABLE = /^(?:[A-Za-z][\w.-]{0,31}\s+)?(?:[RT]X\s+\S\s+\S\s+)?(?:0x)?([0-9a-f]{3,8})h?\s*(?:\[\d{1,2}\]|:|\s)\s*(remote request|(?:[0-9a-f]{2}[\s,:-]{0,3}){0,64})(?:'.*)?$/i;
 
@@ -48,12 +49,13 @@ function pastedLine(line, isCan) {
   const nothing = { text: text.slice(0, 200), time: null, data: new Uint8Array(0) };
   if (text.length > LONGEST_LINE) return { ...nothing, problem: `the line has ${text.length} characters; no frame is as long` };
   const logged = text.includes("unit ") ? LOGGED.exec(text) : null;
-  if (logged) return logged[2] ? pastedFrame({ ...nothing, time: timed(text)[0] }, logged[1], logged[2]) : null;
+  if (logged) return logged[3] ? pastedFrame({ ...nothing, time: timed(text)[0], isReply: logged[1] === "<-" }, logged[2], logged[3]) : null;
   const [time, rest] = timed(text);
   const match = isCan ? CANDUMP.exec(rest) ?? CAN_TABLE.exec(rest) : null;
   if (match) return pastedFrame({ ...nothing, time }, match[1], match[2]);
   if (isCan) return { ...nothing, problem: "it has no identifier: write identifier and data in hexadecimal, as in 321#DD00051513880064" };
-  return pastedFrame({ ...nothing, time }, undefined, rest.replace(WAYS, ""));
+  const way = WAYS.exec(rest)?.[0] ?? "";
+  return pastedFrame({ ...nothing, time, isReply: /^(?:RX|RE[CSP]|<)/i.test(way) }, undefined, rest.slice(way.length));
 }
 
 /** @param {Pasted} pasted @param {string | undefined} identifier @param {string} digits @returns {Pasted} */

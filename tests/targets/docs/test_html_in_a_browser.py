@@ -26,7 +26,17 @@ FINDS = {
     "basisfrequenz": "base_frequency",
 }
 """What people type, with the point that Enter opens; the addresses are those that the manual prints for A020."""
-HASHES = ("", "#point=base_frequency", "#point=run_source", "#maps", "#bus", "#frames", "#errata", "#device")
+HASHES = (
+    "",
+    "#point=base_frequency",
+    "#point=run_source",
+    "#decoder",
+    "#maps",
+    "#bus",
+    "#frames",
+    "#errata",
+    "#device",
+)
 
 pytestmark = pytest.mark.full(seconds=0.2)  # but for the first, which visits the page for all
 

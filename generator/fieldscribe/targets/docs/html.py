@@ -80,7 +80,7 @@ def page_data(scope: DocsScope, made: str) -> dict[str, object]:
         "errata": [_erratum(erratum, points, items_of(device)) for erratum in device.errata],
         "sections": dict(_sections(scope)),
         "bus": _bus(device),
-        "frames": [_frame(frame) for frame in device.frames],
+        "frames": [_frame(frame) for frame in device.frames if frame.framing != "broadcast"],
         "commands": [
             [line(each.name), each.space, each.address, each.value, points.titles(each.title)]
             for each in device.commands
@@ -113,9 +113,9 @@ def _bus(device: Device) -> dict[str, object]:
 
 
 def _frame(frame: Frame) -> list[str]:
-    """Return the bytes of a worked frame, and what to say where they are misprinted."""
+    """Return the way of a worked frame as logs write it, its bytes, and what to say where they are misprinted."""
     note = "" if frame.valid or frame.family_facts is not None else misprint_text(frame)
-    return [spaced(frame.printed), note] if note else [spaced(frame.printed)]
+    return ["RX" if frame.direction == "response" else "TX", spaced(frame.printed), *([note] if note else [])]
 
 
 def _message(message: Message, points: Points) -> list[object]:
