@@ -42,7 +42,9 @@ function requestSize(pdu) {
 /** @param {Uint8Array} pdu */
 function replySize(pdu) {
   if (pdu[0] & 0x80) return 2;
-  return pdu[0] <= 4 ? (pdu.length > 1 ? 2 + pdu[1] : 0) : FUNCTIONS[pdu[0]] ? 5 : 0;
+  if (!FUNCTIONS[pdu[0]]) return 0;
+  if (pdu[0] > 4) return 5;
+  return pdu.length > 1 ? 2 + pdu[1] : 0;
 }
 
 /** @param {Uint8Array} pdu */
@@ -65,7 +67,7 @@ function modbusRequestIn(unit, pdu) {
   const [address, number] = generatedCode().wordsOfBytes(pdu.subarray(1, 5));
   if (code < 15 && pdu.length > 5) return `a request of function ${name} has 5 bytes from the function on, here are ${pdu.length}`;
   const isSingle = code === 5 || code === 6 || code === 8;
-  if (code === 5 && number & 0xff) return `a coil is written with FF00h or 0000h, here is ${shortAddress(number)}`;
+  if (code === 5 && number !== 0 && number !== 0xff00) return `a coil is written with FF00h or 0000h, here is ${shortAddress(number)}`;
   const count = isSingle ? 1 : number;
   if (count < 1 || count > FUNCTIONS[code][2]) return `a count of ${count} is outside 1 to ${FUNCTIONS[code][2]}`;
   if (code < 15) return { unit, function: code, address, count, values: isSingle ? [code === 5 ? number >> 15 : number] : [] };
@@ -185,7 +187,7 @@ class ModbusDecoder extends FrameDecoder {
     if (!open) return { ...made, notes: ["which request it refuses is not in the frame"] };
     if (status !== "exception") return { ...made, faults: [`it does not answer the request before: ${noAnswer(status)}`] };
     this.open.delete("");
-    return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, said: this.said(open) };
+    return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, said: this.said(open, open.values.length ? open.values : undefined) };
   }
 
   /** A reply that does not fit the open request, with what can be known of it.
@@ -212,7 +214,7 @@ class ModbusDecoder extends FrameDecoder {
       return decodedFrame({ kind: "reply", summary: `reply, the device has taken the request, ${this.spanOf(confirmed)}`, faults, said: isPossible ? this.said(confirmed) : [] });
     }
     const follow = `${countedText(pdu[1], "byte")} of data ${pdu[1] === 1 ? "follows" : "follow"}`;
-    const isRead = code <= 4 && pdu.length > 1;
+    const isRead = code > 0 && code <= 4 && pdu.length > 1;
     return decodedFrame({ faults: [isRead ? `as a request: ${why}; as a reply: it says that ${follow}, here ${pdu.length === 3 ? "is" : "are"} ${pdu.length - 2}` : why] });
   }
 
@@ -229,7 +231,7 @@ class ModbusDecoder extends FrameDecoder {
     if (code === 8) return [{ text: `test data ${hexNumbers(words ?? [])}; the device sends it back unchanged` }];
     const written = code > 4;
     const span = { space: FUNCTIONS[code][1], address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
-    return [...commandsAt(span), ...spanSaid(this.places, this.state(unit), span)];
+    return [...spanSaid(this.places, this.state(unit), span), ...commandsAt(span)];
   }
 
   /** Whether an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
@@ -250,11 +252,12 @@ function noAnswer(status) {
   return NO_ANSWER[/** @type {keyof NO_ANSWER} */ (status)] ?? status;
 }
 
-/** The commands that are written here. @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {Said[]} */
+/** The command that is written here: of several the one with this value.
+ * @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {Said[]} */
 function commandsAt({ space, address, words, written }) {
-  const named = written ? device.commands.filter((/** @type {any[]} */ command) => command[1] === space && command[2] === address) : [];
-  return named.map((/** @type {any[]} */ [name, , , value, title]) => {
-    const finding = words && value !== null && words[0] !== value ? `it takes ${value}, here is ${words[0]}` : "";
-    return { text: `command ${name}: ${[allTitles(title), finding].filter(Boolean).join("; ")}`, finding };
-  });
+  const here = written ? device.commands.filter((command) => command[1] === space && command[2] === address) : [];
+  if (!here.length) return [];
+  const [name, , , value, title] = here.find((command) => command[3] === words?.[0]) ?? here[0];
+  const finding = words && value !== null && words[0] !== value ? `it takes ${value}, here is ${words[0]}` : "";
+  return [{ text: `command ${name}: ${[allTitles(title), finding].filter(Boolean).join("; ")}`, finding }];
 }

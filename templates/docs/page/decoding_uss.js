@@ -4,6 +4,19 @@ const RESPONSE_WIDTHS = { 1: 1, 2: 2, 4: 1, 5: 2, 6: 1 };
 const TASK_WIDTHS = { 2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1 };
 
 class UssDecoder extends FrameDecoder {
+  /** @param {any} settings */
+  constructor(settings) {
+    super(settings);
+    /** The units that were sent a request. @type {Set<number | null>} */
+    this.asked = new Set();
+  }
+
+  /** Begin anew, as on another line. */
+  forget() {
+    super.forget();
+    this.asked.clear();
+  }
+
   /** @param {Pasted} pasted @returns {Pasted[]} */
   frames(pasted) {
     const sound = (/** @type {Uint8Array} */ rest) => (rest[0] === 2 && rest[1] + 2 <= rest.length && rest[1] > 1 && !rest.subarray(0, rest[1] + 2).reduce((check, byte) => check ^ byte, 0) ? rest[1] + 2 : 0);
@@ -74,6 +87,8 @@ class UssDecoder extends FrameDecoder {
     const named = { code: part[0] >> 12, parameter: (part[0] & 0x7ff) + 2000 * page, index: part[1] & 0xff, values: part.slice(2), data, link };
     const isAnswer = isReply || (open && this.answers(open, named));
     const made = isAnswer ? this.response(unit, named, open) : this.request(unit, named, part);
+    if (!isAnswer && !this.asked.has(unit) && named.code && named.values.some(Boolean)) made.notes.push("read as a request, for there was none before it; RX before the frame says that it is a reply");
+    this.asked.add(unit);
     return { ...made, faults: [...made.faults, ...faults] };
   }
 
@@ -173,7 +188,8 @@ class UssDecoder extends FrameDecoder {
     const made = decodedFrame({ kind: "broadcast", summary: "broadcast, no unit answers" });
     if (words.length < 4) return { ...made, faults: [`a broadcast starts with 4 words of masks, here are ${words.length}`] };
     const valid = Array.from({ length: 15 }, (_, at) => at + 1).filter((at) => (words[0] >> at) & 1);
-    const counting = valid.length ? `words ${valid.join(", ")} of process data count` : "no word of process data counts";
+    const listed = [valid.slice(0, -1).join(", "), valid[valid.length - 1]].filter(Boolean).join(" and ");
+    const counting = valid.length ? `words ${listed} of process data count` : "no word of process data counts";
     return { ...made, said: [{ text: `mask ${shortAddress(words[0])}: ${counting}` }, { text: `masks of bits ${hexNumbers(words.slice(1, 4))}` }, ...this.process(this.profile.broadcast, "request", words.slice(4))] };
   }
 }

@@ -17,6 +17,8 @@ class Places {
     this.spots = new Map();
     /** The points that scales and limits need. @type {Set<string>} */
     this.needed = new Set();
+    /** The bases whose address is not known. @type {Set<string>} */
+    this.unplaced = new Set();
     /** @type {Record<string, any>} */
     this.given = {};
     for (const point of device.points.filter(hasVariant)) this.add(point, known);
@@ -29,7 +31,7 @@ class Places {
     const given = known[point.name] ?? known[point.code];
     if (codec && given !== undefined) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(given);
     const start = point.shared.base ? known[point.shared.base] : 0;
-    if (start === undefined) return;
+    if (start === undefined) { this.unplaced.add(point.shared.base); return; }
     const read = codec?.at ?? { space: point.shared.space, telegram: point.shared.telegram, addresses: point.addresses };
     const write = codec?.facts.writeAt ?? read;
     const can = { reads: !codec || Boolean(codec.decode), writes: !codec || Boolean(codec.encode) };
@@ -104,7 +106,7 @@ function meaningOf(point, codec, raw, raws) {
     return `${special.name} (${allTitles(title)})${special.noValue ? ", no value" : ""}`;
   }
   if (shared.enum !== undefined && !shared.digits) {
-    const entry = device.enums[shared.enum].entries.find((/** @type {any} */ each) => each[0].replace(/ \(.*/, "") === String(raw));
+    const entry = device.enums[shared.enum].entries.find(([number]) => isNumber(number, raw));
     return entry ? `${entry[1]} (${allTitles(entry[2] ?? "")}${entry[3] && !allTitles(entry[2] ?? "").includes(entry[3]) ? `, ${entry[3]}` : ""})` : `${raw}, a number without a name in the manual`;
   }
   if (codec.width === 1 && shared.form !== "scaled") return raw ? "on" : "off";
@@ -116,6 +118,12 @@ function meaningOf(point, codec, raw, raws) {
     const missing = codec.scaleNeeds.filter((/** @type {string} */ name) => raws[name] === undefined);
     return missing.length ? `not known: its scale depends on ${missing.map(neededLabel).join(" and ")}` : `not known: ${text}`;
   }
+}
+
+/** Whether a named number, printed as `3`, `3 (0003h)` or `1 (3F800000h)`, is a raw number. @param {string} printed @param {any} raw */
+function isNumber(printed, raw) {
+  const pattern = /\(([0-9A-F]+)h\)$/.exec(printed)?.[1];
+  return printed.replace(/ \(.*/, "") === String(raw) || (pattern !== undefined && BigInt(`0x${pattern}`) === BigInt(raw));
 }
 
 /** @param {string} name */
@@ -218,7 +226,7 @@ function spanSaid(places, state, { space, address, count, words, written = false
     }
   }
   const flush = () => {
-    if (unknown.length) said.push(unknownSaid(space, unknown, words?.slice(unknown[0] - address, unknown[unknown.length - 1] + 1 - address)));
+    if (unknown.length) said.push(unknownSaid(places, space, unknown, words?.slice(unknown[0] - address, unknown[unknown.length - 1] + 1 - address)));
     unknown = [];
   };
   for (let at = address; at < address + count; at += 1) {
@@ -241,12 +249,18 @@ function spotSaid({ point, codec, addresses, reads, writes }, raw, state, { writ
     return namedPoint(point, "", `it is ${written ? "written" : "read"} at ${spanText(Math.min(...right.addresses), Math.min(...right.addresses))}`);
   }
   if (codec && inside.length < addresses.length) {
-    const parts = inside.map((at) => `word ${addresses.indexOf(at) + 1} of ${addresses.length}, the high part first${words ? ` = ${shortAddress(words[at - address])}` : ""}`);
+    const parts = inside.map((at) => `${partText(addresses.indexOf(at), addresses.length)}${words ? ` = ${shortAddress(words[at - address])}` : ""}`);
     return namedPoint(point, `only the ${parts.join(", ")}`);
   }
   if (codec) return namedPoint(point, "", !written && !codec.decode ? "it is write only" : written && !codec.encode ? "it is read only" : "");
   const carried = words ? `carries ${hexNumbers(inside.map((at) => words[at - address]))}; ` : "";
   return namedPoint(point, `${carried}${englishTitle(point.title)}, documented only`);
+}
+
+/** Return which word of a point has this place: `low word (2 of 2, the high part first)`. @param {number} place @param {number} count */
+function partText(place, count) {
+  const name = place === 0 ? "high word" : place === count - 1 ? "low word" : "word";
+  return `${name} (${place + 1} of ${count}, the high part first)`;
 }
 
 /** Join what a point says alike for several variants; a doubt stays if no variant is without. @param {Said[]} said @returns {Said[]} */
@@ -267,12 +281,13 @@ function codeAndName({ point = "", name = "" }) {
   return code ? `${code} ${name}` : name;
 }
 
-/** @param {string} space @param {number[]} addresses @param {number[]} [words] @returns {Said} */
-function unknownSaid(space, addresses, words) {
+/** @param {Places} places @param {string} space @param {number[]} addresses @param {number[]} [words] @returns {Said} */
+function unknownSaid(places, space, addresses, words) {
   const [low, high] = [addresses[0], addresses[addresses.length - 1]];
   const gap = (device.bus.gaps[space] ?? []).find((/** @type {number[]} */ [first, last]) => first <= high && low <= last);
   const finding = gap ? `the manual closes ${shortAddress(gap[0])} to ${shortAddress(gap[1])}` : "";
+  const bases = places.unplaced.size ? `; other points count from a base: ${[...places.unplaced].map((name) => `${name}=NUMBER`).join(" ")}` : "";
   const isBits = space === "coil" || space === "discrete";
   const carried = words?.length ? ` (carries ${words.slice(0, 16).map((word) => (isBits ? String(word) : shortAddress(word))).join(" ")}${words.length > 16 ? " ..." : ""})` : "";
-  return { finding, text: `${spanText(low, high)}: no point is described here${finding && `; ${finding}`}${carried}` };
+  return { finding, text: `${spanText(low, high)}: no point is described here${bases}${finding && `; ${finding}`}${carried}` };
 }
