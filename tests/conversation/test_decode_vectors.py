@@ -46,6 +46,14 @@ def test_replies_of_modbus(device: Device) -> None:
     assert {"ok", "exception", "bad_crc", "wrong_unit", "wrong_function", "echo_mismatch", "short_frame"} <= judged
 
 
+@pytest.mark.parametrize(
+    ("sent", "name"), [("01060c80047e0992", "make_ready_to_switch_on"), ("01060c80047fc852", "switch_on")]
+)
+def test_commands_at_one_address_are_told_apart_by_their_values(sent: str, name: str) -> None:
+    [heard] = decode(shipped("nord_sk5xxe"), {}, [sent], chosen())
+    assert [(item.subject, item.findings) for item in heard.items if item.point is None] == [(f"command {name}", ())]
+
+
 @pytest.mark.parametrize("device", [made("kitchen_can"), shipped("woodward_mpu2s")], ids=lambda one: one.id)
 def test_messages_of_a_makers_protocol(device: Device) -> None:
     """A frame is the message of the unit that was asked for, or it is damaged, or it is another's."""

@@ -133,10 +133,8 @@ class _SpanItems:
         """Return the items that begin at an address of the span; None if nothing has this address."""
         places = self._directory.places(self._space, at)
         items = [self._point(point, place) for point, place in places if at == self.inside(place)[0]]
-        for command in self._device.commands if self._written else ():
-            if (command.space, command.address) == (self._space, at):
-                return [*items, self._command(command)]
-        return items if places else None
+        commands = self._commands(at)
+        return [*items, *commands] if places or commands else None
 
     def step_item(self) -> Item | None:
         """Return the item of a step of a command that writes just these words, where no point has them."""
@@ -204,8 +202,14 @@ class _SpanItems:
             text = f"only the {', '.join(named)}"
         return named_item(point, base, text, finding=finding)
 
-    def _command(self, command: Command) -> Item:
-        raw = self._words[command.address - self._start] if command.address in self._carried else None
+    def _commands(self, at: int) -> list[Item]:
+        """Return the command that is written here: of several the one with this value."""
+        raw = self._words[at - self._start] if at in self._carried else None
+        commands = self._device.commands if self._written else ()
+        here = [command for command in commands if (command.space, command.address) == (self._space, at)]
+        return [self._command(min(here, key=lambda command: command.value != raw), raw)] if here else []
+
+    def _command(self, command: Command, raw: int | None) -> Item:
         wrong = command.value is not None and raw is not None and raw != command.value
         finding = f"it takes {command.value}, here is {raw}" if wrong else ""
         worn = f"the memory stands {command.wears} writes" if command.wears else ""

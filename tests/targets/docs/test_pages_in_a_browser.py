@@ -58,6 +58,7 @@ TYPED = (
     ("hitachi_l200", NOISE, "lines without a frame"),
     ("hitachi_l200", "0" * 1_000_000, "1 line without a frame", "no frame is as long"),
     ("hitachi_l200", "01 03 10 28 00 01 00 C2\n" * 20_000, "20000 frames, nothing wrong"),
+    ("nord_sk5xxe", "01060c80047fc852", "1 frame, nothing wrong", "command switch_on"),
     ("siemens_mm4", "02 0E 01 143A 0000 0000 0000 047F 3333 58", "1 frame", "task 1 read_value", "enable_operation"),
     ("siemens_mm4", "143A 0000 0000 0000\n243A 0000 4248 0000", "2 frames", "P1082", "= 50 Hz (raw 1112014848"),
     ("siemens_mm4", "TX FA31\nRX FA31", "2 frames", "STW control_word", "ZSW status_word"),
