@@ -67,6 +67,12 @@ TYPED = (
     ("siemens_mm4", NOISE, "without a frame"),
     ("woodward_mpu2s", "can0  321   [8]  DD 00 05 15 13 88 00 64", "1 frame", "generator_frequency = 50 Hz", "PGNEXPO"),
     ("woodward_mpu2s", "(1700000000.25) can0 321#DD00051513880064\n321 DD 01 03 02 00 00 07 D0", "2 frames, nothing"),
+    (
+        "woodward_mpu2s",
+        "321#DD010302000007D0\n321#DD00051513880064",
+        "2 frames",
+        "generator_active_power = 100000 W (raw 100 =",
+    ),
     ("woodward_mpu2s", "33F#FF0101FB0000FEFB\n33F#R", "2 frames, 2 with", "the checksum is wrong", "remote request"),
     ("woodward_mpu2s", "123#1122\nDD 00", "1 frame", "not of this device", "it has no identifier"),
     ("woodward_mpu2s", NOISE, "without a frame"),
