@@ -77,6 +77,7 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     restored = on_line("restore", "a.json", "--yes", "--keep")
     assert restored.code == 0
     assert "written: enter" in restored.out
+    assert "note: " not in restored.err
     assert "does not say that they are settings: run_command; --only NAME" in restored.err
     assert on_line("restore", "a.json", "--yes", "--only", "run_command").code == 0
     assert {name: drive.values[name] for name in BEFORE} == BEFORE
@@ -84,6 +85,9 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     assert on_line("compare", "a.json", "b.json").code == 0
     drive.restart()
     assert drive.values["base_frequency"] == 50
+    drive.values["base_frequency"] = 390
+    again = on_line("restore", "a.json", "--yes")
+    assert "note: 1 of 1 write lost when switched off, without --keep\n" in again.err
 
 
 def test_a_snapshot_has_all_but_the_point_without_an_answer(drive: Simulated, on_line: Run) -> None:

@@ -20,6 +20,7 @@ from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.model import Point
 from fieldscribe.report import visible
 from fieldscribe.resources import use_python_runtime
+from fieldscribe.text import counted
 from fieldscribe.user_errors import RefusedError
 
 use_python_runtime()
@@ -81,6 +82,9 @@ def run(arguments: Namespace) -> int:
             _write(live, writes, now, Journal(journal, names, _facts(arguments, live)))
             done.left = [item for item, raw in order.writes.items() if _differs(live, item, raw)]
             done.is_written = True
+            lost = sum(write.is_lost for write in writes)
+            text = f"note: {lost} of {counted(len(writes), 'write')} lost when switched off, without --keep"
+            print_lines([[("hint", text)]] if lost else [], sys.stderr)
         return _report(arguments, live, done)
 
 

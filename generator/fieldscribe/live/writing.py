@@ -44,6 +44,8 @@ class Write:
     notes: tuple[str, ...]
     remarks: tuple[str, ...]
     arguments: Mapping[str, int] = field(default_factory=dict)
+    is_lost: bool = False
+    """True if it is lost when switched off, and `keep` would keep it."""
 
     def carry_out(self, device: AnyDevice) -> None:
         """Write it, once: without an answer nobody knows whether it arrived. Raises FieldscribeError."""
@@ -140,7 +142,8 @@ class Planner:
         self._settings[point.name] = codec.setting_of(point, encoded.raw)
         reading = self._reading(point, encoded.raw, settings)
         remarks = tuple(self._remarks(point, keep))
-        return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks)
+        is_lost = not self._keep and point.keeps not in (None, "yes", "no")
+        return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks, is_lost=is_lost)
 
     def _reading(self, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
         """Return what a read would tell of a point once it is written."""
