@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.simulation import Simulated, simulated
+from fieldscribe.text import camel
 from support.node_device import NodeDevice, NodeError, bridged, node_device
 from support.toolchains import succeed, tool
 
@@ -150,6 +151,22 @@ def test_a_device_says_what_it_is(folder: Path) -> None:
         assert node(None, "identify") == {}
         drive.values["manufacturer"] = "Somebody"
         assert status_of(node, None, "identify") == "other_device"
+
+
+def test_a_number_that_a_scale_needs_is_remembered_if_it_never_changes(folder: Path) -> None:
+    """All others are read again for each value."""
+    with running(folder, FRONIUS) as (drive, node):
+        for point, factor, second in (
+            ("dc_voltage", "dc_voltage_exponent", 5),
+            ("rated_power", "rated_power_exponent", 50),
+        ):
+            drive.values[factor], drive.values[point] = 0, 50
+            name = camel(point)
+            assert node(name, "read") == 50
+            drive.values[factor] = -1
+            assert node(name, "read") == second
+        node(None, "forget")
+        assert node("ratedPower", "read") == node("ratedPower", "readRaw") / 10
 
 
 def test_a_parameter_is_kept_if_the_caller_says_so(folder: Path) -> None:
