@@ -8,6 +8,7 @@ from fieldscribe.resolve.analysis import Analysis
 
 def check(analysis: Analysis) -> None:
     """Report points under `write_with` that cannot be written, or not in the request of the point."""
+    one_at_a_time = analysis.scope.family.words
     together = [resolved for resolved in analysis.resolved if resolved.point.write_with]
     by_name: dict[str, list[Point]] = {}
     for resolved in analysis.resolved if together else ():
@@ -23,6 +24,9 @@ def check(analysis: Analysis) -> None:
             message, hint = f"`{unwritable[0]}` cannot be written", "leave it out, or correct its `access`"
         elif any(other.space != point.space for other in others):
             message, hint = "the points are not in one space", "name points that one request can write"
+        elif point.space in one_at_a_time:
+            message = f"a request to the space `{point.space}` writes one number"
+            hint = "say in a note how they are written, or use `steps` of a command"
         elif words and max(words) - min(words) >= len(words):
             message = f"between the words of `{point.name}` and those of the others lie words of none of them"
             hint = "name all points that the request writes"
