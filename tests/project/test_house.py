@@ -72,6 +72,7 @@ NAMES_A_FAMILY = {
     "language.keys.places": "examples of whole files and messages",
     "cli.simulate": "a line may be a bus of one",
     "simulation.bench": "a line may be a bus of one",
+    "simulation.library": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
     "targets.python.namespaces": "a library of Python is called as one",
     "targets.typescript.namespaces": "a package of npm is called as one",

@@ -228,7 +228,6 @@ function build() {
 function followHeader() {
   const header = /** @type {HTMLElement} */ (document.querySelector("header"));
   const measure = () => document.documentElement.style.setProperty("--top", `${header.offsetHeight}px`);
-  measure();
   new ResizeObserver(measure).observe(header);
 }
 
@@ -255,14 +254,21 @@ function filterFields() {
     }));
   }
   if (device.languages.length > 1) {
-    const names = new Intl.DisplayNames("en", { type: "language" });
-    fields.push(choiceField("Language", device.languages.map((code) => [code, names.of(code) ?? code]), state.language, (value) => {
+    const field = choiceField("Language", device.languages.map((code) => [code, code]), state.language, (value) => {
       state.language = value;
       remember("language", value);
       show();
-    }, "all, English first"));
+    }, "all, English first");
+    setTimeout(() => nameLanguages([...field.querySelectorAll("option")])); // browsers take long to look up names
+    fields.push(field);
   }
   return fields;
+}
+
+/** @param {HTMLOptionElement[]} options */
+function nameLanguages(options) {
+  const names = new Intl.DisplayNames("en", { type: "language" });
+  for (const option of options) if (option.value) option.text = names.of(option.value) ?? option.value;
 }
 
 /** @param {string} text @param {string} key @param {string[][]} options @param {boolean} [all] */
