@@ -76,7 +76,8 @@ function itemsOf(request) {
  * @param {string} framing @param {ModbusProfile} profile */
 export function checkFraming(framing, profile) {
   if (framing !== "pdu" && !profile.framings.includes(framing)) {
-    throw new RequestError("bad_framing", `the device speaks ${profile.framings.join(" and ")}, not ${shown(framing)}`);
+    const told = `the device speaks ${profile.framings.join(" and ")}, not ${shown(framing)}`;
+    throw new RequestError("bad_framing", `${told}: give the line { framing: "${profile.framings[0]}" }`);
   }
 }
 

@@ -75,7 +75,7 @@ export class PointTable {
     /** @type {Variants} */
     const chosen = {};
     for (const [axis, values] of Object.entries(this.facts.variants ?? {})) {
-      const value = options[camelName(axis)] ?? options[axis];
+      const value = ownOf(options, camelName(axis)) ?? ownOf(options, axis);
       if (value !== undefined && !values.includes(/** @type {string} */ (value))) {
         throw new RequestError("bad_variant", `${axis} is one of ${values.join(", ")}, not ${shown(value)}`);
       }
@@ -87,7 +87,7 @@ export class PointTable {
   /** A point by name, that of the known variant. @param {string} name @param {Variants} variants
    * @returns {AnyPoint | undefined} */
   found(name, variants) {
-    const named = this.byName.get(this.facts.oldNames?.[name] ?? name) ?? [];
+    const named = this.byName.get(ownOf(this.facts.oldNames, name) ?? name) ?? [];
     const item = this.points.get(name);
     return item ?? named.find((point) => pointExists(point, variants)) ?? named.find((point) => !point.facts.variant);
   }
@@ -129,9 +129,9 @@ export class PointTable {
       if (variants[axis] === undefined) return `depends on ${axis}: pass it when the device is made`;
       return `does not exist for ${axis} ${variants[axis]}`;
     }
-    const documented = this.facts.documented?.[name] ?? this.facts.documented?.[camelName(name)];
+    const documented = ownOf(this.facts.documented, name) ?? ownOf(this.facts.documented, camelName(name));
     if (documented) return `is documented only: ${documented.reason}`;
-    if (this.facts.commands?.[name]) return `is a command of this device: ${name}.send() gives it`;
+    if (ownOf(this.facts.commands, name)) return `is a command of this device: ${name}.send() gives it`;
     if (this.groups().includes(name)) return `is a group of this device: readMany(${shown(name)}) reads it`;
     return "is no point of this device";
   }
@@ -140,6 +140,12 @@ export class PointTable {
   groups() {
     return [...new Set([...this.points.values()].map((point) => point.group))];
   }
+}
+
+/** What an object itself holds under a name that a user gave, nothing that all objects have.
+ * @template T @param {Readonly<Record<string, T>> | undefined} held @param {string} name @returns {T | undefined} */
+function ownOf(held, name) {
+  return held && Object.prototype.hasOwnProperty.call(held, name) ? held[name] : undefined;
 }
 
 /** Raises RequestError for a unit number that the device cannot have. @param {number} unit

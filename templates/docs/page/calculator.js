@@ -119,6 +119,7 @@ class Calculator {
 
   /** @param {() => any} read @param {HTMLElement} source */
   take(read, source) {
+    this.typed = undefined;
     try {
       this.raw = read();
       this.show(source);
@@ -135,6 +136,8 @@ class Calculator {
     for (const field of [this.value, this.rawField, this.words]) if (field && field.input !== source) field.input.value = "";
     if (this.list && this.list !== source) this.list.value = "";
     this.frames.replaceChildren();
+    this.bits?.show();
+    this.drawBits();
   }
 
   /** @param {string} text */
@@ -145,7 +148,8 @@ class Calculator {
     if (special) return codec.form.wire.raw(special.raw);
     const named = this.entries?.find(([raw, name]) => folded(name) === folded(text) || raw === text);
     if (named) return this.rawOfNumber(named[0].replace(/.*\(([0-9A-F]+h)\)$/, "$1"));
-    const typed = form === "text" ? text : numberText(text);
+    const typed = form === "text" ? text : numberText(text, this.point.shared.unit);
+    if (form !== "float") this.typed = typed;
     if (codec.encode && codec.form.encodes) return codec.encode(typed, this.raws());
     return codec.form.wire.raw(codec.form.converted(typed, this.raws()));
   }
@@ -187,7 +191,8 @@ class Calculator {
     if (codec.check) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); }, undefined);
     const told = attempt(() => codec.told(raw, raws), "");
     const name = codec.nameOf(raw);
-    this.status.textContent = [told, typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
+    const isRounded = typeof this.typed === "number" && !problems.length && String(this.typed) !== shownValue(codec, raw, raws);
+    this.status.textContent = [told, isRounded ? `rounded, ${this.typed} is between two raw numbers` : "", typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
     this.status.classList.toggle("wrong", problems.length > 0);
     this.bits?.show();
     this.drawBits();
@@ -424,9 +429,11 @@ function wholeText(text, isBig) {
   return isBig ? BigInt(plain) : Number(plain);
 }
 
-/** Return a number, with a point or a comma. @param {string} text */
-function numberText(text) {
-  const plain = text.replace(",", ".").replace(/\s+/g, "");
+/** Return a number, with a point or a comma; its unit may follow. @param {string} text @param {string} [unit] */
+function numberText(text, unit = "") {
+  if (/^[+-]?[1-9]\d{0,2},\d{3}$/.test(text)) throw new SyntaxError(`${text} can be read in two ways: write a point for a decimal comma, and thousands without a separator`);
+  const number = unit && text.endsWith(unit) ? text.slice(0, -unit.length) : text;
+  const plain = number.replace(",", ".").replace(/\s+/g, "");
   if (/^[+-]?\d{16,}$/.test(plain)) return BigInt(plain);
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) throw new SyntaxError(`${text || "nothing"} is no number`);
   return Number(plain);

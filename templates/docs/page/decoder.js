@@ -77,6 +77,7 @@ class DecoderView {
     this.heard = [];
     this.shown = 0;
     this.run = 0;
+    this.isCut = false;
     this.area = element("textarea", { rows: 8, spellcheck: false, value: pastedBefore.text, placeholder: device.family === "can" ? "321#DD00051513880064" : "one frame a line, in hexadecimal" });
     this.status = element("p", { className: "status", role: "status" });
     this.results = element("div", { className: "heard" });
@@ -130,6 +131,7 @@ class DecoderView {
     const number = (/** @type {string} */ text) => (text === "" ? undefined : Number(text));
     const { text, known, framing, pkw, pzd } = pastedBefore;
     this.heard = [];
+    this.isCut = text.trimEnd().split("\n", MOST_LINES + 1).length > MOST_LINES;
     this.show();
     let sliced = performance.now();
     const decoder = newDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
@@ -151,7 +153,7 @@ class DecoderView {
     const unread = this.heard.filter(({ kind }) => kind === "no frame").length;
     const wrong = this.heard.filter(isWrong).length;
     const count = countedText(this.heard.length - unread, "frame");
-    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : ""].filter(Boolean).join(", ") : "";
+    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : "", this.isCut ? `only the first ${MOST_LINES} lines are read` : ""].filter(Boolean).join(", ") : "";
   }
 
   show() {

@@ -2,9 +2,15 @@
 
 const device = readDevice();
 /** @type {Record<string, any>} */
-const state = { query: "", group: "", access: "", type: "", order: "manual", variants: recalled(`${device.id} variants`, {}), language: recalled("language", "") };
+const state = { query: "", group: "", access: "", type: "", order: "manual", variants: chosenVariants(), language: recalled("language", "") };
 /** The parts of the page. @type {any} */
 const ui = {};
+
+/** Return the variants that the reader chose before, by axis; those that the device no longer has are left out. */
+function chosenVariants() {
+  const stored = recalled(`${device.id} variants`, {});
+  return Object.fromEntries(Object.entries(device.variants).flatMap(([axis, values]) => (values.includes(stored[axis]) ? [[axis, stored[axis]]] : [])));
+}
 
 /** Return the data of the page, its points as objects with what they share. @returns {PageDevice} */
 function readDevice() {
@@ -293,11 +299,11 @@ function encodeHash(hash) {
 /** Show what the address after # names: a point, a section, or a place in one. */
 function show() {
   let [kind, ...rest] = location.hash.slice(1).split("=");
-  let name = rest.join("=");
+  let name = rest.length ? rest.join("=") : kind;
   try { name = decodeURIComponent(name); } catch { /* shown as it is */ }
-  if (kind && !rest.length && device.byName.has(decodeURIComponent(kind))) [kind, name] = ["point", decodeURIComponent(kind)];
+  if (!rest.length && device.byName.has(name)) kind = "point";
   const point = kind === "point" ? device.byName.get(name) : undefined;
-  const section = { erratum: "errata", frame: "frames" }[kind] ?? (kind in SECTIONS ? kind : kind === "group" || kind === "point" || !kind ? "points" : holderOf(`${kind}=${name}`));
+  const section = new Map([["erratum", "errata"], ["frame", "frames"]]).get(kind) ?? (Object.keys(SECTIONS).includes(kind) ? kind : kind === "group" || kind === "point" || !kind ? "points" : holderOf(`${kind}=${name}`));
   ui.current = point?.name;
   const isList = section === "points" && !point;
   document.body.dataset.view = isList ? "list" : "detail";
@@ -353,15 +359,15 @@ function withNeighbours(point) {
 
 /** @param {KeyboardEvent} event */
 function keys(event) {
-  const links = [...ui.list.querySelectorAll("a")];
+  const links = [...(ui.table.hidden ? ui.places : ui.rows).querySelectorAll("a")];
   const at = links.indexOf(document.activeElement);
   const isInput = document.activeElement === ui.find;
   const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(document.activeElement?.tagName ?? "");
   if (event.ctrlKey || event.metaKey || event.altKey) return;
-  if (event.key === "/" && !isTyping) { ui.find.focus(); ui.find.select(); }
+  if (event.key === "/" && (!isTyping || (isInput && !ui.find.value))) { ui.find.focus(); ui.find.select(); }
   else if (event.key === "Escape" && isInput && ui.find.value) { ui.find.value = ""; typed(); }
   else if (event.key === "Escape" && !isInput && (at >= 0 || !isTyping)) ui.find.focus();
-  else if (event.key === "Enter" && isInput) (ui.rows.querySelector("a") ?? links[0])?.click();
+  else if (event.key === "Enter" && isInput) links[0]?.click();
   else if (event.key === "ArrowDown" && (isInput || at >= 0)) links[at + 1]?.focus();
   else if (event.key === "ArrowUp" && at >= 0) (links[at - 1] ?? ui.find).focus();
   else return;

@@ -22,6 +22,7 @@ DEVICES = ("hitachi_l200", "woodward_mpu2s")
 BY_HAND = (
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "50"}, "500", "01F4"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "12,5"}, "125", "007D"),
+    ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "37.5 Hz"}, "375", "0177"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Word", "text": "0FA0"}, "4000", "0FA0"),
     ("hitachi_l200", {"point": "base_frequency", "anew": True, "bits": [2, 8]}, "260", "0104"),
     ("hitachi_l200", {"point": "run_command", "field": "Name", "text": "1"}, "1", "0001"),
@@ -44,7 +45,9 @@ FRAMES = (
     }),
 )  # fmt: skip
 """Device, what is typed, frames: of the manuals, and put together by hand after them."""
-REFUSED = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "")]
+REFUSED = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "", "1,500", "5 A")]
+ROUNDED = {"point": "base_frequency", "field": "Value", "text": "37.54"}
+NO_WORD = {"point": "control_word", "field": "Raw", "text": "none"}
 REPLIES = [
     {"point": "base_frequency", "field": "Read: reply", "text": text}
     for text in ("01 03 02 01 F4 B8 53", "01 03 02 01 F4 B8 54", "01 83 02 C0 F1")
@@ -100,8 +103,9 @@ def _steps(device_id: str) -> list[dict[str, Any]]:
     """All that is typed on the page of a device, one after the other."""
     by_hand = [step for device, step, *_ in (*BY_HAND, *FRAMES) if device == device_id]
     samples = _samples(device_id) if device_id in DEVICES else []
-    l200 = [*REPLIES, *REFUSED] if device_id == "hitachi_l200" else []
-    return [*by_hand, *l200, *(step for sample in samples for step in sample.steps())]
+    l200 = [*REPLIES, *REFUSED, ROUNDED] if device_id == "hitachi_l200" else []
+    bits = [NO_WORD] if device_id == "siemens_mm4" else []
+    return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps())]
 
 
 @pytest.fixture(scope="module")
@@ -164,6 +168,18 @@ def test_what_may_not_be_written_says_so_and_has_no_frame(typed: Typed) -> None:
         said = typed("hitachi_l200", step)
         assert said["wrong"]
         assert "Write: request" not in said["frames"]
+
+
+def test_what_is_no_number_leaves_no_bits(typed: Typed) -> None:
+    assert typed("siemens_mm4", NO_WORD)["drawn"] == []
+
+
+def test_a_value_between_two_raw_numbers_says_so(typed: Typed) -> None:
+    said = typed("hitachi_l200", ROUNDED)
+    assert (said["raw"], said["wrong"]) == ("375", False)
+    assert "37.54 is between two raw numbers" in said["status"]
+    exact = {"point": "base_frequency", "field": "Value", "text": "37.5 Hz"}
+    assert "between" not in typed("hitachi_l200", exact)["status"]
 
 
 def test_a_reply_that_came_is_decoded(typed: Typed) -> None:

@@ -92,6 +92,14 @@ def test_filters_and_the_choices_that_stay(seen: dict[str, Any]) -> None:
     assert seen["variant"] == ["400V", 0]
 
 
+def test_a_variant_that_is_gone_hides_nothing(seen: dict[str, Any]) -> None:
+    assert seen["gone"] == ["", "256 of 256 points"]
+
+
+def test_a_slash_begins_a_search_and_arrows_go_to_points(seen: dict[str, Any]) -> None:
+    assert seen["typed"] == ["base_freq", "base_frequency"]
+
+
 def test_escape_clears_what_finds_nothing(seen: dict[str, Any]) -> None:
     assert seen["nothing"].startswith("0 of ")
     assert seen["cleared"] == ""
@@ -110,7 +118,8 @@ def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:
     hostile = f"<img src=x onerror=alert(1)></script><script>alert(2)</script>\u202e{'long' * 99}"
     device = shipped("jumo_controller")
     points = tuple(replace(point, title={"en": hostile}, note={"en": hostile}) for point in device.points)
-    device = replace(device, vendor=hostile, model="-->", title={"en": hostile}, points=points)
+    groups = tuple(replace(group, title={"en": hostile}) for group in device.groups)
+    device = replace(device, vendor=hostile, model="-->", title={"en": hostile}, points=points, groups=groups)
     first = next(point.item for point in points if point.generated)
     seen = _visited(device, tmp_path, ["onerror"], ["", f"#point={first}"])
     assert (seen["troubles"], seen["wide"]) == ([], [])

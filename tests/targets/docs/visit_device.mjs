@@ -7,6 +7,7 @@ import { pathToFileURL } from "node:url";
 
 const [file, executablePath, modules, wanted] = process.argv.slice(2);
 const { queries, hashes } = JSON.parse(wanted);
+const STRANGE = ["#__proto__", "#constructor", "#%", "#point=%", "#point=__proto__", "#erratum=toString", `#${"A".repeat(99999)}`];
 const require = createRequire(join(modules, "x.js"));
 const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
 const browser = await require("playwright-core").chromium.launch({
@@ -56,13 +57,22 @@ const axis = page.locator("label:has-text('Voltage class') select");
 if (await axis.count()) {
   await axis.selectOption("400V");
   await open();
+  const stored = await page.evaluate("Object.keys(localStorage).find((key) => key.endsWith(' variants'))");
   seen.variant = [await axis.inputValue(), (await page.$$eval("#list tbody tr", (rows) => rows.map((row) => row.textContent))).filter((text) => text.includes("200V")).length];
+  await page.evaluate(([key]) => localStorage.setItem(key, '{"voltage_class":"gone"}'), [stored]);
+  await open();
+  seen.gone = [await axis.inputValue(), await page.textContent(".status")];
 }
 await page.keyboard.press("/");
 await page.keyboard.type("zzyzx");
 seen.nothing = await page.textContent(".status");
 await page.keyboard.press("Escape");
 seen.cleared = await page.inputValue("#find");
+await page.keyboard.type("/base_freq");
+seen.typed = [await page.inputValue("#find")];
+await page.keyboard.press("ArrowDown");
+seen.typed.push(await page.evaluate("document.activeElement.closest('tr')?.dataset.point"));
+for (const hash of STRANGE) await open(hash);
 const paper = () => page.evaluate("getComputedStyle(document.body).backgroundColor");
 seen.papers.push(await paper());
 await page.click(".scheme");

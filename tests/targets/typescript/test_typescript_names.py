@@ -118,6 +118,18 @@ def test_a_name_never_sets_a_prototype(tmp_path: Path) -> None:
     assert camel("__proto__") != "__proto__"
 
 
+def test_what_all_objects_have_is_nothing_of_a_device(tmp_path: Path) -> None:
+    """An axis is not chosen because objects have a member of its name, and such a member is no command."""
+    axis = "variants:\n  constructor: {values: {small: {}, large: {}}}\n"
+    install(tmp_path, [loaded_in(tmp_path, axis + described("- {name: speed, at: 1}\n"))])
+    program = """
+import { MadeUp } from "made-up";
+const made = new MadeUp({ framing: "rtu", exchange: async () => new Uint8Array() }, { unit: 1 });
+try { made.point("toString"); } catch (error) { console.log(error.message); }
+"""
+    assert in_node(program, tmp_path) == "toString is no point of this device"
+
+
 NAMES_OF_MODULES = "array bigint boolean bits command date extract f32 f64 handles iterable iterator line map number"
 NAMES_OF_MODULES += " object partial place point points promise read_only read_write readonly record runtime s16 s64 s8"
 NAMES_OF_MODULES += " special_code stored stored_write_only string symbol u16 u32 u8 uint8_array unknown_number word"

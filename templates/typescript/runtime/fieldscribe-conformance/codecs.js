@@ -166,7 +166,7 @@ function isSpecialName(device, vector) {
 
 /** @param {any} kind @param {string} name @returns {string} */
 function flagKey(kind, name) {
-  return [camelName(name), `${camelName(name)}_`].find((key) => key in kind.flags) ?? name;
+  return [camelName(name), `${camelName(name)}_`].find((key) => Object.keys(kind.flags).includes(key)) ?? name;
 }
 
 /** A flag on a word, and a word with that flag alone. @type {CodecCheck} */
