@@ -34,8 +34,9 @@ class AnsweringLine {
 
   /** @param {any} at @param {number[]} words */
   hold(at, words) {
+    const index = this.framing === "uss" ? at.index : 0; // in other frames the address alone tells the place
     const ascending = [...at.addresses].sort((one, other) => one - other);
-    ascending.forEach((address, each) => this.memory.set(this.key(at.space, address, at.index), words[each] ?? 0));
+    ascending.forEach((address, each) => this.memory.set(this.key(at.space, address, index), words[each] ?? 0));
   }
 
   /** @param {string} space @param {number} address @param {number} [index] */

@@ -36,6 +36,10 @@ FRAMES = (
         "Write: request": "01 06 10 28 01 F4 0D 15",
         "Write: reply": "01 06 10 28 01 F4 0D 15",
     }),
+    ("nord_sk5xxe", {"point": "setpoint_1", "field": "Raw", "text": "8000"}, {
+        "Read: request": "01 03 0C 81 00 01 D7 72",
+        "Read: reply": "01 03 02 1F 40 B1 84",
+    }),
     ("woodward_mpu2s", {"point": "generator_voltage_factor"}, {"Read: request": "33F#FF0101FB0000FEFA"}),
     ("woodward_mpu2s", {"point": "generator_frequency", "field": "Raw", "text": "5000"}, {
         "From the device": "321#DD00000013880000",
