@@ -16,7 +16,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe.simulation.faults import KINDS
@@ -70,15 +70,22 @@ class Outcome(NamedTuple):
 
 
 class Beats:
-    """A thread that runs every few milliseconds, and notes when it could not."""
+    """A thread that runs every few milliseconds as long as the context lasts, and notes when it could not."""
 
     def __init__(self) -> None:
-        self._last, self._missed = time.monotonic(), 0.0
-        threading.Thread(target=self._run, daemon=True).start()
+        self._last, self._missed, self._ends = time.monotonic(), 0.0, threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ends.set()
+        self._thread.join()
 
     def _run(self) -> None:
-        while True:
-            time.sleep(0.005)
+        while not self._ends.wait(0.005):
             now = time.monotonic()
             self._missed, self._last = max(self._missed, now - self._last), now
 
@@ -100,7 +107,7 @@ def faults(share: float, timeout: float) -> Iterator[str]:
 def soak(requests: int, share: float, seed: int, timeout: float = TIMEOUT) -> Outcome:
     """Read the points of a drive in turn, so many times, while a share of the answers is spoiled."""
     struck: list[tuple[float, str]] = []
-    ends, findings, beats = Counter[tuple[str, str]](), list[str](), Beats()
+    ends, findings = Counter[tuple[str, str]](), list[str]()
     slow, start = 0, resident()
     half = start
     spoils = [*faults(share, timeout)]
@@ -108,7 +115,7 @@ def soak(requests: int, share: float, seed: int, timeout: float = TIMEOUT) -> Ou
     def note(entry: str) -> None:
         struck.append((time.monotonic(), entry))
 
-    with simulated("hitachi_l200", on="tcp", seed=seed, trace=note, faults=spoils) as drive:
+    with Beats() as beats, simulated("hitachi_l200", on="tcp", seed=seed, trace=note, faults=spoils) as drive:
         right = {name: drive.values[name] for name in POINTS}
         for client in clients(drive, timeout):
             for number in range(requests):

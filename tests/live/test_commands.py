@@ -288,6 +288,18 @@ def test_a_write_is_sent_once(drive: Simulated, on_line: Run) -> None:
     assert drive.requests == before + 1
 
 
+@pytest.mark.parametrize(
+    ("faults", "text"), [("late 0.3 x1", r"unit 1  running = stopped"), ("late 0.3 x2", "unit 1  it answers late")]
+)
+def test_a_unit_whose_answer_comes_late_is_asked_once_more(faults: str, text: str, run: Run) -> None:
+    with simulated("hitachi_l200", on="serial") as drive:
+        drive.fault(faults)
+        line = f"rtu://{drive.path}?baud=19200"
+        done = run("scan", "hitachi_l200", "--line", line, "--units", "1-3", "--timeout", "0.2")
+    assert (done.code, len(done.out.splitlines())) == (0, 1)
+    assert re.match(text, done.out), done.out
+
+
 def test_monitor_goes_on_after_a_lost_answer(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     rounds = iter(range(9))
 

@@ -42,11 +42,11 @@ def run(arguments: Namespace) -> int:
     with connected(arguments, line) as (connection, _):
         scanner = Scanner(connection, model)
         units = read_units(arguments.units, scanner.ends)
-        for place, answer in enumerate(scanner.answers(units), 1):
+        for answer in scanner.answers(units):
             if answer.answers:
                 found.append(answer)
                 _print(answer, arguments, progress)
-            progress.show(f"unit {answer.unit}, {place} of {len(units)}; {len(found)} answered")
+            progress.show(f"unit {answer.unit}, {units.index(answer.unit) + 1} of {len(units)}; {len(found)} answered")
         progress.clear()
         print_requests(arguments, scanner.requests)
     if arguments.format == "json":

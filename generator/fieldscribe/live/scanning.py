@@ -16,12 +16,16 @@ if TYPE_CHECKING:
 
 
 class Answer(NamedTuple):
-    """What came from a unit, if anything: `answers`, `is_other` (another device than the one looked for)."""
+    """What came from a unit, if anything: `answers`, `is_other` (another device than the one looked for).
+
+    `is_of_another`: what came was the answer of another unit.
+    """
 
     unit: int
     answers: bool
     text: str = ""
     is_other: bool = False
+    is_of_another: bool = False
 
 
 def read_units(text: str | None, ends: tuple[int, int]) -> list[int]:
@@ -50,23 +54,37 @@ class Scanner:
         self._points = [] if model is None else _harmless_points(model)
 
     def answers(self, units: list[int]) -> Iterator[Answer]:
-        """Yield what comes from each unit. Raises FieldscribeError where the line itself fails."""
+        """Yield what comes from each unit; one whose answer came late is asked once more.
+
+        Raises FieldscribeError where the line itself fails.
+        """
+        silent: int | None = None
+        for unit in units:
+            answer = self._answer(unit)
+            if answer.is_of_another and silent is not None:
+                again = self._answer(silent)
+                yield again if again.answers else Answer(silent, True, "it answers late: try a longer --timeout")
+                answer = self._answer(unit)
+            yield answer
+            silent = None if answer.answers else unit
+
+    def _answer(self, unit: int) -> Answer:
         from fieldscribe_runtime import FieldscribeError, LineError, NoReplyError, OtherDeviceError, RequestError
 
-        for unit in units:
-            device = self._connection.device(self._model, unit) if self._model else self._connection.any_device(unit)
-            try:
-                yield Answer(unit, True, self._asked(device))
-            except OtherDeviceError as error:
-                yield Answer(unit, True, f"another device: {error}", True)
-            except (LineError, RequestError):
-                raise
-            except NoReplyError:
-                yield Answer(unit, False)
-            except FieldscribeError as error:
-                yield Answer(unit, not error.lost or bool(error.received), _remark(error))
-            finally:
-                self.requests += device.traffic.requests
+        device = self._connection.device(self._model, unit) if self._model else self._connection.any_device(unit)
+        try:
+            return Answer(unit, True, self._asked(device))
+        except OtherDeviceError as error:
+            return Answer(unit, True, f"another device: {error}", True)
+        except (LineError, RequestError):
+            raise
+        except NoReplyError:
+            return Answer(unit, False)
+        except FieldscribeError as error:
+            is_late = error.status == "wrong_unit"
+            return Answer(unit, not error.lost or bool(error.received), _remark(error), is_of_another=is_late)
+        finally:
+            self.requests += device.traffic.requests
 
     def _asked(self, device: AnyDevice) -> str:
         if self._model is None:
