@@ -9,7 +9,7 @@ function fillCalculator(place, point) {
 }
 
 /** What was entered last stays for a visit: the unit, the framing, and the raw numbers of other points. */
-/** @type {{ unit: number | null, framing: string, raws: Record<string, any>, bases: Record<string, number> }} */
+/** @type {{ unit: number | null, framing: string, pkw?: number, raws: Record<string, any>, bases: Record<string, number> }} */
 const entered = { unit: null, framing: "", raws: {}, bases: {} };
 
 class Calculator {
@@ -275,6 +275,13 @@ class Calculator {
       list.addEventListener("input", () => { entered.framing = list.value; this.show(list); });
       fields.push(element("label", {}, element("span", {}, "Framing"), list));
     }
+    if (device.family === "uss" && !this.isCyclic) {
+      entered.pkw ??= Math.max(...profile.pkw); // the variable length, 127, where the device has it
+      const lengths = profile.pkw.filter(Boolean).map((/** @type {number} */ words) => element("option", { value: String(words), selected: words === entered.pkw }, pkwText(words)));
+      const list = element("select", {}, ...lengths);
+      list.addEventListener("input", () => { entered.pkw = Number(list.value); this.show(list); });
+      fields.push(element("label", {}, element("span", {}, "Parameter part"), list));
+    }
     const base = this.codec.at.base;
     if (base !== undefined && bases) {
       entered.bases[base] ??= 0;
@@ -319,7 +326,7 @@ class Calculator {
     let line = { exchanges: [] };
     try {
       const bases = codec.at.base === undefined ? {} : { [codec.at.base]: entered.bases[codec.at.base] ?? 0 };
-      const opened = answeringDevice({ unit: entered.unit, framing: device.family === "modbus" ? entered.framing : device.family, variants: this.variants(), bases });
+      const opened = answeringDevice({ unit: entered.unit, framing: device.family === "modbus" ? entered.framing : device.family, pkw: entered.pkw, variants: this.variants(), bases });
       line = opened.line;
       for (const [name, number] of Object.entries(raws)) {
         const other = this.other(name);
@@ -353,6 +360,11 @@ class Calculator {
     this.status.textContent = error.message;
     this.status.classList.add("wrong");
   }
+}
+
+/** @param {number} words the length of the parameter part of USS */
+function pkwText(words) {
+  return words === 127 ? "127, variable" : `${words} words`;
 }
 
 /** @param {AnsweringLine} line @param {Codec} codec @param {any[]} words */

@@ -106,7 +106,7 @@ class DecoderView {
     const fields = [];
     const { facts } = generatedCode().Device.table;
     if (device.family === "uss") {
-      const lengths = facts.profile.pkw.map((/** @type {number} */ length) => [String(length), length === 127 ? "127, variable" : `${length} words`]);
+      const lengths = facts.profile.pkw.map((/** @type {number} */ length) => [String(length), pkwText(length)]);
       const [low, high] = facts.profile.pzd;
       const words = Array.from({ length: high - low + 1 }, (_, at) => [String(low + at), countedText(low + at, "word")]);
       fields.push(this.choice("Framing", "framing", Object.entries(USS_FRAMINGS), "by its bytes"), this.choice("Parameter part", "pkw", lengths), this.choice("Process data", "pzd", words));

@@ -122,12 +122,13 @@ function writesValue(task) {
   return [2, 3, 7, 8, 11, 12, 13, 14].includes(task);
 }
 
-/** Return the device on a line that answers by itself; `facts` may have unit, framing, variants and numbers of bases. @param {any} facts */
-function answeringDevice({ unit, framing, variants, bases = {} }) {
+/** Return the device on a line that answers by itself; `facts` may have unit, framing, words of the parameter part,
+ * variants and numbers of bases. @param {any} facts */
+function answeringDevice({ unit, framing, pkw, variants, bases = {} }) {
   const { Device } = generatedCode();
   const line = new AnsweringLine(framing);
   line.unit = unit;
-  const link = framing === "uss" ? { pkw: Math.max(...Device.table.facts.profile.pkw.filter((/** @type {number} */ words) => words <= 4)), pzd: 2 } : undefined;
+  const link = framing === "uss" ? { pkw: pkw ?? Math.max(...Device.table.facts.profile.pkw), pzd: 2 } : undefined;
   line.pkw = link?.pkw ?? 0;
   line.isSingleLast = line.pkw === 4;
   const made = new Device(line, { unit, ...(link && { link }), ...variants, ...bases });

@@ -47,6 +47,13 @@ FRAMES = (
     ("siemens_mm4", {"point": "control_word", "field": "Word", "text": "047F"}, {
         "To the device": "02 06 01 04 7F 00 00 7E",
     }),
+    ("siemens_mm4", {"point": "command_source", "field": "Raw", "text": "5"}, {
+        "Write: request": "02 0E 01 22 BC 00 00 00 05 00 00 00 00 00 00 96",
+    }),
+    ("siemens_mm4", {"point": "command_source", "field": "Parameter part", "text": "4"}, {
+        "Write: request": "02 0E 01 22 BC 00 00 00 00 00 05 00 00 00 00 96",
+        "Read: reply": "02 0E 01 12 BC 00 00 00 00 00 05 00 00 00 00 A6",
+    }),
 )  # fmt: skip
 """Device, what is typed, frames: of the manuals, and put together by hand after them."""
 REFUSED = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "", "1,500", "5 A")]
