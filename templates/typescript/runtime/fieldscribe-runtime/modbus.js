@@ -21,7 +21,7 @@ import {
 import { areaOf, ascending, highestOf, lowestOf, place, placeLabel, runsOf } from "./places.js";
 import { checkNumber } from "./receiving.js";
 import { Session } from "./session.js";
-import { checkUnit, pointExists } from "./table.js";
+import { checkUnit, ownOf, pointExists } from "./table.js";
 
 /** @typedef {import("./places.js").Place} Place */
 /** @typedef {import("./table.js").AnyPoint} AnyPoint */
@@ -288,7 +288,7 @@ export class ModbusDevice extends Session {
    * @param {import("./session.js").Refusals} [refusals] @returns {Promise<import("./session.js").PointRaws>} */
   async _gather(points, group, refusals) {
     const holes = this._holes();
-    const planned = (group !== undefined && this.table.facts.blocks?.[group]) || [];
+    const planned = (group !== undefined && ownOf(this.table.facts.blocks, group)) || [];
     const blocks = planned.filter(
       (block) => points.some((point) => covers(block, point.at)) && !spotsOf(block).some((one) => holes.has(one)),
     );

@@ -29,6 +29,9 @@ export function identification(point: string, values: readonly (number | string)
 export function pointExists(point: AnyPoint, variants: Variants): boolean;
 /** The label of a point for messages: code and name. @param {AnyPoint} point @returns {string} */
 export function labelOf(point: AnyPoint): string;
+/** What an object itself holds under a name that a user gave, nothing that all objects have.
+ * @template T @param {Readonly<Record<string, T>> | undefined} held @param {string} name @returns {T | undefined} */
+export function ownOf<T>(held: Readonly<Record<string, T>> | undefined, name: string): T | undefined;
 /** Raises RequestError for a unit number that the device cannot have. @param {number} unit
  * @param {readonly [number, number]} units */
 export function checkUnit(unit: number, units: readonly [number, number]): void;

@@ -144,7 +144,7 @@ export class PointTable {
 
 /** What an object itself holds under a name that a user gave, nothing that all objects have.
  * @template T @param {Readonly<Record<string, T>> | undefined} held @param {string} name @returns {T | undefined} */
-function ownOf(held, name) {
+export function ownOf(held, name) {
   return held && Object.prototype.hasOwnProperty.call(held, name) ? held[name] : undefined;
 }
 
