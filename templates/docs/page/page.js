@@ -131,7 +131,9 @@ function accessLegend() {
 
 /* The list of points. */
 
-const CHUNK = 40;
+/** So many rows at a time are quick to lay out; more follow as soon as their end comes near the window. */
+const CHUNK = 16;
+const ahead = new IntersectionObserver((seen) => { if (seen.some((each) => each.isIntersecting)) extendList(ui.listed + CHUNK); }, { rootMargin: "800px" });
 
 /** @param {Point} point */
 function isWanted(point) {
@@ -191,6 +193,8 @@ function extendList(count) {
   }
   ui.listed = Math.min(count, ui.shown.length);
   ui.rows.append(...rows);
+  ahead.unobserve(ui.end); // watched anew, it tells again that it is near
+  if (ui.listed < ui.shown.length) ahead.observe(ui.end);
 }
 
 /** @param {Point} point */
@@ -220,7 +224,8 @@ function build() {
   ui.rows = element("tbody", {});
   ui.table = element("table", { className: "points" }, element("caption", { className: "unseen" }, "Points"), element("thead", {}, element("tr", {}, ...["Code", "Name", "Address", "Type", "R/W", "Range", "Unit"].map((head) => element("th", { scope: "col" }, head)))), ui.rows);
   ui.nothing = element("p", { hidden: true }, "Nothing has all these words. Try fewer words, or clear the filters.");
-  ui.list = element("section", { id: "list", ariaLabel: "List of points" }, ui.status, ui.places, ui.nothing, ui.table);
+  ui.end = element("div", {});
+  ui.list = element("section", { id: "list", ariaLabel: "List of points" }, ui.status, ui.places, ui.nothing, ui.table, ui.end);
   ui.detail = element("div", { id: "detail", tabIndex: -1 });
   ui.tabs = element("nav", { ariaLabel: "Sections" }, device.index ? element("a", { href: device.index }, "All devices") : null, ...Object.entries(SECTIONS).filter(([name]) => hasSection(name)).map(([name, text]) => element("a", { href: `#${name}` }, text)));
   const filters = element("details", { className: "filters" }, element("summary", {}, "Filters"), element("div", {}, ...filterFields()));
@@ -401,7 +406,6 @@ function start() {
     const name = event.target.closest?.("[data-point]")?.dataset.point;
     if (name) location.hash = `#point=${encodeURIComponent(name)}`;
   });
-  new IntersectionObserver((seen) => seen.some((each) => each.isIntersecting) && ui.listed < ui.shown.length && extendList(ui.listed + CHUNK), { rootMargin: "800px" }).observe(/** @type {Element} */ (document.querySelector("footer")));
 }
 
 start();

@@ -105,6 +105,10 @@ def test_escape_clears_what_finds_nothing(seen: dict[str, Any]) -> None:
     assert seen["cleared"] == ""
 
 
+def test_a_list_that_was_short_grows_while_one_scrolls(seen: dict[str, Any]) -> None:
+    assert seen["scrolled"] is True
+
+
 def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:
     light, dark, again = seen["papers"]
     assert light != dark == again

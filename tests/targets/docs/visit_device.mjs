@@ -68,6 +68,10 @@ await page.keyboard.type("zzyzx");
 seen.nothing = await page.textContent(".status");
 await page.keyboard.press("Escape");
 seen.cleared = await page.inputValue("#find");
+seen.scrolled = await page.waitForFunction(() => {
+  scrollTo(0, document.body.scrollHeight);
+  return document.querySelectorAll("#list tr[data-point]").length === parseInt(document.querySelector(".status").textContent);
+}).then(() => true, String);
 await page.keyboard.type("/base_freq");
 seen.typed = [await page.inputValue("#find")];
 await page.keyboard.press("ArrowDown");
