@@ -1,4 +1,4 @@
-"""Large runs render each further target in a child process; what is written is the same."""
+"""Large runs render half of the targets in a child process; what is written is the same."""
 
 from __future__ import annotations
 

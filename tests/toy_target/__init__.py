@@ -11,6 +11,7 @@ from fieldscribe.targets.identifiers import Names, Owner
 
 SEES_TITLES = False
 NEEDS_FAMILY = False
+WEIGHT = 0.1
 BEFORE_POINTS = ()
 
 _LONGEST = 8

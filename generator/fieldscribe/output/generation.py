@@ -18,14 +18,14 @@ from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
-from fieldscribe.output.rendering import ChildTarget, Failure, failure, rendered
+from fieldscribe.output.rendering import ChildTargets, Failure, failure, halves, rendered
 from fieldscribe.output.writing import Result, carry_out
 from fieldscribe.pipeline import Models, is_new, load_models
 from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import knows
 
 MANY_POINTS = 1_000
-"""With so many points in a run, each further target is rendered in a process of its own."""
+"""With so many points in a run, a second process renders half of the targets."""
 
 
 @dataclass(slots=True)
@@ -104,19 +104,17 @@ class Generation:
         """Yield each device with its files; a device with a failing target is left out and gets a finding."""
         ready = [entry for entry in self.devices.values() if self._has_targets(*entry)]
         points = sum(len(models.whole.points) for _, models in ready)
-        here = 1 if points >= MANY_POINTS and may_have_children() else len(self.targets)
+        here, there = halves(self.targets) if points >= MANY_POINTS and may_have_children() else (self.targets, ())
         with ExitStack() as stack:
-            children = [
-                ChildTarget([models for _, models in ready], target, stack.enter_context(Spool()))
-                for target in self.targets[here:]
-            ]
+            devices = [models for _, models in ready]
+            child = ChildTargets(devices, there, stack.enter_context(Spool())) if there else None
             for device_file, models in ready:
                 with Spool() as spool:
-                    parts = [rendered(models, target, spool.keep) for target in self.targets[:here]]
-                    parts += [child.next() for child in children]
-                    made = zip(self.targets, parts, strict=True)
-                    files = {target: part for target, part in made if isinstance(part, dict)}
-                    if failures := [part for part in parts if isinstance(part, Failure)]:
+                    made = {target: rendered(models, target, spool.keep) for target in here}
+                    made |= child.next() if child else {}
+                    parts = {target: made[target] for target in self.targets}
+                    files = {target: part for target, part in parts.items() if isinstance(part, dict)}
+                    if failures := [part for part in parts.values() if isinstance(part, Failure)]:
                         self._report_bug(device_file, *failures[0])
                     else:
                         yield models.whole, files

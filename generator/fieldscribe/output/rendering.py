@@ -9,6 +9,7 @@ from fieldscribe.diagnostics import show_traceback
 from fieldscribe.output.children import results_of_child
 from fieldscribe.output.contents import Contents, Spool
 from fieldscribe.pipeline import Models, TargetError, outputs
+from fieldscribe.targets import target
 
 
 class Failure(NamedTuple):
@@ -22,21 +23,27 @@ Rendered = dict[str, Contents] | Failure
 """The files of a device for a target by their paths, or why there are none."""
 
 
-class ChildTarget:
-    """A child process that renders a target of all devices; large files come through a spool."""
+class ChildTargets:
+    """A child process that renders some targets of all devices; large files come through a spool."""
 
-    def __init__(self, devices: list[Models], target: str, spool: Spool) -> None:
-        self._spool = spool.share()
-        self._results = results_of_child(lambda: _all_rendered(devices, target, spool))
+    def __init__(self, devices: list[Models], targets: tuple[str, ...], spool: Spool) -> None:
+        self._spool, self._targets = spool.share(), targets
+        self._results = results_of_child(lambda: _all_rendered(devices, targets, spool))
 
-    def next(self) -> Rendered:
-        """Return the files of the next device. Raises ChildProcessError."""
-        result = next(self._results)
-        return (
-            result
-            if isinstance(result, Failure)
-            else {path: self._spool.joined(contents) for path, contents in result.items()}
-        )
+    def next(self) -> dict[str, Rendered]:
+        """Return the files of the next device by target. Raises ChildProcessError."""
+        made = {target: next(self._results) for target in self._targets}
+        return {target: part if isinstance(part, Failure) else self._joined(part) for target, part in made.items()}
+
+    def _joined(self, files: dict[str, Contents]) -> dict[str, Contents]:
+        return {path: self._spool.joined(contents) for path, contents in files.items()}
+
+
+def halves(targets: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Cut the targets of a run in two parts that take about as long; the second is empty where there is one target."""
+    weights = [target(name).WEIGHT for name in targets]
+    cut = min(range(1, len(targets) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
+    return targets[:cut], targets[cut:]
 
 
 def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
@@ -55,8 +62,9 @@ def failure(where: str, error: BaseException) -> Failure:
     return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
 
 
-def _all_rendered(devices: list[Models], target: str, spool: Spool) -> Iterator[Rendered]:
-    """Yield the files of each device, as a child does."""
+def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool) -> Iterator[Rendered]:
+    """Yield the files of each device for each target, as a child does."""
     for models in devices:
-        yield rendered(models, target, spool.keep_apart)
+        for name in targets:
+            yield rendered(models, name, spool.keep_apart)
     spool.share()

@@ -29,6 +29,9 @@ if TYPE_CHECKING:
         all of them; empty if there are identifiers without it.
         """
 
+        WEIGHT: float
+        """How long it takes beside the others; two processes share the targets of a large run by it."""
+
         def outputs(self, device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
             """Return the files of a device: path below the output folder, and text.
 
@@ -49,9 +52,9 @@ TARGETS = (
     "c",
     "python",
     "rust",
+    "vectors",
     "typescript",
     "docs",
-    "vectors",
 )
 """All targets by name, in the order in which they are written."""
 

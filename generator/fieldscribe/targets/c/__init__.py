@@ -18,6 +18,7 @@ from fieldscribe.targets.c.scope import scope_of
 
 SEES_TITLES = False
 NEEDS_FAMILY = True
+WEIGHT = 0.9
 BEFORE_POINTS = ("", "read", "write", "store")
 
 _HERE = "\0"

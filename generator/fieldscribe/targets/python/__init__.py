@@ -18,6 +18,7 @@ SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
+WEIGHT = 0.4
 BEFORE_POINTS = ("",)
 
 

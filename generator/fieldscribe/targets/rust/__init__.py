@@ -14,6 +14,7 @@ SEES_TITLES = False
 _SOURCES = ("points", "enums", "flags", "with")
 
 NEEDS_FAMILY = True
+WEIGHT = 0.6
 BEFORE_POINTS = ("",)
 
 

@@ -16,6 +16,7 @@ from fieldscribe.wording import open_texts
 
 SEES_TITLES = False
 NEEDS_FAMILY = True
+WEIGHT = 0.7
 BEFORE_POINTS = ("",)
 
 _RUNTIME = "fieldscribe-runtime"
@@ -29,21 +30,29 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     names = Identifiers(device)
     folder = f"typescript/{names.folder}"
     yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
-    views = _views(device, names)
+    views = _views(device)
     for name, text in chain(_rendered(views, "js", render), _rendered(_typed(views, device, names), "d.ts", render)):
         yield f"{folder}/{name}", text
 
 
 def scripts(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """Yield the modules of the device's package by their names, without their types."""
-    return _rendered(_views(device, Identifiers(device)), "js", render)
+    return _rendered(_views(device), "js", render)
 
 
 Views = Mapping[str, dict[str, object]]
 """The context of each module by its name."""
+_kept: list[tuple[Device, Views]] = []
+"""The last device with its contexts: its package and its page have the same scripts."""
 
 
-def _views(device: Device, names: Identifiers) -> Views:
+def _views(device: Device) -> Views:
+    if not (_kept and _kept[0][0] == device):
+        _kept[:] = [(device, _made(device, Identifiers(device)))]
+    return _kept[0][1]
+
+
+def _made(device: Device, names: Identifiers) -> Views:
     from fieldscribe.targets.typescript.device import device_context
     from fieldscribe.targets.typescript.enums import enums_context
     from fieldscribe.targets.typescript.points import points_context

@@ -13,6 +13,7 @@ from fieldscribe.targets.identifiers import Names
 
 SEES_TITLES = False
 NEEDS_FAMILY = False
+WEIGHT = 0.9
 BEFORE_POINTS = ("",)
 _kept: list[tuple[Device, str]] = []
 """The last device with its vectors."""
