@@ -274,7 +274,7 @@ def test_lines_and_stations_of_a_project(
     monkeypatch.chdir(tmp_path)
     for words, expected in (
         (["pump"], "it cannot be opened"),
-        (["pump", "--line", "tcp://localhost"], "what others say in a network is not on a line"),
+        (["pump", "--line", "tcp://localhost"], "give --capture FILE"),
         (["hitachi_l200", "--line", "can://virtual/x"], "its lines are tcp://, rtu://, rtu+tcp://"),
     ):
         assert main(["listen", *words]) == 2

@@ -270,6 +270,13 @@ def test_what_is_no_snapshot_is_said(text: str, run: Run, tmp_path: Path) -> Non
         assert "snapshot" in done.err
 
 
+def test_a_device_in_place_of_a_snapshot_is_told_what_comes_first(run: Run) -> None:
+    done = run("restore", "hitachi_l200", "x.json")
+    assert (done.code, done.out) == (2, "")
+    assert "there is no file hitachi_l200" in done.err
+    assert "name a snapshot first" in done.err
+
+
 def test_a_snapshot_is_read_as_it_was_written(tmp_path: Path) -> None:
     usual = defaults(shipped("eastron_sdm630"))
     (tmp_path / "x.json").write_text(usual.as_text(), "utf-8")

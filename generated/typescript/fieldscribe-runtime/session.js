@@ -410,8 +410,7 @@ export class Session {
       return `${of} ${test} ${than.map((one) => (other ? (other.nameOf(one) ?? other.told(one)) : one)).join(", ")}`;
     };
     const clauses = conditionOf(point).map((clause) => clause.map(told).join(" and "));
-    error.text += `; it exists only when ${clauses.join(" or ")}`;
-    error.about({});
+    error.about({ existsWhen: clauses.join(" or ") });
   }
 
   /** The values of points, by name, and before them what their scales need.

@@ -161,13 +161,16 @@ def _kind(point: Point) -> str:
 
 def read_snapshot(path: Path) -> Snapshot:
     """Return the snapshot in a file. Raises UnclearError, OSError."""
-    wrong = UnclearError(f"{path} is no snapshot", "`fieldscribe snapshot DEVICE --out FILE` writes one")
+    writes = "`fieldscribe snapshot DEVICE --out FILE` writes one"
+    wrong = UnclearError(f"{path} is no snapshot", writes)
     try:
         data = json.loads(read_regular(path, _MOST_BYTES).data)
         if data.pop("snapshot") != _FORMAT:
             raise UnclearError(f"{path} is a snapshot of another version of fieldscribe", "take it again")
         points = {name: Held(**held) for name, held in data.pop("points").items()}
         snapshot = Snapshot(points=points, **data)
+    except FileNotFoundError as error:
+        raise UnclearError(f"there is no file {path}", f"name a snapshot first; {writes}") from error
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise wrong from error
     expected = {"unit": int, "variants": dict, "given": list, "points": dict, "missing": dict}

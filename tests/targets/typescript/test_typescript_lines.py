@@ -140,6 +140,7 @@ def test_points_that_do_not_exist_now_are_left_out_of_groups(folder: Path) -> No
         with pytest.raises(NodeError, match="it exists only when systemType == three_phase_four_wire") as refused:
             node("phase2Voltage", "read")
         assert (refused.value.status, refused.value.point) == ("exception", "phase_2_voltage")
+        assert refused.value.facts["existsWhen"] == "systemType == three_phase_four_wire"
         meter.device.complaints.clear()
 
 

@@ -14,6 +14,7 @@ from fieldscribe.listening.cutting import ByteCutter, packet
 from fieldscribe.listening.lines import serial_chunks
 from fieldscribe.listening.logs import logged_bytes
 from fieldscribe.live.lines import LineAddress
+from fieldscribe.user_errors import UnclearError
 
 __all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
 
@@ -101,7 +102,8 @@ def chunk_of_text(text: str) -> Chunk:
 def hear(line: LineAddress) -> Iterator[Chunk]:
     """Yield what comes on a line. Raises UnclearError."""
     if line.scheme == "tcp":
-        raise line.wrong("what others say in a network is not on a line: capture it, and give --capture")
+        message = "a network does not bring what others say"
+        raise UnclearError(message, "capture it where it passes, as with tcpdump -w FILE, and give --capture FILE")
     return serial_chunks(line, "8N1")
 
 

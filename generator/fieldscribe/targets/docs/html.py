@@ -12,7 +12,7 @@ from fieldscribe.model import Device, Erratum, Frame, Message
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
-from fieldscribe.targets.docs.html_code import code_of
+from fieldscribe.targets.docs.html_code import code_and_vectors
 from fieldscribe.targets.docs.html_points import Points
 from fieldscribe.targets.docs.marks import MARKED
 from fieldscribe.targets.docs.scope import DocsScope
@@ -35,7 +35,7 @@ Section = tuple[str, list[tuple[str, str]]]
 def html_of(scope: DocsScope, render: Render, index: str) -> str:
     """Return the page of a device, with a link to `index`."""
     made, command, licence = head_lines(scope.device, "docs", line)
-    code, vectors = code_of(scope.device, render)
+    code, vectors = code_and_vectors(scope.device, render)
     decoder = [name.format(scope.device.family) for name in _DECODER] if code else []
     style, script = source(_STYLES), source((*_SCRIPTS, *decoder, "page.js"))
     digests = " ".join(f"'{_digest(text)}'" for text in filter(None, (code, script)))

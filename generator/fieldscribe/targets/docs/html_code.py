@@ -39,7 +39,7 @@ return {{ Device: generatedDevice, {names} }};
 """
 
 
-def code_of(device: Device, render: Render) -> tuple[str, str]:
+def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
     """Return the script that gives the page the code of a device, and the vectors that the page runs.
 
     Both are empty for a family without TypeScript, the vectors for a device with very many points, too.

@@ -5,7 +5,8 @@ export function shown(value: unknown): string;
  * Base of all errors of generated devices; `status` is a stable name for programs.
  *
  * `point` says which point was asked for; of several that one request reads, which they are; else the command or the
- * place. `group` is the group that was read, `needs` another point that had to be read first.
+ * place. `group` is the group that was read, `needs` another point that had to be read first. `existsWhen` says when a
+ * refused point exists, where other points decide that.
  */
 export class FieldscribeError extends Error {
     /** @param {string} message @param {string} [status] */
@@ -18,6 +19,8 @@ export class FieldscribeError extends Error {
     group: string | undefined;
     /** @type {string | undefined} */
     needs: string | undefined;
+    /** @type {string | undefined} */
+    existsWhen: string | undefined;
     /** @type {unknown} */
     value: unknown;
     /** @type {readonly unknown[] | undefined} */
@@ -26,12 +29,13 @@ export class FieldscribeError extends Error {
     get lost(): boolean;
     /**
      * Say what the error is about; what is known already stays. Returns the error.
-     * @param {{ point?: string, group?: string, needs?: string, value?: unknown, limits?: readonly unknown[] }} about
+     * @param {{ point?: string, group?: string, needs?: string, existsWhen?: string, value?: unknown, limits?: readonly unknown[] }} about
      */
     about(about: {
         point?: string;
         group?: string;
         needs?: string;
+        existsWhen?: string;
         value?: unknown;
         limits?: readonly unknown[];
     }): this;

@@ -5,7 +5,8 @@
  * Base of all errors of generated devices; `status` is a stable name for programs.
  *
  * `point` says which point was asked for; of several that one request reads, which they are; else the command or the
- * place. `group` is the group that was read, `needs` another point that had to be read first.
+ * place. `group` is the group that was read, `needs` another point that had to be read first. `existsWhen` says when a
+ * refused point exists, where other points decide that.
  */
 export class FieldscribeError extends Error {
   /** @param {string} message @param {string} [status] */
@@ -20,6 +21,8 @@ export class FieldscribeError extends Error {
     this.group = undefined;
     /** @type {string | undefined} */
     this.needs = undefined;
+    /** @type {string | undefined} */
+    this.existsWhen = undefined;
     /** @type {unknown} */
     this.value = undefined;
     /** @type {readonly unknown[] | undefined} */
@@ -33,12 +36,13 @@ export class FieldscribeError extends Error {
 
   /**
    * Say what the error is about; what is known already stays. Returns the error.
-   * @param {{ point?: string, group?: string, needs?: string, value?: unknown, limits?: readonly unknown[] }} about
+   * @param {{ point?: string, group?: string, needs?: string, existsWhen?: string, value?: unknown, limits?: readonly unknown[] }} about
    */
   about(about) {
     this.point = this.point ?? about.point;
     this.group = this.group ?? about.group;
     this.needs = this.needs ?? about.needs;
+    this.existsWhen = this.existsWhen ?? about.existsWhen;
     this.value = this.value ?? about.value;
     this.limits = this.limits ?? about.limits;
     return this.reworded();
@@ -61,7 +65,9 @@ export class FieldscribeError extends Error {
 
   /** @private */
   reworded() {
-    const parts = [this.group && `group ${this.group}`, this.point, this.needs && `needs ${this.needs}`, this.text];
+    const exists = this.existsWhen ? `; it exists only when ${this.existsWhen}` : "";
+    const what = this.text + exists;
+    const parts = [this.group && `group ${this.group}`, this.point, this.needs && `needs ${this.needs}`, what];
     this.message = parts.filter((part) => part !== undefined && part !== "").join(": ");
     return this;
   }
