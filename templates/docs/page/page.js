@@ -335,7 +335,8 @@ function markRow(point) {
   if (at >= ui.listed) extendList(at + CHUNK);
   const row = ui.rows.querySelector(`[data-point="${CSS.escape(point.name)}"]`);
   row?.setAttribute("aria-current", "true");
-  if (row && ui.list.clientHeight && !ui.list.contains(document.activeElement)) ui.list.scrollTop = row.offsetTop - ui.list.clientHeight / 3;
+  const below = row ? row.offsetTop - ui.list.scrollTop : 0;
+  if (row && ui.list.clientHeight && (below < 0 || below > ui.list.clientHeight - row.offsetHeight)) ui.list.scrollTop = row.offsetTop - ui.list.clientHeight / 3;
 }
 
 /** @param {string} name */

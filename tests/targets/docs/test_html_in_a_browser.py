@@ -109,6 +109,10 @@ def test_a_list_that_was_short_grows_while_one_scrolls(seen: dict[str, Any]) -> 
     assert seen["scrolled"] is True
 
 
+def test_the_list_shows_the_point_beside_it(seen: dict[str, Any]) -> None:
+    assert seen["entered"] is True
+
+
 def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:
     light, dark, again = seen["papers"]
     assert light != dark == again

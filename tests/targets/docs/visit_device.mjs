@@ -72,6 +72,14 @@ seen.scrolled = await page.waitForFunction(() => {
   scrollTo(0, document.body.scrollHeight);
   return document.querySelectorAll("#list tr[data-point]").length === parseInt(document.querySelector(".status").textContent);
 }).then(() => true, String);
+await page.focus("#list tr:last-child a");
+await page.keyboard.press("Enter");
+await page.waitForSelector("[data-view=detail] #list tr[aria-current]");
+seen.entered = await page.$eval("#list [aria-current]", (row) => {
+  const [{ top, bottom }, list] = [row.getBoundingClientRect(), row.closest("#list").getBoundingClientRect()];
+  return top >= list.top && bottom <= list.bottom;
+});
+await open();
 await page.keyboard.type("/base_freq");
 seen.typed = [await page.inputValue("#find")];
 await page.keyboard.press("ArrowDown");
