@@ -1,12 +1,10 @@
 /* Frames of Modbus in words: requests, replies, echoes and exceptions. The request before a reply tells what it holds. */
 
-/** The functions: what each is called, its space, and the most items of the protocol. @type {Record<number, [string, string, number]>} */
-const FUNCTIONS = {
-  1: ["read coils", "coil", 2000], 2: ["read discrete inputs", "discrete", 2000], 3: ["read holding registers", "holding", 125],
-  4: ["read input registers", "input", 125], 5: ["write one coil", "coil", 1], 6: ["write one register", "holding", 1],
-  8: ["loopback test", "", 1], 15: ["write several coils", "coil", 1968], 16: ["write several registers", "holding", 123],
-};
-const EXCEPTIONS = { 1: "illegal function", 2: "illegal data address", 3: "illegal data value", 4: "device failure", 5: "acknowledged, still working", 6: "device busy", 8: "memory parity error", 10: "gateway path unavailable", 11: "gateway target did not answer" };
+/** Return the name of a function, its space, and the most items of a request: none where it is not known. @param {number} code */
+function functionOf(code) {
+  const [name = "", space = "", most = 0] = device.bus.protocol.functions[code] ?? [];
+  return { name, space, most };
+}
 
 /** A frame around what follows the unit. @typedef {{ framing: string, data: Uint8Array, unit: number, pdu: Uint8Array, transaction: number, fault: string, checks: string }} Unwrapped */
 
@@ -35,14 +33,14 @@ function unwrapModbus(framing, data) {
 
 /** The length of a request or of a reply from the function on; 0 if it is none. @param {Uint8Array} pdu */
 function requestSize(pdu) {
-  if (!FUNCTIONS[pdu[0]]) return 0;
+  if (!functionOf(pdu[0]).most) return 0;
   return pdu[0] < 15 ? 5 : pdu.length > 5 ? 6 + pdu[5] : 0;
 }
 
 /** @param {Uint8Array} pdu */
 function replySize(pdu) {
   if (pdu[0] & 0x80) return 2;
-  if (!FUNCTIONS[pdu[0]]) return 0;
+  if (!functionOf(pdu[0]).most) return 0;
   if (pdu[0] > 4) return 5;
   return pdu.length > 1 ? 2 + pdu[1] : 0;
 }
@@ -62,14 +60,15 @@ function valuesIn(code, data) {
 function modbusRequestIn(unit, pdu) {
   const code = pdu[0];
   const name = hexText(code, 2);
-  if (!FUNCTIONS[code]) return `function ${name} is not one of the Modbus functions known here`;
+  const { most } = functionOf(code);
+  if (!most) return `function ${name} is not one of the Modbus functions known here`;
   if (pdu.length < 5) return `a request of function ${name} has at least 5 bytes from the function on, here are ${pdu.length}`;
   const [address, number] = generatedCode().wordsOfBytes(pdu.subarray(1, 5));
   if (code < 15 && pdu.length > 5) return `a request of function ${name} has 5 bytes from the function on, here are ${pdu.length}`;
   const isSingle = code === 5 || code === 6 || code === 8;
   if (code === 5 && number !== 0 && number !== 0xff00) return `a coil is written with FF00h or 0000h, here is ${shortAddress(number)}`;
   const count = isSingle ? 1 : number;
-  if (count < 1 || count > FUNCTIONS[code][2]) return `a count of ${count} is outside 1 to ${FUNCTIONS[code][2]}`;
+  if (count < 1 || count > most) return `a count of ${count} is outside 1 to ${most}`;
   if (code < 15) return { unit, function: code, address, count, values: isSingle ? [code === 5 ? number >> 15 : number] : [] };
   const data = pdu.subarray(6);
   const size = code === 15 ? (count + 7) >> 3 : 2 * count;
@@ -120,7 +119,7 @@ class ModbusDecoder extends FrameDecoder {
       decoded.notes.push(`the manual knows only ${device.framings.join(" and ").toUpperCase()} frames; ${unwrapped.framing.toUpperCase()} takes a gateway`);
     }
     const code = unwrapped.pdu.length ? unwrapped.pdu[0] & (decoded.kind === "exception" ? 0x7f : 0xff) : undefined;
-    const named = code === undefined ? "" : `, ${hexText(code, 2)} ${FUNCTIONS[code]?.[0] ?? "(not a function known here)"}`;
+    const named = code === undefined ? "" : `, ${hexText(code, 2)} ${functionOf(code).name || "(not a function known here)"}`;
     const { unit } = unwrapped;
     return { ...decoded, unit: unit ?? null, checks: unwrapped.checks, summary: `${unwrapped.framing.toUpperCase()}, ${unit === undefined ? "no unit" : `unit ${unit}`}${named}: ${decoded.summary}` };
   }
@@ -180,7 +179,7 @@ class ModbusDecoder extends FrameDecoder {
   exception({ pdu }, open, status) {
     if (pdu.length !== 2) return decodedFrame({ faults: [`an exception has 2 bytes from the function on, here are ${pdu.length}`] });
     const code = pdu[1];
-    const common = EXCEPTIONS[/** @type {keyof EXCEPTIONS} */ (code)];
+    const common = device.bus.protocol.exceptions[code];
     const meaning = common ? `: ${common} (the protocol's meaning; the manual does not list it)` : ": the manual does not list it";
     const summary = `exception ${device.bus.exceptions[code] ? codeText("exceptions", code, hexText(code, 2)) : hexText(code, 2) + meaning}`;
     const made = decodedFrame({ kind: "exception", exception: code, summary });
@@ -207,10 +206,11 @@ class ModbusDecoder extends FrameDecoder {
       if (data.length !== due) faults.splice(0, 1, `it brings ${countedText(data.length, "byte")}, the request asks for ${due} (${countedText(open.count, "item")})`);
       return decodedFrame({ kind: "reply", summary: `reply, ${this.spanOf(came)}`, faults, said: this.said(came, values.slice(0, came.count), true) });
     }
-    if (code >= 15 && pdu.length === 5 && FUNCTIONS[code]) {
+    const { most } = functionOf(code);
+    if (code >= 15 && pdu.length === 5 && most) {
       const [address, count] = generatedCode().wordsOfBytes(pdu.subarray(1));
       const confirmed = { unit, function: code, address, count, values: [] };
-      const isPossible = count > 0 && count <= FUNCTIONS[code][2];
+      const isPossible = count > 0 && count <= most;
       return decodedFrame({ kind: "reply", summary: `reply, the device has taken the request, ${this.spanOf(confirmed)}`, faults, said: isPossible ? this.said(confirmed) : [] });
     }
     const follow = `${countedText(pdu[1], "byte")} of data ${pdu[1] === 1 ? "follows" : "follow"}`;
@@ -221,7 +221,7 @@ class ModbusDecoder extends FrameDecoder {
   /** @param {any} request */
   spanOf({ function: code, address, count }) {
     if (code === 8) return `sub-function ${shortAddress(address)}`;
-    const [, space] = FUNCTIONS[code];
+    const { space } = functionOf(code);
     const last = address + Math.max(count, 1) - 1;
     return `${space} ${spanText(address, last)}, ${countedText(count, space === "coil" || space === "discrete" ? "bit" : "word")}`;
   }
@@ -230,13 +230,14 @@ class ModbusDecoder extends FrameDecoder {
   said({ unit, function: code, address, count }, words, isReply = false) {
     if (code === 8) return [{ text: `test data ${hexNumbers(words ?? [])}; the device sends it back unchanged` }];
     const written = code > 4;
-    const span = { space: FUNCTIONS[code][1], address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
+    const { space } = functionOf(code);
+    const span = { space, address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
     return [...spanSaid(this.places, this.state(unit), span), ...commandsAt(span)];
   }
 
   /** Whether an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
   offByOne({ function: code, address, count }) {
-    const space = FUNCTIONS[code][1];
+    const { space } = functionOf(code);
     const starting = (/** @type {number} */ at) => this.places.at(space, at).filter((spot) => Math.min(...spot.addresses) === at);
     if (!address || starting(address).length) return [];
     const below = starting(address - 1).find((spot) => spot.addresses.length <= count);

@@ -1,8 +1,5 @@
 /* Telegrams of USS in words: tasks with their answers, process data, broadcasts. */
 
-const RESPONSE_WIDTHS = { 1: 1, 2: 2, 4: 1, 5: 2, 6: 1 };
-const TASK_WIDTHS = { 2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1 };
-
 class UssDecoder extends FrameDecoder {
   /** @param {any} settings */
   constructor(settings) {
@@ -110,13 +107,13 @@ class UssDecoder extends FrameDecoder {
   request(unit, part, words) {
     const { code, parameter, index, data, values } = part;
     this.open.set(String(unit), { task: code, parameter, index, pzd: data.length });
-    const width = TASK_WIDTHS[/** @type {keyof TASK_WIDTHS} */ (code)] ?? 0;
+    const width = device.bus.protocol.tasks[code] ?? 0;
     const findings = unit === null ? [] : this.strangeUnit(unit);
     if (this.profile.tasks[code] === undefined) findings.push(`the device does not know task ${code}`);
     else if (code && !this.profile.tasks[code].length) findings.push("the device cannot do this task");
     if (words[0] & 0x800) findings.push("bit 11 of the first word (SP) is set, it is always 0");
     if (width === 2 && values.length < 2) findings.push("a double word does not fit into this parameter part");
-    const notes = [11, 12, 13, 14].includes(code) ? ["it writes to the EEPROM too, which wears the memory"] : [];
+    const notes = device.bus.protocol.eeprom.includes(code) ? ["it writes to the EEPROM too, which wears the memory"] : [];
     return decodedFrame({
       kind: "request", summary: `request, ${codeText("functions", code, `task ${code}`)}${this.element(code, parameter, index)}`, findings, notes,
       said: [...(code ? this.elementSaid(unit, part, width, true) : []), ...this.process(unit, "request", data)],
@@ -133,7 +130,7 @@ class UssDecoder extends FrameDecoder {
       made.exception = values[0];
       made.summary += `: ${codeText("exceptions", values[0], `error ${values[0]}`)}`;
     }
-    const width = code === 6 ? 1 : RESPONSE_WIDTHS[/** @type {keyof RESPONSE_WIDTHS} */ (code)] ?? 0;
+    const width = device.bus.protocol.responses[code] ?? 0;
     if (width === 2 && values.length < 2) made.faults.push("it has too few words for its response");
     made.said = [...(code ? this.elementSaid(unit, part, width, false) : []), ...this.process(unit, "response", data)];
     return made;

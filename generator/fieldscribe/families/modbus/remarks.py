@@ -20,7 +20,7 @@ from fieldscribe.wording.frames import (
     too_short,
 )
 
-_EXCEPTIONS: Mapping[int, str] = {
+EXCEPTIONS: Mapping[int, str] = {
     0x01: "illegal function",
     0x02: "illegal data address",
     0x03: "illegal data value",
@@ -115,7 +115,7 @@ def exception_text(device: Device, code: int) -> str:
     known = numbered(device.bus.exceptions, code)
     if known is not None:
         return line(f"{hex_text(code, 2)} {known.name}: {known.title['en']}")
-    common = _EXCEPTIONS.get(code)
+    common = EXCEPTIONS.get(code)
     meaning = (
         f"{common} (the protocol's meaning; the manual does not list it)" if common else "the manual does not list it"
     )

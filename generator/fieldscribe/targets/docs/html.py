@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from hashlib import sha256
 
+from fieldscribe.families import family
 from fieldscribe.model import Device, Erratum, Frame, Message
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets.docs import device_tables
@@ -101,10 +102,11 @@ def _languages(device: Device) -> list[str]:
 
 
 def _bus(device: Device) -> dict[str, object]:
-    """Return what the decoder says of the protocol: closed addresses, and codes with their names and titles."""
+    """Return what the decoder says of the protocol: closed addresses, codes with names and titles, its own facts."""
     codes = {kind: device.bus.codes(kind) for kind in ("functions", "exceptions", "responses")}
     return {
         "gaps": {line(space): gaps for space, gaps in device.bus.gaps.items()},
+        "protocol": getattr(family(device.family).part("targets.docs"), "PROTOCOL", {}),
         **{
             kind: {str(code.number): [line(code.name), line(code.title["en"])] for code in each}
             for kind, each in codes.items()
