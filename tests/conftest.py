@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Callable
 from itertools import islice
 from pathlib import Path
@@ -13,7 +14,8 @@ from hypothesis import settings
 from support.c_device import Folders
 from support.small_drive import Output
 
-settings.register_profile("patient", settings.default, deadline=None)
+EXAMPLES = int(os.environ.get("FIELDSCRIBE_EXAMPLES", "50"))
+settings.register_profile("patient", settings.default, deadline=None, max_examples=EXAMPLES)
 settings.load_profile("patient")  # a busy machine is no failure
 
 T = TypeVar("T")
@@ -64,9 +66,11 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> Folders:
 def loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """So many commands ask for so few devices; how these are read and compiled is tried elsewhere."""
     from fieldscribe import pipeline
-    from support.loaded_once import load_device
+    from fieldscribe.cli import search
+    from support.loaded_once import load_analysis, load_device
 
     monkeypatch.setattr(pipeline, "load_device", load_device)
+    monkeypatch.setattr(search, "load_analysis", load_analysis)
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_analysis
 from fieldscribe.search.entries import Entry, entries_of
 from fieldscribe.search.matching import near_words, search
+from support.loaded_once import load_analysis
 from support.places import ROOT
 
 pytestmark = pytest.mark.usefixtures("loads_once")

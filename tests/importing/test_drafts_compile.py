@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 import zipfile
 from collections.abc import Callable
 from itertools import count
@@ -81,11 +80,7 @@ NUMBERS = count()
 
 
 @pytest.mark.full(seconds=1)
-@settings(
-    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "40")),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.sampled_from(HEADINGS), max_size=6, unique=True), ROWS, st.sampled_from(OPTIONS))
 @example(["Register", "Range"], [["", ""], ["", "", "1-16", "65536 = x; 2 = y"]], ["--space", "coil"])
 def test_a_draft_compiles(

@@ -154,11 +154,7 @@ NUMBERS = count()
 
 
 @pytest.mark.full(seconds=1)
-@settings(
-    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "40")),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
-)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(GROUPS)
 def test_a_draft_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str], group: dict[str, Any]) -> None:
     folder = tmp_path / str(next(NUMBERS))

@@ -261,7 +261,7 @@ _DRAWN = count()
 
 
 @pytest.mark.full(seconds=2)
-@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     device=st.fixed_dictionaries(
         {"channels": st.lists(_ITEMS, min_size=1, max_size=4)},

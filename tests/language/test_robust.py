@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.resolve import expand
 from fieldscribe.targets import TARGETS
 from fuzz.descriptions import mutant, trial
 from hypothesis import HealthCheck, given, settings
@@ -36,11 +37,7 @@ MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "80"))
 PARTS = 8
 SEED = 20261122
 
-CAREFUL = settings(
-    deadline=None,
-    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "50")),
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-)
+CAREFUL = settings(suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
 
 
 @pytest.mark.parametrize(
@@ -95,9 +92,9 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
         assert "\u202e" not in made
 
 
-@pytest.mark.full(seconds=25)
-def test_rows_cannot_explode(tmp_path: Path) -> None:
-    """Hundreds of rows of four thousand points each end in a finding."""
+def test_rows_cannot_explode(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hundreds of rows of four thousand points each end in a finding, at the cost of the points that there may be."""
+    monkeypatch.setattr(expand, "MOST_POINTS", expand.MOST_POINTS // 20)
     rows = ",\n".join(f"{{name: a{row}, at: 1, sets: 64, indices: 64}}" for row in range(400))
     group = "group: a\nspace: holding\naddressing: number\nsource: {document: manual, section: x}"
     texts = {**as_texts(SINK), "words.yaml": f"{group}\npoints: [{rows}]"}
@@ -105,7 +102,7 @@ def test_rows_cannot_explode(tmp_path: Path) -> None:
     _, findings = compiled(rewrite(tmp_path / "device", texts))
     rules = {one.rule for one in findings}
     assert "too-many-items" in rules
-    assert time.process_time() - started < 60
+    assert time.process_time() - started < 3
 
 
 @pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? ", "[{a: "])

@@ -44,9 +44,9 @@ def other(others: dict[str, str], run: Run) -> Run:
 
 @pytest.fixture(scope="module")
 def others() -> Iterator[dict[str, str]]:
-    """Lines with a drive on USS, and a genset on CAN."""
+    """Lines with a drive on USS, and a genset on CAN whose telegrams come ten times as often."""
     values = {"maximum_frequency": 50}
-    with simulated("siemens_mm4", values=values) as mm4, simulated("woodward_mpu2s", on="can"):
+    with simulated("siemens_mm4", values=values) as mm4, simulated("woodward_mpu2s", on="can", time_scale=10):
         yield {"siemens_mm4": f"uss://{mm4.path}?parity=none", "woodward_mpu2s": "can://virtual/woodward_mpu2s"}
 
 

@@ -102,7 +102,7 @@ def test_a_snapshot_has_all_but_the_point_without_an_answer(drive: Simulated, on
 def test_what_no_description_calls_a_setting_is_restored_by_all(run: Run, tmp_path: Path) -> None:
     """No parameter of the MPU2-S has a word on how it is kept."""
     file, line = str(tmp_path / "a.json"), ("--line", "can://virtual/woodward_mpu2s", "--timeout", "5")
-    with simulated("woodward_mpu2s", on="can") as genset:
+    with simulated("woodward_mpu2s", on="can", time_scale=10) as genset:
         assert run("snapshot", "woodward_mpu2s", "--out", file, *line).code in (0, 1)
         held = genset.values["generator_rated_frequency"]
         genset.values["generator_rated_frequency"] = 60

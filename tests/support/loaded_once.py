@@ -8,6 +8,7 @@ from pathlib import Path
 from fieldscribe import pipeline
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.safe_files import Inputs
 
 from support.places import ROOT
@@ -33,3 +34,15 @@ def _loaded(device_file: Path, _place: Path) -> tuple[Device | None, Inputs]:
     report, inputs = Report(), Inputs()
     device = _load(device_file, report, inputs)
     return None if report.findings else device, inputs
+
+
+def load_analysis(device_file: Path, report: Report) -> Analysis | None:
+    """Analyse a device, but only once if it is part of this repository and messages would name the same files."""
+    place = device_file.resolve()
+    analysis = _analysed(device_file, place, Path.cwd()) if ROOT in place.parents else None
+    return pipeline.load_analysis(device_file, report) if analysis is None else analysis
+
+
+@cache
+def _analysed(device_file: Path, _place: Path, _here: Path) -> Analysis | None:
+    return pipeline.load_analysis(device_file, Report())

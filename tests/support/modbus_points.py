@@ -35,8 +35,8 @@ LINES = {"tcp": ("tcp", "tcp"), "rtu over tcp": ("tcp", "rtu"), "serial": ("seri
 class Talk:
     """What one client and one device have said to each other."""
 
-    def __init__(self, device: Simulated, ask: Ask | None = None, most_refused: int = 1000) -> None:
-        self._ask, self.most_refused = ask, most_refused
+    def __init__(self, device: Simulated, ask: Ask | None = None) -> None:
+        self._ask = ask
         self.layout, self.memory = device.device.layout, device.device.memory
         self.most = profile_of(self.layout.device.bus).most
         self.read, self.written, self.refused = set[str](), set[tuple[str, int]](), set[str]()

@@ -16,8 +16,8 @@ from typing import Any
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
-from fieldscribe.pipeline import load_device
 
+from support.loaded_once import load_device
 from support.places import ROOT
 from support.second_reading_facts import Row, described, notes
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 import pytest
-from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import TARGETS, knows, target
@@ -13,7 +12,7 @@ from support.described import shipped
 from support.models import sample_device
 from support.quick import full_but
 
-SHIPPED = [shipped(path.parent.name) for path in sorted(descriptions_dir().glob("*/device.yaml"))]
+SHIPPED = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
 
 
 def test_targets_are_written_in_the_order_that_help_names() -> None:
@@ -33,9 +32,10 @@ def squeezed(text: str) -> str:
 
 
 @pytest.mark.parametrize("name", ["c", "python", "rust", "typescript", "docs"])
-@pytest.mark.parametrize("device", full_but((shipped("hitachi_l200"),), SHIPPED))
-def test_what_the_manual_leaves_open_stands_at_its_points(device: Device, name: str) -> None:
+@pytest.mark.parametrize("device_id", full_but(("hitachi_l200",), SHIPPED))
+def test_what_the_manual_leaves_open_stands_at_its_points(device_id: str, name: str) -> None:
     """What is about no point stands at the head of the device; code has nothing else of errata but their ids."""
+    device = shipped(device_id)
     text = squeezed("".join(text for _, _, text in outputs(device, [name])))
     for erratum in device.errata:
         points = [

@@ -236,4 +236,4 @@ _FAR = 400
 
 
 def _reads(token: Token, numbers: frozenset[Fraction], *, binary: bool) -> bool:
-    return bool(token.readings & numbers) and (binary or token.is_plainly(numbers))
+    return not token.readings.isdisjoint(numbers) and (binary or token.is_plainly(numbers))

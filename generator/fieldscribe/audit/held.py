@@ -229,7 +229,8 @@ class Held:
         passages = [self.passage(extent) for extent in extents]
         stands = bool(extents)
         for number in erratum.numbers:
-            tokens = [token for passage in passages for token in passage.tokens if number in token.readings]
+            wanted = frozenset((number,))  # sets keep hashes: that of a fraction takes long
+            tokens = [each for passage in passages for each in passage.tokens if not each.readings.isdisjoint(wanted)]
             self._use(token for token in tokens if any(token.line in extent for extent in cited))
             in_names = any(has_word(passage.text, str(number)) for passage in passages)
             stands = stands and bool(tokens or in_names)

@@ -22,16 +22,14 @@ def _nearly_alike() -> Device:
     return sample_device((first, read_only, lost, bare, replace(bare, name="longer", place=Place((6, 7, 8), {}))))
 
 
-ALL = [
-    _nearly_alike(),
-    *(made(path.parent.name) for path in sorted(DEVICES.glob("kitchen_*/device.yaml"))),
-    *(shipped(path.parent.name) for path in sorted((ROOT / "descriptions").glob("*/device.yaml"))),
-]
+MADE = sorted(path.parent.name for path in DEVICES.glob("kitchen_*/device.yaml"))
+SHIPPED = sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml"))
 
 
-@pytest.mark.parametrize("device", full_but(ALL[:-6], ALL, seconds=0.5), ids=lambda device: device.id)
-def test_a_point_that_shares_nothing_reads_the_same(device: Device) -> None:
+@pytest.mark.parametrize("name", full_but(("", *MADE, SHIPPED[0]), ("", *MADE, *SHIPPED), seconds=0.5))
+def test_a_point_that_shares_nothing_reads_the_same(name: str) -> None:
     """Texts of what points share are worked out once: with objects of their own, points have the same rows."""
+    device = shipped(name) if name in SHIPPED else made(name) if name else _nearly_alike()
     apart = [
         replace(point, shape=replace(point.shape), terms=replace(point.terms), allowed=replace(point.allowed))
         for point in device.points
