@@ -7,10 +7,10 @@ from pathlib import Path
 
 from fieldscribe.diagnostics import Diagnostic, Report
 from fieldscribe.model import Device
+from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir
 
 from support.files import write_files
-from support.loaded_once import load_device
 from support.places import TESTS
 
 DEVICES = TESTS / "devices"
