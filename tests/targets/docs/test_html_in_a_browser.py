@@ -110,7 +110,8 @@ def test_a_list_that_was_short_grows_while_one_scrolls(seen: dict[str, Any]) -> 
 
 
 def test_the_list_shows_the_point_beside_it(seen: dict[str, Any]) -> None:
-    assert seen["entered"] is True
+    """Where it was opened by keyboard, and by a link."""
+    assert seen["beside"] == [True, True]
 
 
 def test_the_scheme_changes_and_stays(seen: dict[str, Any]) -> None:

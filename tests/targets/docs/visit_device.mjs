@@ -75,10 +75,13 @@ seen.scrolled = await page.waitForFunction(() => {
 await page.focus("#list tr:last-child a");
 await page.keyboard.press("Enter");
 await page.waitForSelector("[data-view=detail] #list tr[aria-current]");
-seen.entered = await page.$eval("#list [aria-current]", (row) => {
+const isBeside = () => page.$eval("#list [aria-current]", (row) => {
   const [{ top, bottom }, list] = [row.getBoundingClientRect(), row.closest("#list").getBoundingClientRect()];
   return top >= list.top && bottom <= list.bottom;
 });
+seen.beside = [await isBeside()];
+await open(await page.evaluate("location.hash"));
+seen.beside.push(await isBeside());
 await open();
 await page.keyboard.type("/base_freq");
 seen.typed = [await page.inputValue("#find")];
