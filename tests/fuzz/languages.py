@@ -6,7 +6,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
@@ -76,10 +76,11 @@ def generate(work: Path) -> None:
     (work / "fuzz" / "Cargo.toml").write_text(_MANIFEST, "utf-8")
 
 
-def build_c(family: str, work: Path) -> dict[str, list[str]]:
+def build_c(family: str, work: Path, languages: Iterable[str] = tuple(C)) -> dict[str, list[str]]:
     """The commands in C that read cases and print lines, each watched by the sanitizers of its compiler."""
     commands = {}
-    for language, (compiler, *options) in C.items():
+    for language in languages:
+        compiler, *options = C[language]
         program = work / f"{family}-{compiler}"
         includes = (f"-I{work / 'c'}", f"-I{HERE}")
         _run([compiler, "-std=c99", "-g", "-O1", *options, *includes, "-o", str(program), str(HERE / f"{family}.c")])
@@ -87,21 +88,21 @@ def build_c(family: str, work: Path) -> dict[str, list[str]]:
     return commands
 
 
-def build(family: str, work: Path) -> dict[str, list[str]]:
-    """The command of each language that reads cases and prints lines."""
-    cargo = ["cargo", "build", "--quiet", "--release", "--offline", "--jobs", "1", "--bin", family]
+def build(family: str, work: Path, c: Iterable[str] = tuple(C)) -> dict[str, list[str]]:
+    """The command of each language that reads cases and prints lines, with C by these compilers."""
+    cargo = ["cargo", "build", "--quiet", "--release", "--offline", "--jobs", "1", "--bins"]
     _run([*cargo, "--target-dir", str(work / "target")], cwd=work / "fuzz")
     rust = [str(work / "target" / "release" / family)]
-    return {**build_c(family, work), "Rust": rust, "Python": [sys.executable, str(HERE / "parsers.py"), family]}
+    return {**build_c(family, work, c), "Rust": rust, "Python": [sys.executable, str(HERE / "parsers.py"), family]}
 
 
 def _run(command: list[str], cwd: Path | None = None) -> None:
     subprocess.run(command, cwd=cwd, check=True, timeout=LIMIT)
 
 
-def fuzz_family(family: str, count: int, seed: int, work: Path) -> Iterator[Result]:
+def fuzz_family(family: str, count: int, seed: int, work: Path, c: Iterable[str] = tuple(C)) -> Iterator[Result]:
     """The same cases through all languages, and what they say of them side by side."""
-    commands = build(family, work)
+    commands = build(family, work, c)
     yield from fuzz_programs(commands, family, count, seed, work)
     started = time.perf_counter()
     found = tuple(differences({name: work / f"{family}-{name}.lines" for name in commands}, family, seed, count))

@@ -11,6 +11,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from fnmatch import filter as matching
 from fnmatch import fnmatchcase
+from functools import lru_cache
 
 from fieldscribe.user_errors import UnclearError
 
@@ -45,10 +46,17 @@ def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) ->
     while len(kept) > size:
         size = len(kept)
         kept |= {part for part, names in defined.items() if not names or names & used}
-        used |= {word for part in kept for word in RUNTIME_NAME.findall(_COMMENT.sub("", part))}
+        used |= set[str]().union(*map(_words_of, kept))
     return {name: _joined(runtime[name], parts[name], kept) for name in runtime}
 
 
+@lru_cache(maxsize=2048)
+def _words_of(part: str) -> frozenset[str]:
+    """Return the names of the runtime in the code of a part."""
+    return frozenset(RUNTIME_NAME.findall(_COMMENT.sub("", part)))
+
+
+@lru_cache(maxsize=2048)
 def _names_of(part: str) -> frozenset[str]:
     """Return what a part defines; nothing if it opens or closes the conditions of others, and is always kept."""
     text = _COMMENT.sub("", part)

@@ -1167,7 +1167,7 @@ static inline uint64_t fieldscribe_bcd_of_wide(uint64_t number, uint64_t most)
     uint64_t places;
     for (places = most; places != 0U; places >>= 4) {
         bits += (left % 10U) * above;
-        above <<= 4;
+        above = (above & (UINT64_MAX >> 4)) << 4; /* no bit is lost, which sanitizers take for a mistake */
         left /= 10U;
     }
     return (left == 0U) ? bits : number;

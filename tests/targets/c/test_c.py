@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -36,8 +36,13 @@ from support.toolchains import compiled, run, succeed, tool
 from support.vector_file import counts_of, spoil
 
 GENERATED = ROOT / "generated"
-SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
-FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
+IN_CORE = ("jumo_controller", "siemens_mm4")
+SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt") if path.stem not in IN_CORE)
+FLOATS: dict[str, tuple[str, ...]] = {
+    "float": (),
+    "float32": ("-DFIELDSCRIBE_FLOAT32",),
+    "no_float": ("-DFIELDSCRIBE_NO_FLOAT",),
+}
 COMPILERS = ("gcc", "clang")
 
 
@@ -56,21 +61,24 @@ class Build(NamedTuple):
         return (*STANDARDS[self.standard], *WARNINGS, *FLOATS[self.floats], self.optimize, *sanitizers)
 
 
-WAYS = (("gcc", "float"), ("clang", "float"), ("clang", "no_float"), ("gcc", "no_float"))
+def sanitized(device: str, standard: str, floats: str) -> ParameterSet:
+    """Return a build with the sanitizers of clang, which look for all that those of gcc do, and for more."""
+    # they see most where nothing is optimized away
+    return way(device, Build("clang", floats, standard, "-O0", sanitized=True))
 
 
-def in_turn(
-    devices: Iterable[str], standards: Sequence[str], optimize: str, *, first: int, sanitized: bool = False
-) -> list[ParameterSet]:
-    """Return each device built in one way; ways and standards take turns, beginning with the way of that place.
+def optimized(device: str, standard: str, floats: str) -> ParameterSet:
+    """Return a build by gcc as firmware has it."""
+    return way(device, Build("gcc", floats, standard, "-O2", sanitized=False))
 
-    Two turns that begin two places apart build each standard with both compilers, with floating point and without.
-    """
-    found = []
-    for turn, device in enumerate(devices):
-        build = Build(*WAYS[(first + turn) % 4], standards[turn % len(standards)], optimize, sanitized)
-        found.append(pytest.param(device, build, id=f"{device}-{named(build)}", marks=pytest.mark.full(seconds=4)))
-    return found
+
+def plain(device: str, compiler: str, standard: str, floats: str) -> ParameterSet:
+    """Return a build that is not optimized."""
+    return way(device, Build(compiler, floats, standard, "-O0", sanitized=False))
+
+
+def way(device: str, build: Build) -> ParameterSet:
+    return pytest.param(device, build, id=f"{device}-{named(build)}", marks=pytest.mark.full(seconds=3))
 
 
 def named(build: Build) -> str:
@@ -111,38 +119,41 @@ def passed(output: str) -> dict[str, int]:
 
 @pytest.mark.parametrize(
     ("device", "build"),
-    # the sanitizers see most where nothing is optimized away
-    in_turn(MADE, tuple(STANDARDS), "-O0", first=2, sanitized=True) + in_turn(MADE, tuple(STANDARDS), "-O2", first=0),
+    [
+        sanitized("sample_drive", "c++17", "no_float"),
+        sanitized("rare", "c99", "float"),
+        sanitized("kitchen_sink", "c17", "float"),
+        sanitized("kitchen_codes", "c++11", "no_float"),
+        sanitized("kitchen_can", "c11", "float32"),
+        sanitized("kitchen_uss", "c++20", "float"),
+        optimized("sample_drive", "c11", "float"),
+        optimized("rare", "c++11", "float32"),
+        plain("kitchen_sink", "clang", "c99", "float32"),
+        optimized("kitchen_codes", "c17", "float"),
+        optimized("kitchen_can", "c++20", "no_float"),
+        optimized("kitchen_uss", "c++17", "float32"),
+    ],
 )
 def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
+    """Each device in two ways; both compilers build each standard, with floating point, in binary32 and without.
+
+    Where values are float, those that a float cannot hold are not asked.
+    """
     conforms(folders[device], device, build, tmp_path)
-
-
-@pytest.mark.full(seconds=1.5)
-@pytest.mark.parametrize("device", MADE)
-def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Path) -> None:
-    """All vectors again where values are float; those that a float cannot hold are not asked."""
-    flags = (*QUICKEST.flags, "-DFIELDSCRIBE_FLOAT32")
-    program = compiled(QUICKEST.compiler, flags, conformance_source(folders[device], device), tmp_path / "conformance")
-    vectors = folders[device] / "vectors" / f"{device}.txt"
-    done = run([program, vectors])
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
 
 
 @pytest.mark.parametrize(
     ("device", "build"),
     [
-        *(pytest.param(device, QUICKEST, id=device) for device in ("jumo_controller", "siemens_mm4")),
-        *in_turn(SHIPPED[::2], ("c99",), "-O0", first=0, sanitized=True),
-        *in_turn(SHIPPED[1::2], ("c17", "c++20"), "-O2", first=2),
+        *(pytest.param(device, QUICKEST, id=device) for device in IN_CORE),
+        *(
+            plain(device, COMPILERS[turn % 2], ("c99", "c++20", "c17")[turn % 3], "float")
+            for turn, device in enumerate(SHIPPED)
+        ),
     ],
 )
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
-    """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile.
-
-    Each way of a compiler, a standard, with and without floating point, has one of them at least.
-    """
+    """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
     conforms(GENERATED, device, build, tmp_path)
 
 

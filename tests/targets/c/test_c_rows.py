@@ -98,7 +98,7 @@ static const fieldscribe_modbus_row table[] = {{{rows}}};
 int main(void) {{ return (table[0].read == NULL) && (table[1].write == NULL); }}
 """
     for standard in STANDARDS:
-        run_program(source, "gcc", folder, tmp_path, "-Wno-unused-function", standard=standard)
+        run_program(source, "quick", folder, tmp_path, "-Wno-unused-function", standard=standard)
 
 
 def test_what_has_no_rows_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
