@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from functools import partial
+from itertools import chain
+from pathlib import Path
 
 from fieldscribe.cli import FINDINGS, FINE
 from fieldscribe.cli.common import StopError, add_descriptions, open_device, report_findings, some_path
@@ -11,6 +13,7 @@ from fieldscribe.cli.vendor import deliver_all, print_deliveries
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
 from fieldscribe.pages.site import NAME, load_pages
+from fieldscribe.pipeline import find_devices
 from fieldscribe.vendoring.deliveries import Order
 from fieldscribe.vendoring.requests import FORMATS, DocumentRequest, IndexRequest
 
@@ -20,6 +23,7 @@ EXAMPLE = """examples:
   fieldscribe docs nord_sk5xxe --format markdown --out manuals
   fieldscribe docs woodward_mpu2s --format html --out pages
   fieldscribe docs hitachi_l200 nord_sk5xxe --pages --format html --out site
+  fieldscribe docs descriptions --format html --out all          (each device of a folder)
   fieldscribe docs hitachi_l200 --format xlsx --out tables --check
 
 a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
@@ -28,10 +32,13 @@ several devices as html have an index.html, which lists and searches all that th
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
+_DEVICES = "ids of devices, or paths: of a device.yaml, its folder, or a folder of such folders"
+
+
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
     add = parser.add_argument
-    add("devices", nargs="*", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml")
+    add("devices", nargs="*", metavar="DEVICE", help=_DEVICES)
     add_descriptions(parser)
     forms = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
     add("--format", choices=tuple(FORMATS), required=True, help=forms)
@@ -48,7 +55,7 @@ def run(arguments: Namespace) -> int:
     if not arguments.devices and not arguments.pages:
         raise StopError("DEVICE is missing", "name devices, or say --pages for the pages of fieldscribe itself")
     devices, code = [], FINE
-    for name in arguments.devices:
+    for name in chain.from_iterable(map(_named, arguments.devices)):
         try:
             devices.append(open_device(Namespace(device=name, descriptions=arguments.descriptions)))
         except StopError as stop:
@@ -60,6 +67,12 @@ def run(arguments: Namespace) -> int:
         orders.append(_index(arguments, devices))
     deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
     return max(code, print_deliveries(deliveries, "text", check=arguments.check))
+
+
+def _named(name: str) -> list[str]:
+    """Return the devices that a name stands for: all those of a folder, else the one."""
+    files = find_devices([Path(name)], Report()) if Path(name).is_dir() else []
+    return list(map(str, files)) if len(files) > 1 else [name]
 
 
 def _index(arguments: Namespace, devices: list[Device]) -> Order:
