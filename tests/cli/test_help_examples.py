@@ -281,7 +281,9 @@ CLAIMS = {
         "hitachi_l200 nord_sk5xxe --pages --format html --out site": Claim(
             0, "(?m)^[0-9]+ written, .* of index in site", made="site/index.html"
         ),
-        "descriptions --format html --out all": Claim(0, "(?m)^[0-9]+ written, .* of index in all", made="all/index.html"),
+        "descriptions --format html --out all": Claim(
+            0, "(?m)^[0-9]+ written, .* of index in all", made="all/index.html"
+        ),
         "hitachi_l200 --format xlsx --out tables --check": Claim(0, "^0 of 2 files of hitachi_l200 in tables are not"),
     },
     "units": {
