@@ -62,6 +62,14 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> Folders:
     return Folders(tmp_path_factory)
 
 
+@pytest.fixture(scope="session")
+def rust_libraries(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config) -> Path:
+    """The crates of the made devices and of gateways in Rust, with optimization and checked arithmetic."""
+    from support.rust_workspace import built_libraries
+
+    return built_libraries(tmp_path_factory, pytestconfig)
+
+
 @pytest.fixture
 def loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """So many commands ask for so few devices; how these are read and compiled is tried elsewhere."""

@@ -16,7 +16,8 @@ from fieldscribe.simulation.descriptions import layout_of
 from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.line import Line, Stream
 from support.places import ROOT
-from support.toolchains import compiled, succeed, tool
+from support.rust_workspace import rust_program
+from support.toolchains import compiled
 
 PROGRAMS = Path(__file__).parent / "programs"
 HEADERS = ROOT / "generated/c"
@@ -35,17 +36,6 @@ def in_c(device: SimulatedDevice, folder: Path, includes: list[str], *flags: str
     (folder / "points.inc").write_text("\n".join(includes), "utf-8")
     source = PROGRAMS / f"points_{device.device.family}.c"
     return compiled("gcc", (*FLAGS, f"-I{folder}", *flags), source, folder / "points")
-
-
-def in_rust(device: SimulatedDevice, folder: Path) -> Path:
-    """The program in Rust for all points."""
-    known = ["--edition=2021", "-L", str(folder)]
-    for name in ("fieldscribe_runtime", device.device.id):
-        source = ROOT / f"generated/rust/{name}/src/lib.rs"
-        succeed([tool("rustc"), *known, "--crate-type=rlib", "--crate-name", name, "--out-dir", folder, source])
-        known += ["--extern", f"{name}={folder}/lib{name}.rlib"]
-    succeed([tool("rustc"), *known, "-o", folder / "points", PROGRAMS / f"points_{device.device.family}.rs"])
-    return folder / "points"
 
 
 def heard_of(device: SimulatedDevice, program: Path) -> dict[str, tuple[int, str]]:
@@ -131,16 +121,19 @@ def test_can_in_c(tmp_path: Path) -> None:
     assert len(heard) > 200
 
 
-@pytest.mark.full(seconds=20)
+@pytest.mark.full(seconds=3)
 @pytest.mark.parametrize(
-    ("name", "variant", "unit", "least"),
-    [("siemens_mm4", "model=mm440", 1, 30), ("woodward_mpu2s", "voltage=400V", 3, 180)],
+    ("device_and_variant", "unit", "least"),
+    [("siemens_mm4 model=mm440", 1, 30), ("woodward_mpu2s voltage=400V", 3, 180)],
 )
-def test_in_rust(name: str, variant: str, unit: int, least: int, tmp_path: Path) -> None:
+def test_in_rust(device_and_variant: str, unit: int, least: int, rust_libraries: Path, tmp_path: Path) -> None:
+    name, variant = device_and_variant.split(" ")
     device = SimulatedDevice(layout_of(name, (variant,)), unit, clock=Clock(0), seed=3)
     if name == "siemens_mm4":
         device.values["uss_pzd_length_index_0"] = 4
-    heard = heard_of(device, in_rust(device, tmp_path))
+    crates = [rust_libraries / f"lib{crate}.rlib" for crate in ("fieldscribe_runtime", name)]
+    program = rust_program(PROGRAMS / f"points_{device.device.family}.rs", tmp_path / "points", *crates)
+    heard = heard_of(device, program)
     points = {point.item: point.name for point in device.layout.points.values()}
     compared = {item: value for item, (_, value) in heard.items() if item in points}
     for item, value in compared.items():

@@ -9,14 +9,16 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+import pytest
 from fieldscribe.model import Device
 
 from support.described import kitchen_sink, made, shipped
 from support.files import write_files
+from support.made_once import made_once
 from support.models import sample_device, trip_device
 from support.places import ROOT
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
-from support.toolchains import run, tool
+from support.toolchains import run, succeed, tool
 
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
 
@@ -76,6 +78,19 @@ LINTS = "".join(f"-Wclippy::{group}__CLIPPY_HACKERY__" for group in ("pedantic",
 """What clippy looks for beside its usual lints, as `cargo clippy` passes it to the compiler that warns as it builds."""
 
 
+def made_workspace(factory: pytest.TempPathFactory, config: pytest.Config) -> Path:
+    """Return the folder of the workspace, which is made once a run."""
+    cache = config.cache
+
+    def make(out: Path) -> None:
+        write_workspace(out)
+        if cache:
+            bring_up_to_date(cache.mkdir("crates"), out)
+
+    made = made_once(factory, "crates", make)
+    return (cache.mkdir("crates") if cache else made) / "rust"
+
+
 def bring_up_to_date(kept: Path, made: Path) -> None:
     """Makes the kept files those that were made; cargo builds none again that is left as it is."""
     texts = {path.relative_to(made): path.read_bytes() for path in made.rglob("*") if path.is_file()}
@@ -89,6 +104,23 @@ def bring_up_to_date(kept: Path, made: Path) -> None:
             place.unlink()
 
 
+def write_programs(workspace: Path, out: Path) -> None:
+    """Builds what runs the vectors of each device by one call: a program by the device's name, and what cargo says."""
+    words = ("--keep-going", "--workspace", "--test", "conformance", "--message-format=json-render-diagnostics")
+    done = cargo(workspace, "build", "--quiet", *words)
+    (out / "stderr").write_text(done.stderr, "utf-8")
+    for artifact in map(json.loads, done.stdout.splitlines()):
+        if artifact.get("executable"):
+            device = Path(artifact["manifest_path"]).parents[1].name
+            (out / device).symlink_to(artifact["executable"])
+
+
+def built_libraries(factory: pytest.TempPathFactory, config: pytest.Config) -> Path:
+    """Return the folder of the crates of the models and of the gateways, as libraries and objects."""
+    workspace = made_workspace(factory, config)
+    return made_once(factory, "libraries", partial(write_libraries, workspace)) / "built"
+
+
 def write_libraries(workspace: Path, out: Path) -> None:
     for name in GATEWAYS:
         write_crate(shipped(name), out)
@@ -99,28 +131,33 @@ def write_libraries(workspace: Path, out: Path) -> None:
         assert done.returncode == 0, done.stderr
 
 
-def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[str]:
-    """Compiles one file as a library, with the libraries of the folder at hand."""
-    known = [f"--extern={path.stem.removeprefix('lib')}={path}" for path in sorted(out.glob("lib*.rlib"))]
-    checked = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
-    return run(
-        [
-            tool("rustc"),
-            "--edition=2021",
-            "--crate-type=lib",
-            *checked,
-            "-L",
-            out,
-            *known,
-            *flags,
-            "--out-dir",
-            out,
-            source,
-        ]
-    )
+CHECKED = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
+
+
+def rustc(source: Path, libraries: Path, *flags: str, out: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Compiles one file as a library, with the libraries of the folder at hand, among them or into another folder."""
+    known = externs(*sorted(libraries.glob("lib*.rlib")))
+    out_dir = ("--out-dir", out or libraries)
+    return run([tool("rustc"), "--edition=2021", "--crate-type=lib", *CHECKED, *known, *flags, *out_dir, source])
+
+
+def rust_program(source: Path, program: Path, *libraries: Path) -> Path:
+    """Compiles a program with these libraries, without a warning; returns it."""
+    assert not succeed([tool("rustc"), "--edition=2021", "-Cpanic=abort", *externs(*libraries), "-o", program, source])
+    return program
+
+
+def externs(*libraries: Path) -> list[str]:
+    """The flags by which a compiler finds libraries and what they need."""
+    folders = dict.fromkeys(f"-L{path.parent}" for path in libraries)
+    return [*folders, *(f"--extern={path.stem.removeprefix('lib')}={path}" for path in libraries)]
+
+
+MANY = 1800
+"""Seconds after which cargo is taken to hang that builds all crates, on a busy machine too."""
 
 
 def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Runs cargo without the network, and with it where something was never fetched."""
-    done = run([tool("cargo"), "--offline", *words], cwd=workspace)
-    return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
+    done = run([tool("cargo"), "--offline", *words], cwd=workspace, limit=MANY)
+    return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace, limit=MANY)

@@ -107,10 +107,12 @@ def _do_without(name: str, packages: str) -> NoReturn:
     pytest.skip(reason)
 
 
-def run(command: Sequence[str | Path], *, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+def run(
+    command: Sequence[str | Path], *, cwd: Path | None = None, limit: float = LIMIT
+) -> subprocess.CompletedProcess[str]:
     """Run a tool or a program to its end, whatever its exit code."""
     words = [str(word) for word in command]
-    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False, timeout=LIMIT)
+    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False, timeout=limit)
 
 
 def succeed(command: Sequence[str | Path], *, cwd: Path | None = None) -> str:

@@ -30,8 +30,8 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
-    Encodable, Error, Flags, Held, Identification, Point, Points, Raw, Readable, Reading, Refused,
-    Space, Text, Utf8, Whole, Writable,
+    Encodable, Error, Flags, Held, Identification, Point, PointInfo, Points, Raw, Readable,
+    Reading, Refused, Space, Text, Utf8, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -257,8 +257,12 @@ impl<'a> Vector<'a> {
     }
 
     /// The raw numbers of these points; none where the table cannot name those that are needed.
-    fn needs<T, D>(&self, points: Points<D>) -> Option<Vec<i128>> {
-        let is_known = std::mem::size_of::<T>() == 0 || !points.is_empty();
+    fn needs<T>(&self, points: Points) -> Option<Vec<i128>> {
+        self.needed(std::mem::size_of::<T>() == 0, points)
+    }
+
+    fn needed(&self, nothing: bool, points: Points) -> Option<Vec<i128>> {
+        let is_known = nothing || !points.is_empty();
         is_known.then(|| points.iter().map(|point| self.with(point.name)).collect())
     }
 
@@ -526,10 +530,16 @@ where
 {
     let found = P::decode_with(vector.raw("raw"), with).into_result();
     vector.reads_value(found.map(Meaning::read))?;
-    let Some(needs) = vector.needs::<P::Factors, _>(P::INFO.needs()) else {
+    let needs = vector.needs::<P::Factors>(P::INFO.needs().any());
+    decoded(vector, P::INFO.any(), needs)
+}
+
+/// The same by the point's data.
+fn decoded(vector: &Vector, point: PointInfo, needs: Option<Vec<i128>>) -> Outcome {
+    let Some(needs) = needs else {
         return Ok(());
     };
-    let found = P::INFO.decode(vector.raw("raw"), &needs);
+    let found = point.decode(vector.raw("raw"), &needs);
     vector.reads_value(found.map(|value| match value {
         AnyValue::Number(number) => Ok(number),
         AnyValue::Name(name) => Err(name),
@@ -544,11 +554,21 @@ where
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
     vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
-    let Some(needs) = vector.needs::<P::With, _>(P::INFO.write_needs()) else {
-        return Ok(());
-    };
-    let found = P::INFO.encode(vector.float(), &needs);
-    vector.expect(found, "raw", !P::IS_CONTIGUOUS)
+    let needs = vector.needs::<P::With>(P::INFO.write_needs().any());
+    let value = vector.float();
+    encoded(vector, P::INFO.any(), needs, value, !P::IS_CONTIGUOUS)
+}
+
+/// The same by the point's data.
+fn encoded<'a>(
+    vector: &Vector,
+    point: PointInfo,
+    needs: Option<Vec<i128>>,
+    value: impl Into<AnyValue<'a>>,
+    gaps: bool,
+) -> Outcome {
+    let found = needs.map(|needs| point.encode(value, &needs));
+    found.map_or(Ok(()), |found| vector.expect(found, "raw", gaps))
 }
 
 /// A raw number to a count.
@@ -592,10 +612,9 @@ where
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
         vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
-        if let Some(needs) = vector.needs::<P::With, _>(P::INFO.write_needs()) {
-            let found = P::INFO.encode(raw.to_number(), &needs);
-            vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
-        }
+        let needs = vector.needs::<P::With>(P::INFO.write_needs().any());
+        let raw = raw.to_number();
+        encoded(vector, P::INFO.any(), needs, raw, !P::IS_CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -628,10 +647,21 @@ where
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
     let typed = P::check_with(vector.raw("raw"), with);
-    let needs = vector.needs::<P::With, _>(P::INFO.write_needs());
-    let listed = needs.map(|needs| P::INFO.check(vector.raw("raw"), &needs));
+    let needs = vector.needs::<P::With>(P::INFO.write_needs().any());
+    checked(vector, typed, P::INFO.any(), needs, !P::IS_CONTIGUOUS)
+}
+
+/// The same of the point's function and of its data.
+fn checked(
+    vector: &Vector,
+    typed: Result<(), Error>,
+    point: PointInfo,
+    needs: Option<Vec<i128>>,
+    gaps: bool,
+) -> Outcome {
+    let listed = needs.map(|needs| point.check(vector.raw("raw"), &needs));
     for found in [Some(typed), listed].into_iter().flatten() {
-        vector.refuses(found.err(), !P::IS_CONTIGUOUS)?;
+        vector.refuses(found.err(), gaps)?;
         same(
             vector.text("status").as_str(),
             found.map_or_else(Error::name, |()| "ok"),
@@ -642,15 +672,15 @@ pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcom
 
 /// The value of the vector's raw number as data; none where it needs other points.
 #[must_use]
-pub fn data_of<P: Point>(vector: &Vector) -> Option<AnyValue<'static>> {
-    P::INFO.decode(vector.number("raw")?, &[]).ok()
+pub fn data_of(vector: &Vector, point: PointInfo) -> Option<AnyValue<'static>> {
+    point.decode(vector.number("raw")?, &[]).ok()
 }
 
 /// The same, for a value that is written and needs no other points.
 #[must_use]
-pub fn written_data_of<P: Point>(vector: &Vector) -> Option<AnyValue<'static>> {
-    let value = data_of::<P>(vector)?;
-    let raw = P::INFO.encode(value, &[]).ok();
+pub fn written_data_of(vector: &Vector, point: PointInfo) -> Option<AnyValue<'static>> {
+    let value = data_of(vector, point)?;
+    let raw = point.encode(value, &[]).ok();
     (raw == vector.number("raw")).then_some(value)
 }
 
@@ -812,14 +842,19 @@ pub fn address<P>(vector: &Vector, references: References) -> Outcome
 where
     P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
 {
-    if vector.number("raw_min").is_some() {
-        same(vector.raw("raw_min"), P::RAW_MIN)?;
-        same(vector.raw("raw_max"), P::RAW_MAX)?;
-    }
+    reaches(vector, P::RAW_MIN.to_number(), P::RAW_MAX.to_number())?;
     if P::SPAN == P::WORDS {
         ascending(P::ADDRESS, P::ADDRESSES, P::WORDS, P::SPACE)?;
     }
     place_of::<P>(vector, references)
+}
+
+fn reaches(vector: &Vector, least: i128, most: i128) -> Outcome {
+    let Some(known) = vector.number("raw_min") else {
+        return Ok(());
+    };
+    same(known, least)?;
+    same(vector.number("raw_max"), Some(most))
 }
 
 /// The addresses of several words follow each other from the lowest one on, but for a parameter that has one for all.
@@ -849,18 +884,23 @@ fn is_listed<D>(vector: &Vector, points: Points<D>) -> Outcome {
 
 /// The same but for the limits, which a text has not.
 pub fn place_of<P: Point>(vector: &Vector, references: References) -> Outcome {
-    same(vector.raw("address"), P::ADDRESS)?;
-    same(vector.raw("words"), P::WORDS)?;
     let names = [Some(P::SPACE.name()), Some(P::NAME), P::CODE];
-    placed(vector, names, P::DECIMALS, references)
+    placed(
+        vector,
+        (P::ADDRESS, P::WORDS, P::DECIMALS),
+        names,
+        references,
+    )
 }
 
 fn placed(
     vector: &Vector,
+    (address, words, found): (u16, u16, u32),
     names: [Option<&str>; 3],
-    found: u32,
     references: References,
 ) -> Outcome {
+    same(vector.raw("address"), address)?;
+    same(vector.raw("words"), words)?;
     let expected = [vector.text("space"), vector.text("point")].map(Some);
     let [space, point] = expected;
     let expected = [space, point, vector.said("code")];

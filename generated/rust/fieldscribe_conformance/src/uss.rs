@@ -5,26 +5,34 @@ use fieldscribe_runtime::uss::{
     self, AsyncClient, BuildError, Client, ClientError, Link, Parameter, ParseError, Profile,
     Received, Request, Sent, Value, LONGEST,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{
+    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+};
 
 pub use super::uss_clients::check;
 use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
 
+/// What the client that blocks does with the script of the vector.
+///
+/// Each point is tried with it; `uss_clients` shows that the client that does not block has the same methods.
+fn blocked<T>(
+    vector: &Vector,
+    profile: &'static Profile,
+    call: &dyn Fn(&mut Client<Script>) -> Result<T, ClientError<()>>,
+) -> Result<Option<T>, String> {
+    let mut client = blocking(vector, profile);
+    let found = call(&mut client);
+    exchanged(vector, found, name, &client.into_transport())
+}
+
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
     ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
-        let found = {
-            let mut $client = blocking($vector, $profile);
-            let found = $call;
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script)?
-        };
-        let again = {
-            let mut $client = waiting($vector, $profile);
-            let found = now($call);
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script)?
-        };
+        let found = blocked($vector, $profile, &|$client| $call)?;
+        let mut client = waiting($vector, $profile);
+        let $client = &mut client;
+        let again = now($call);
+        let again = exchanged($vector, again, name, &client.into_transport())?;
         same(true, found == again)?;
         found
     }};
@@ -137,11 +145,25 @@ pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number> + Parameter,
 {
-    let found = both!(vector, profile, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))?;
-    if let Some(value) = data_of::<P>(vector) {
-        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
+    let found = blocked(vector, profile, &|client| {
+        client.read_raw::<P>().map(Number::to_number)
+    })?;
+    same(vector.number("raw"), found)?;
+    read_data(vector, profile, P::INFO.any())
+}
+
+/// The same by the data of a point that needs no others.
+fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = data_of(vector, point) {
+        let found = both!(vector, profile, |client| client.read_point(point));
         same(Some(value), found)?;
+    }
+    Ok(())
+}
+
+fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = written_data_of(vector, point) {
+        both!(vector, profile, |client| client.write_point(point, value));
     }
     Ok(())
 }
@@ -159,13 +181,10 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client
-        .write_with::<P>(value, with));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, &|client| {
+        client.write_with::<P>(value, with)
+    })?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// A group of bits is written into its word.
@@ -179,12 +198,8 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client.update::<P>(value));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, &|client| client.update::<P>(value))?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// The value of a raw number is stored.
@@ -200,8 +215,9 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client
-        .store_with::<P>(value, with));
+    blocked(vector, profile, &|client| {
+        client.store_with::<P>(value, with)
+    })?;
     Ok(())
 }
 
@@ -216,7 +232,7 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client.store_update::<P>(value));
+    blocked(vector, profile, &|client| client.store_update::<P>(value))?;
     Ok(())
 }
 
@@ -279,16 +295,12 @@ pub fn receive<P>(vector: &Vector, profile: &'static Profile, factors: P::Factor
 where
     P: Readable<Raw: Number, Factors: Copy, Value: PartialEq + std::fmt::Debug> + Received,
 {
-    let found = both!(vector, profile, |client| client.receive_with::<P>(factors));
+    let found = blocked(vector, profile, &|client| client.receive_with::<P>(factors))?;
     let expected = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
     same(Some(expected), found)?;
-    if let Some(value) = data_of::<P>(vector) {
-        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
-        same(Some(value), found)?;
-    }
-    Ok(())
+    read_data(vector, profile, P::INFO.any())
 }
 
 /// A point of the process data that is sent.
@@ -304,12 +316,10 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client.send_with::<P>(value, with));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, &|client| {
+        client.send_with::<P>(value, with)
+    })?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 fn link(vector: &Vector) -> Link {

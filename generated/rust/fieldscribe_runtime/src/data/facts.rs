@@ -193,33 +193,33 @@ impl core::hash::Hash for PointFacts {
     }
 }
 
+type FromWords = fn([u16; 4]) -> i128;
+type IntoWords = fn(i128) -> Option<[u16; 4]>;
+
 /// How a type of raw numbers lies in words, which are in reading order.
 #[derive(Clone, Copy)]
 pub(super) struct RawType {
-    pub(super) from_words: fn([u16; 4]) -> i128,
-    pub(super) into_words: fn(i128) -> Option<[u16; 4]>,
+    pub(super) from_words: FromWords,
+    pub(super) into_words: IntoWords,
     pub(super) is_signed: bool,
     pub(super) low_byte_first: bool,
 }
 
 impl RawType {
     const fn of<P: Point>() -> Self {
+        // Points that lie in words as most do share functions: programs are smaller, and compile sooner.
+        let is_usual = P::WIDTH == 0 && !P::CODED && !P::LOW_BYTE_FIRST;
+        let (from_words, into_words): (FromWords, IntoWords) = if is_usual {
+            (joined::<P::Raw>, parted::<P::Raw>)
+        } else {
+            (
+                |words| joined_in_order::<P>(first::<P::Raw>(words)).to_i128(),
+                |raw| Some(padded::<P::Raw>(split::<P>(P::Raw::from_i128(raw)?))),
+            )
+        };
         Self {
-            from_words: |given| {
-                let mut words = P::Raw::MIN.into_words();
-                for (word, given) in words.as_mut().iter_mut().zip(given) {
-                    *word = given;
-                }
-                joined_in_order::<P>(words).to_i128()
-            },
-            into_words: |number| {
-                let mut words = [0; 4];
-                let parts = split::<P>(P::Raw::from_i128(number)?);
-                for (word, part) in words.iter_mut().zip(parts.as_ref()) {
-                    *word = *part;
-                }
-                Some(words)
-            },
+            from_words,
+            into_words,
             is_signed: <P::Raw as Raw>::ENDS.0 < 0,
             low_byte_first: P::LOW_BYTE_FIRST,
         }
@@ -233,6 +233,32 @@ impl RawType {
             word
         }
     }
+}
+
+fn joined<R: Raw>(words: [u16; 4]) -> i128 {
+    R::from_words(first::<R>(words)).to_i128()
+}
+
+fn parted<R: Raw>(raw: i128) -> Option<[u16; 4]> {
+    Some(padded::<R>(R::from_i128(raw)?.into_words()))
+}
+
+/// As many words as the type has.
+fn first<R: Raw>(given: [u16; 4]) -> R::Words {
+    let mut words = R::MIN.into_words();
+    for (word, given) in words.as_mut().iter_mut().zip(given) {
+        *word = given;
+    }
+    words
+}
+
+/// The words of the type, and zeros.
+fn padded<R: Raw>(given: R::Words) -> [u16; 4] {
+    let mut words = [0; 4];
+    for (word, given) in words.iter_mut().zip(given.as_ref()) {
+        *word = *given;
+    }
+    words
 }
 
 /// The special codes of a point, whatever the type of its raw numbers.

@@ -16,22 +16,27 @@ use super::{
     bytes, data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector,
 };
 
+/// What the client that blocks does with the script of the vector.
+///
+/// Each point is tried with it; `can_clients` shows that the client that does not block has the same methods.
+fn blocked<T>(
+    vector: &Vector,
+    profile: &'static Profile,
+    call: &dyn Fn(&mut Client<Bus>) -> Result<T, ClientError<()>>,
+) -> Result<Option<T>, String> {
+    let mut client = Client::for_profile(Bus::new(vector), profile, vector.raw("unit"));
+    let found = call(&mut client);
+    exchanged(vector, found, name, &client.into_transport().script)
+}
+
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
     ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
-        let found = {
-            let mut $client = Client::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
-            let found = $call;
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script.script)?
-        };
-        let again = {
-            let mut $client =
-                AsyncClient::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
-            let found = now($call);
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script.script)?
-        };
+        let found = blocked($vector, $profile, &|$client| $call)?;
+        let mut client = AsyncClient::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
+        let $client = &mut client;
+        let again = now($call);
+        let again = exchanged($vector, again, name, &client.into_transport().script)?;
         same(true, found == again)?;
         found
     }};
@@ -109,13 +114,11 @@ pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number> + Parameter,
 {
-    let found = both!(vector, profile, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))?;
-    if let Some(value) = data_of::<P>(vector) {
-        let found = both!(vector, profile, |client| client.read_point(P::INFO.any()));
-        same(Some(value), found)?;
-    }
-    Ok(())
+    let found = blocked(vector, profile, &|client| {
+        client.read_raw::<P>().map(Number::to_number)
+    })?;
+    same(vector.number("raw"), found)?;
+    read_data(vector, profile, P::INFO.any())
 }
 
 /// A text's words.
@@ -123,9 +126,28 @@ pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable + Whole + Parameter,
 {
-    let found = both!(vector, profile, |client| client.read_raw::<P>());
-    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
-    same(vector.numbers("words"), words.unwrap_or_default())
+    let found = blocked(vector, profile, &|client| {
+        client
+            .read_raw::<P>()
+            .map(|raw| P::to_words(raw).as_ref().to_vec())
+    })?;
+    same(vector.numbers("words"), found.unwrap_or_default())
+}
+
+/// The same by the data of a point that needs no others.
+fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = data_of(vector, point) {
+        let found = both!(vector, profile, |client| client.read_point(point));
+        same(Some(value), found)?;
+    }
+    Ok(())
+}
+
+fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = written_data_of(vector, point) {
+        both!(vector, profile, |client| client.write_point(point, value));
+    }
+    Ok(())
 }
 
 /// The value of a raw number is written.
@@ -141,13 +163,10 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client
-        .write_with::<P>(value, with));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, &|client| {
+        client.write_with::<P>(value, with)
+    })?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// A text is written.
@@ -158,7 +177,7 @@ where
     let words: Vec<u16> = vector.numbers("words");
     let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
     let value = P::decode(raw).into_result().map_err(Error::name)?;
-    both!(vector, profile, |client| client.write::<P>(value));
+    blocked(vector, profile, &|client| client.write::<P>(value))?;
     Ok(())
 }
 
@@ -173,12 +192,8 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, |client| client.update::<P>(value));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, &|client| client.update::<P>(value))?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// A parameter that cannot be read is written as it is.
@@ -265,7 +280,7 @@ where
     match receiver.raw::<P>() {
         Ok(raw) => {
             same(vector.text("status").as_str(), "ok")?;
-            if let Some(value) = data_of::<P>(vector) {
+            if let Some(value) = data_of(vector, P::INFO.any()) {
                 let point = PointInfo::new(P::FACTS);
                 same(Ok(value), receiver.value_of(point))?;
             }

@@ -5,28 +5,37 @@ use fieldscribe_runtime::modbus::{
     AsyncClient, Base, Block, BuildError, Client, ClientError, Command, Framing, Profile,
     ReplyError, Request, SteppedCommand, LONGEST,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{
+    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+};
 
 pub use super::modbus_clients::check;
 use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
 
+/// What the client that blocks does with the script of the vector.
+///
+/// Each point is tried with it; `modbus_clients` shows that the client that does not block has the same methods.
+fn blocked<T>(
+    vector: &Vector,
+    profile: &'static Profile,
+    base_name: &'static str,
+    call: &dyn Fn(&mut Client<Script>) -> Result<T, ClientError<()>>,
+) -> Result<Option<T>, String> {
+    let mut client = blocking(vector, profile);
+    client.set_base(base(vector, base_name));
+    let found = call(&mut client);
+    exchanged(vector, found, name, &client.into_transport())
+}
+
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
     ($vector:ident, $profile:ident, $base:expr, |$client:ident| $call:expr) => {{
-        let found = {
-            let mut $client = blocking($vector, $profile);
-            $client.set_base(base($vector, $base));
-            let found = $call;
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script)?
-        };
-        let again = {
-            let mut $client = waiting($vector, $profile);
-            $client.set_base(base($vector, $base));
-            let found = now($call);
-            let script = $client.into_transport();
-            exchanged($vector, found, name, &script)?
-        };
+        let found = blocked($vector, $profile, $base, &|$client| $call)?;
+        let mut client = waiting($vector, $profile);
+        client.set_base(base($vector, $base));
+        let $client = &mut client;
+        let again = now($call);
+        let again = exchanged($vector, again, name, &client.into_transport())?;
         same(true, found == again)?;
         found
     }};
@@ -126,14 +135,11 @@ pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number>,
 {
-    let found = both!(vector, profile, P::BASE, |client| client.read_raw::<P>());
-    same(vector.number("raw"), found.map(Number::to_number))?;
-    if let Some(value) = data_of::<P>(vector) {
-        let found = both!(vector, profile, P::BASE, |client| client
-            .read_point(P::INFO.any()));
-        same(Some(value), found)?;
-    }
-    Ok(())
+    let found = blocked(vector, profile, P::BASE, &|client| {
+        client.read_raw::<P>().map(Number::to_number)
+    })?;
+    same(vector.number("raw"), found)?;
+    read_data(vector, profile, P::INFO.any())
 }
 
 /// A text's words.
@@ -141,9 +147,30 @@ pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable + Whole,
 {
-    let found = both!(vector, profile, P::BASE, |client| client.read_raw::<P>());
-    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
-    same(vector.numbers("words"), words.unwrap_or_default())
+    let found = blocked(vector, profile, P::BASE, &|client| {
+        client
+            .read_raw::<P>()
+            .map(|raw| P::to_words(raw).as_ref().to_vec())
+    })?;
+    same(vector.numbers("words"), found.unwrap_or_default())
+}
+
+/// The same by the data of a point that needs no others.
+fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = data_of(vector, point) {
+        let found = both!(vector, profile, point.base, |client| client
+            .read_point(point));
+        same(Some(value), found)?;
+    }
+    Ok(())
+}
+
+fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
+    if let Some(value) = written_data_of(vector, point) {
+        both!(vector, profile, point.base, |client| client
+            .write_point(point, value));
+    }
+    Ok(())
 }
 
 /// The value of a raw number is written.
@@ -159,13 +186,10 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, P::BASE, |client| client
-        .write_with::<P>(value, with));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, P::BASE, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, P::BASE, &|client| {
+        client.write_with::<P>(value, with)
+    })?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// A text is written.
@@ -176,7 +200,7 @@ where
     let words: Vec<u16> = vector.numbers("words");
     let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
     let value = P::decode(raw).into_result().map_err(Error::name)?;
-    both!(vector, profile, P::BASE, |client| client.write::<P>(value));
+    blocked(vector, profile, P::BASE, &|client| client.write::<P>(value))?;
     Ok(())
 }
 
@@ -188,12 +212,10 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    both!(vector, profile, P::BASE, |client| client.update::<P>(value));
-    if let Some(value) = written_data_of::<P>(vector) {
-        both!(vector, profile, P::BASE, |client| client
-            .write_point(P::INFO.any(), value));
-    }
-    Ok(())
+    blocked(vector, profile, P::BASE, &|client| {
+        client.update::<P>(value)
+    })?;
+    write_data(vector, profile, P::INFO.any())
 }
 
 /// A point that cannot be read is written as it is.
