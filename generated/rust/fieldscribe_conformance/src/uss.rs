@@ -12,13 +12,16 @@ use fieldscribe_runtime::{
 pub use super::uss_clients::check;
 use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
 
+/// What a client found.
+type Found<T> = Result<T, ClientError<()>>;
+
 /// What the client that blocks does with the script of the vector.
 ///
 /// Each point is tried with it; `uss_clients` shows that the client that does not block has the same methods.
 fn blocked<T>(
     vector: &Vector,
     profile: &'static Profile,
-    call: &dyn Fn(&mut Client<Script>) -> Result<T, ClientError<()>>,
+    call: &dyn Fn(&mut Client<Script>) -> Found<T>,
 ) -> Result<Option<T>, String> {
     let mut client = blocking(vector, profile);
     let found = call(&mut client);

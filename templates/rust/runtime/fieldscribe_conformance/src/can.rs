@@ -16,13 +16,16 @@ use super::{
     bytes, data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector,
 };
 
+/// What a client found.
+type Found<T> = Result<T, ClientError<()>>;
+
 /// What the client that blocks does with the script of the vector.
 ///
 /// Each point is tried with it; `can_clients` shows that the client that does not block has the same methods.
 fn blocked<T>(
     vector: &Vector,
     profile: &'static Profile,
-    call: &dyn Fn(&mut Client<Bus>) -> Result<T, ClientError<()>>,
+    call: &dyn Fn(&mut Client<Bus>) -> Found<T>,
 ) -> Result<Option<T>, String> {
     let mut client = Client::for_profile(Bus::new(vector), profile, vector.raw("unit"));
     let found = call(&mut client);
