@@ -14,6 +14,8 @@ from fieldscribe.model import Message
 from support.described import made
 from support.places import TESTS
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 DEVICE = made("kitchen_can")
 FOLDER = str(TESTS / "devices" / "kitchen_can")
 CARRIERS = [message for message in DEVICE.messages if message.fields]

@@ -26,6 +26,8 @@ from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
 from support.described import shipped
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 Listen = Callable[..., tuple[int, list[str], str]]
 
 

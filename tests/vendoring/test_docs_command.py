@@ -17,6 +17,8 @@ from fieldscribe.targets.docs import sheet, tables
 from fieldscribe.vendoring.requests import FORMATS
 from support.places import ROOT
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 PAGE = ROOT / "descriptions/using/tables.md"
 KITCHEN = str(ROOT / "tests/devices/kitchen_uss")
 TABLES = {"points": sheet.COLUMNS, "meanings": tables.MEANINGS, "errata": tables.ERRATA}
