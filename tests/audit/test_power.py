@@ -14,7 +14,7 @@ DEVICES = sorted(path.parent.name for path in descriptions_dir().glob("*/device.
 SAMPLE = 3
 
 
-@pytest.mark.full(seconds=15)
+@pytest.mark.full(seconds=14)
 def test_nearly_all_changed_facts_are_reported_and_all_are_listed() -> None:
     manuals = os.environ.get("FIELDSCRIBE_MANUALS")
     if not manuals:
