@@ -1,23 +1,13 @@
 // Visits the pages of a folder in a real browser, from the file system, and prints as JSON what a reader meets.
 // Usage: node visit.mjs FOLDER BROWSER NODE_MODULES PAGE_FOR_AXE... -- QUERY...
-import { readFileSync, readdirSync } from "node:fs";
-import { createRequire } from "node:module";
+import { readdirSync } from "node:fs";
 import { join, relative } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { axeFinds, opened, wideAt } from "../support/browser.mjs";
 
 const [folder, executablePath, modules, ...words] = process.argv.slice(2);
-const require = createRequire(join(modules, "x.js"));
-const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
-const browser = await require("playwright-core").chromium.launch({
-  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
-});
-const context = await browser.newContext({ permissions: ["clipboard-read", "clipboard-write"] });
-const page = await context.newPage();
-const seen = { troubles: [], wide: [], axe: {}, searches: {} };
-page.on("console", (message) => message.type() === "error" && seen.troubles.push(message.text()));
-page.on("pageerror", (error) => seen.troubles.push(String(error)));
-page.on("dialog", (dialog) => seen.troubles.push(dialog.message()) && dialog.dismiss());
-page.on("request", (request) => request.url().startsWith("file:") || seen.troubles.push(request.url()));
+const { browser, page, troubles } = await opened(executablePath, modules, { permissions: ["clipboard-read", "clipboard-write"] });
+const seen = { troubles, wide: [], axe: {}, searches: {} };
 
 const open = (path) => page.goto(pathToFileURL(join(folder, path)).href);
 const here = () => page.evaluate("location.href").then((url) => relative(folder, fileURLToPath(url)) + new URL(url).hash);
@@ -26,22 +16,12 @@ const paper = () => page.evaluate("getComputedStyle(document.body).backgroundCol
 
 for (const path of readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".html")).sort()) {
   await open(path);
-  for (const width of [360, 1280]) {
-    await page.setViewportSize({ width, height: 800 });
-    const over = await page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth");
-    if (over > 0) seen.wide.push(`${path} at ${width}: ${over}`);
-  }
+  seen.wide.push(...(await wideAt(page)).map((each) => `${path} at ${each}`));
+  const found = words.slice(0, words.indexOf("--")).includes(path) ? await axeFinds(page, modules) : [];
+  if (found.length) seen.axe[path] = found;
 }
-for (const path of words.slice(0, words.indexOf("--"))) {
-  for (const [colorScheme, width] of [["light", 1280], ["dark", 360]]) {
-    await page.emulateMedia({ colorScheme });
-    await page.setViewportSize({ width, height: 800 });
-    await open(path);
-    const found = await page.evaluate(`${axe}; axe.run({ preload: false, resultTypes: ["violations"] })`);
-    const nodes = found.violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.html.slice(0, 200)}`));
-    if (nodes.length) seen.axe[`${path} ${colorScheme}`] = nodes;
-  }
-}
+await page.emulateMedia({ colorScheme: "light" });
+await page.setViewportSize({ width: 1280, height: 800 });
 for (const query of words.slice(words.indexOf("--") + 1)) {
   await open("index.html");
   await page.keyboard.press("/");
@@ -59,7 +39,6 @@ for (const query of words.slice(words.indexOf("--") + 1)) {
   const marked = await page.evaluate("(document.querySelector(':target') ?? document.querySelector('.detail h2, article h2, h2'))?.textContent ?? null");
   seen.searches[query] = { found, first, cleared, at: await here(), marked };
 }
-await page.emulateMedia({ colorScheme: "light" });
 await open("fieldscribe/README.html");
 await page.click(".code >> nth=0 >> button");
 seen.copied = await page.evaluate("navigator.clipboard.readText()");

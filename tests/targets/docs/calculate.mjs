@@ -1,19 +1,11 @@
 // Types into the calculators on the pages of devices in a real browser, and prints as JSON what the fields say then.
 // Usage: node calculate.mjs BROWSER NODE_MODULES STEPS_FILE: { page: [{ point, anew, needs, field, text, bits }, ...] }
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { opened } from "../../support/browser.mjs";
 
 const [executablePath, modules, steps] = process.argv.slice(2);
-const require = createRequire(join(modules, "x.js"));
-const browser = await require("playwright-core").chromium.launch({
-  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
-});
-const page = await browser.newPage();
-const troubles = [];
-page.on("pageerror", (error) => troubles.push(String(error)));
-page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
+const { browser, page, troubles } = await opened(executablePath, modules, { draws: false });
 const said = {};
 for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8")))) {
   await page.goto(pathToFileURL(file).href);

@@ -3,25 +3,17 @@
 // Usage: node try_pages.mjs BROWSER NODE_MODULES JOBS_FILE:
 // { page: { jobs: [{ text, settings }], typed: [text], spoil: [line, other line] } }
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { opened } from "../../support/browser.mjs";
 
 const [executablePath, modules, listed] = process.argv.slice(2);
-const require = createRequire(join(modules, "x.js"));
-const browser = await require("playwright-core").chromium.launch({
-  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
-});
-const page = await browser.newPage();
-const troubles = [];
-page.on("pageerror", (error) => troubles.push(String(error)));
-page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
-page.on("dialog", (dialog) => { troubles.push(dialog.message()); dialog.dismiss(); });
+const { browser, page, troubles } = await opened(executablePath, modules, { draws: false });
+const OFTEN = { polling: 20 };
 const found = {};
 
 async function runVectors() {
-  await page.click("text=Run the vectors");
-  await page.waitForSelector("#conformance table");
+  await page.locator("text=Run the vectors").evaluate((button) => button.click());
+  await page.waitForFunction(() => document.querySelector("#conformance table"), null, OFTEN);
   return page.evaluate(() => {
     const part = document.getElementById("conformance");
     const cells = (row) => [...row.querySelectorAll("td")].map((cell) => cell.textContent);
@@ -48,7 +40,7 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
       area.value = pasted;
       area.dispatchEvent(new Event("input"));
     }, text);
-    await page.waitForFunction(() => !document.querySelector("#detail .status").textContent.includes("so far"));
+    await page.waitForFunction(() => !document.querySelector("#detail .status").textContent.includes("so far"), null, OFTEN);
     shown.push(await page.evaluate(() => ({ status: document.querySelector("#detail .status").textContent, text: document.querySelector(".heard").innerText, strange: document.querySelectorAll(".heard img, .heard script").length })));
   }
   await page.goto(`${pathToFileURL(file).href}#device`);

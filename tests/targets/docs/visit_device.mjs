@@ -1,24 +1,13 @@
 // Visits the page of a device in a real browser, from the file system, and prints as JSON what a reader meets.
 // Usage: node visit_device.mjs PAGE BROWSER NODE_MODULES {"queries": [], "hashes": []}
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { axeFinds, opened, wideAt } from "../../support/browser.mjs";
 
 const [file, executablePath, modules, wanted] = process.argv.slice(2);
 const { queries, hashes } = JSON.parse(wanted);
 const STRANGE = ["#__proto__", "#constructor", "#%", "#point=%", "#point=__proto__", "#erratum=toString", `#${"A".repeat(99999)}`];
-const require = createRequire(join(modules, "x.js"));
-const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
-const browser = await require("playwright-core").chromium.launch({
-  executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"],
-});
-const page = await (await browser.newContext()).newPage();
-const seen = { troubles: [], wide: [], axe: {}, searches: {}, papers: [] };
-page.on("console", (message) => message.type() === "error" && seen.troubles.push(message.text()));
-page.on("pageerror", (error) => seen.troubles.push(String(error)));
-page.on("dialog", (dialog) => { seen.troubles.push(dialog.message()); dialog.dismiss(); });
-page.on("request", (request) => request.url().startsWith("file:") || seen.troubles.push(request.url()));
+const { browser, page, troubles } = await opened(executablePath, modules);
+const seen = { troubles, wide: [], axe: {}, searches: {}, papers: [] };
 
 async function open(hash = "") {
   await page.goto("about:blank");
@@ -27,19 +16,13 @@ async function open(hash = "") {
 const titles = () => page.$$eval("#list tbody a", (links) => links.map((link) => link.closest("tr").dataset.point));
 
 for (const hash of hashes) {
-  // colours do not depend on the width: each scheme and each width is seen once
-  for (const [colorScheme, width] of [["light", 360], ["dark", 1280]]) {
-    await page.emulateMedia({ colorScheme });
-    await page.setViewportSize({ width, height: 800 });
-    await open(hash);
-    const over = await page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth");
-    if (over > 0) seen.wide.push(`${hash} at ${width}: ${over}`);
-    const found = await page.evaluate(`${axe}; axe.run({ preload: false, resultTypes: ["violations"] })`);
-    const nodes = found.violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.html.slice(0, 200)}`));
-    if (nodes.length) seen.axe[`${hash} ${colorScheme} ${width}`] = nodes;
-  }
+  await open(hash);
+  seen.wide.push(...(await wideAt(page)).map((each) => `${hash} at ${each}`));
+  const found = await axeFinds(page, modules, hash ? ["#list"] : []); // which is the same in each view
+  if (found.length) seen.axe[hash] = found;
 }
 await page.emulateMedia({ colorScheme: "light" });
+await page.setViewportSize({ width: 1280, height: 800 });
 for (const query of queries) {
   await open();
   await page.keyboard.press("/");
