@@ -6,19 +6,32 @@ import re
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import COMMANDS, command_module, live_options, scan
+from fieldscribe.cli import COMMANDS, command_module, live_options, scan, search
 from fieldscribe.diagnostics import Report
 from fieldscribe.live.lines import LineAddress, read_line
 from fieldscribe.live.snapshots import Held, defaults
 from fieldscribe.model import Device
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.simulation import simulated
 from support.described import shipped
-from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
+from support.help_examples import (
+    asked_for,
+    audited,
+    committed,
+    drafted,
+    examples_of,
+    ran,
+    stops_at_once,
+    with_one_device,
+    workplace,
+)
+from support.places import ROOT
 
 
 class Claim(NamedTuple):
@@ -248,7 +261,9 @@ CLAIMS = {
     },
     "watch": {
         "heat_pump --out bindings": Claim(0, r"^\d\d:\d\d:\d\d heat_pump: \d+ written", made="bindings/c/heat_pump.h"),
-        "--target c,docs": Claim(0, r"^\d\d:\d\d:\d\d 7 devices: \d+ written", made="generated/docs/hitachi_l200.md"),
+        "--target c,docs": Claim(
+            0, r"^\d\d:\d\d:\d\d hitachi_l200: \d+ written", made="generated/docs/hitachi_l200.md"
+        ),
     },
     "simulate": {
         "hitachi_l200 --tcp 5020": Claim(0, r"^hitachi_l200 answers as unit 1 on tcp://127\.0\.0\.1:\d+\n0 requests$"),
@@ -366,6 +381,17 @@ def _interrupted(seconds: float) -> None:
         raise KeyboardInterrupt
 
 
+FOLDERS = {
+    "audit": audited,
+    "diff": committed,
+    "vendor": asked_for,
+    "compare": snapshots,
+    "restore": snapshots,
+    **dict.fromkeys(("fmt", "generate", "watch"), with_one_device),
+}
+"""What the folder of a command needs beside the descriptions."""
+
+
 @pytest.mark.usefixtures("loads_once")
 @pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("command", CLAIMS)
@@ -373,18 +399,16 @@ def test_examples_do_what_they_show(
     command: str, tmp_path: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder, capsys = workplace(tmp_path), request.getfixturevalue("capsys")
-    if command == "audit":
-        audited(folder)
+    if command in FOLDERS:
+        FOLDERS[command](folder)
     if command in ("diff", "fmt", "watch"):
         drafted(folder, capsys)
-    if command == "vendor":
-        asked_for(folder)
     if command in ("simulate", "watch"):
         stops_at_once(monkeypatch)
-    if command in ("decode", "docs", "encode", "explain", "export", "list", "search"):
+    if command in ("decode", "docs", "encode", "explain", "export", "list"):
         monkeypatch.setattr(pipeline, "load_device", _load_once)
-    if command in ("compare", "restore"):
-        snapshots(folder)
+    if command == "search":
+        monkeypatch.setattr(search, "load_analysis", _analysed_once)
     if command in ON_LINES:
         request.getfixturevalue("lines")
     capsys.readouterr()
@@ -399,3 +423,12 @@ def test_examples_do_what_they_show(
 
 def _load_once(device_file: Path, _report: Report, _inputs: object = None) -> Device:
     return shipped(device_file.parent.name)
+
+
+@cache
+def _analysed(place: Path) -> Analysis | None:
+    return pipeline.load_analysis(place, Report())
+
+
+def _analysed_once(device_file: Path, _report: Report) -> Analysis | None:
+    return _analysed(ROOT / "descriptions" / device_file.parent.name / device_file.name)

@@ -77,19 +77,11 @@ def examples_of(epilog: str) -> list[Example]:
 
 
 def workplace(folder: Path) -> Path:
-    """A checkout with two commits, and the files that examples name."""
+    """The descriptions, and the files that examples name."""
     descriptions = folder / "descriptions"
     shutil.copytree(ROOT / "descriptions", descriptions)
     shutil.copytree(TESTS / "importing/sunspec", folder / "models")
     shutil.copy(TESTS / "importing/wb/heater.json", folder / "config-heater.json")
-    source = descriptions / "hitachi_l200/standard_a.yaml"
-    git = ("git", "-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "commit.gpgsign=false")
-    now = source.read_text("utf-8")
-    source.write_text(now.replace("name: run_key,", "name: run_button,"), "utf-8")
-    for words in (("init", "-q"), ("add", "."), ("commit", "-qm", "first"), ("tag", "v1.2.0")):
-        subprocess.run([*git, *words], cwd=folder, check=True)
-    source.write_text(now, "utf-8")
-    subprocess.run([*git, "commit", "-qam", "second"], cwd=folder, check=True)
     for name, text in {
         "candump.log": "(1.5) can0 321#DD010302000007D0\n(1.6) can0 321#DD00051513880064\n",
         "gateway.log": "DEBUG:fieldscribe:unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)\n",
@@ -104,6 +96,25 @@ def workplace(folder: Path) -> Path:
     asked, came = bytes.fromhex("0001 0000 0006 01 03 1001 0001"), bytes.fromhex("0001 0000 0005 01 03 02 01F4")
     (folder / "plant.pcapng").write_bytes(classic([segment(1, asked), segment(1, came, back=True)]))
     return folder
+
+
+def committed(folder: Path) -> None:
+    """Make a repository of the folder, with two commits."""
+    source = folder / "descriptions/hitachi_l200/standard_a.yaml"
+    git = ("git", "-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "commit.gpgsign=false")
+    now = source.read_text("utf-8")
+    source.write_text(now.replace("name: run_key,", "name: run_button,"), "utf-8")
+    for words in (("init", "-q"), ("add", "."), ("commit", "-qm", "first"), ("tag", "v1.2.0")):
+        subprocess.run([*git, *words], cwd=folder, check=True)
+    source.write_text(now, "utf-8")
+    subprocess.run([*git, "commit", "-qam", "second"], cwd=folder, check=True)
+
+
+def with_one_device(folder: Path) -> None:
+    """Leave one description: what commands do with all of them takes as much longer."""
+    for device in (folder / "descriptions").glob("*/device.yaml"):
+        if device.parent.name != "hitachi_l200":
+            shutil.rmtree(device.parent)
 
 
 def ran(example: Example, folder: Path, capsys: pytest.CaptureFixture[str], patch: pytest.MonkeyPatch) -> Ran:

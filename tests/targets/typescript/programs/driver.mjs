@@ -2,10 +2,7 @@
 // gives {"result": 50} or {"error": {...}}. Arguments: package, class, line, options of the device.
 import { connect } from "node:net";
 import { createInterface } from "node:readline";
-import { ModbusSerialLine } from "fieldscribe-runtime/modbus-serial";
 import { NoReplyError } from "fieldscribe-runtime";
-import { SerialLine } from "fieldscribe-runtime/serialport";
-import { TcpLine } from "fieldscribe-runtime/tcp";
 
 /** A bus of CAN behind a socket: frames are 4 bytes of identifier, one of length, and 8 of data. */
 class BridgeLine {
@@ -49,10 +46,14 @@ class BridgeLine {
   }
 }
 
+/** The line, with no more modules than it needs: they take longer than a session. */
 async function opened({ kind, port, path, framing, timeout = 0.3 }) {
   if (kind === "can") return new BridgeLine(port);
+  const { TcpLine } = await import("fieldscribe-runtime/tcp");
   if (kind === "tcp") return new TcpLine("127.0.0.1", { port, framing, timeout });
+  const { SerialLine } = await import("fieldscribe-runtime/serialport");
   if (kind === "serial") return new SerialLine(path, { framing, timeout, mode: "8N1", baudRate: 115200 });
+  const { ModbusSerialLine } = await import("fieldscribe-runtime/modbus-serial");
   const { default: ModbusRTU } = await import("modbus-serial");
   const client = new ModbusRTU();
   client.setTimeout(timeout * 1000);
