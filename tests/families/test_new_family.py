@@ -120,4 +120,4 @@ def test_a_part_that_is_missing_is_none_and_one_that_breaks_says_so(
     monkeypatch.setattr("fieldscribe.families.family", lambda _: choir)
     knowing = {name: targets.knows(name, sample_device()) for name in targets.TARGETS}
     assert knowing == {"c": True, "python": False, "rust": False, "typescript": False, "docs": True, "vectors": True}
-    assert list(knowing) == ["c", "python", "rust", "typescript", "docs", "vectors"]
+    assert list(knowing) == ["c", "python", "rust", "vectors", "typescript", "docs"]
