@@ -63,7 +63,7 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     return dict(json.loads((made_once(tmp_path_factory, "page_of_l200", visit) / "seen.json").read_text("utf-8")))
 
 
-@pytest.mark.full(seconds=60)
+@pytest.mark.full(seconds=30)
 def test_nothing_is_wrong_and_nothing_leaves_the_page(seen: dict[str, Any]) -> None:
     assert seen["troubles"] == []
 

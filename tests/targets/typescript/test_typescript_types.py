@@ -23,7 +23,7 @@ DEVICES = sorted(path for path in SHIPPED.iterdir() if path.name != "fieldscribe
 STRICT = {"strict": True, "exactOptionalPropertyTypes": True, "noUncheckedIndexedAccess": True}
 
 
-@pytest.mark.full(seconds=10)
+@pytest.mark.full(seconds=6)
 def test_the_types_of_the_runtime_are_current(tmp_path: Path) -> None:
     """The compiler checks its sources strictly, and makes the types of them that lie beside."""
     for name, text in declarations(tmp_path).items():
@@ -50,7 +50,7 @@ def test_programs_of_users(tmp_path: Path) -> None:
     assert compile_types(tmp_path) == ""
 
 
-@pytest.mark.full(seconds=30)
+@pytest.mark.full(seconds=5)
 @pytest.mark.parametrize("package", ["fieldscribe-runtime", "siemens-mm4"])
 def test_packages_as_npm_packs_them(package: str, tmp_path: Path) -> None:
     modules = install(tmp_path, DEVICES)

@@ -1,5 +1,5 @@
-// Runs the vectors of devices in a browser, twice each: as modules, and joined into one classic script.
-// Usage: node browser.mjs BROWSER NODE_MODULES FOLDER_OF_PACKAGES PACKAGE=VECTORS...
+// Runs the vectors of devices in a browser: as modules, or joined into one classic script.
+// Usage: node browser.mjs BROWSER NODE_MODULES FOLDER_OF_PACKAGES PACKAGE=VECTORS=FORM,FORM...
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, normalize } from "node:path";
@@ -49,8 +49,8 @@ const MODULES = `
 
 const results = {};
 for (const pair of devices) {
-  const [name, file] = pair.split("=");
-  for (const form of ["modules", "classic"]) {
+  const [name, file, forms] = pair.split("=");
+  for (const form of forms.split(",")) {
     const page = await browser.newPage();
     const troubles = [];
     page.on("pageerror", (error) => troubles.push(String(error)));
