@@ -50,5 +50,6 @@ def test_rust(
     assert BLOCKS["rust"][0]["text"] == first("rust", README)
     with simulated("hitachi_l200", on="tcp", values=NUMBERS) as drive:
         monkeypatch.setenv("RTU", f"127.0.0.1:{drive.port}")
-        assert succeed([built / "page_00"]) == "12.5 Hz\n"
+        monkeypatch.setenv("PAGE", "0")
+        assert succeed([built / "pages"]) == "12.5 Hz\n"
         assert drive.values["base_frequency"] == 50

@@ -70,6 +70,34 @@ def program(block: str) -> str:
     return block
 
 
+PAGES = """\
+//! The programs of the page, by their numbers: what they have in common is compiled and linked once.
+
+use std::process::{ExitCode, Termination};
+
+@MODULES@
+fn main() -> ExitCode {
+    match std::env::var("PAGE").unwrap().as_str() {
+@CALLS@
+        number => panic!("there is no program {number}"),
+    }
+}
+"""
+
+
+def write_pages(folder: Path) -> None:
+    """One program that is each block of the page by its number in the environment, since blocks have arguments."""
+    folder.mkdir()
+    modules, calls = "", []
+    for number, block in enumerate(BLOCKS["rust"]):
+        text = re.sub(r"^(async )?fn main\(\)", r"pub \1fn main()", program(block["text"]), flags=re.MULTILINE)
+        (folder / f"page_{number:02}.rs").write_text(text, "utf-8")
+        modules += f"mod page_{number:02};\n"
+        calls.append(f'        "{number}" => page_{number:02}::main().report(),')
+    text = PAGES.replace("@MODULES@", modules).replace("@CALLS@", "\n".join(calls))
+    (folder / "main.rs").write_text(text, "utf-8")
+
+
 def built_programs(factory: pytest.TempPathFactory, config: pytest.Config) -> Path:
     """Return the folder of the built programs, beside that of the project; what cargo keeps is in pytest's cache."""
     target = config.cache.mkdir("transports") if config.cache else None
@@ -82,8 +110,7 @@ def write_project(target: Path | None, out: Path) -> None:
     for device, points in DEVICES.items():
         chosen = ("--points", ",".join(points)) if points else ()
         assert main(["vendor", "rust", device, "--out", str(project / "drivers"), *chosen]) == 0
-    for number, block in enumerate(BLOCKS["rust"]):
-        (project / f"src/bin/page_{number:02}.rs").write_text(program(block["text"]), "utf-8")
+    write_pages(project / "src/bin/pages")
     if target:
         (project / ".cargo").mkdir()
         (project / ".cargo/config.toml").write_text(f"build.target-dir = {str(target)!r}\n", "utf-8")

@@ -239,7 +239,7 @@ def test_the_table_has_every_point_once(name: str) -> None:
     assert found[1].split() == [subject.name for subject in scope_of(device).subjects]
 
 
-@pytest.mark.full(seconds=100)  # builds them all
+@pytest.mark.full(seconds=90)  # builds them all
 def test_clippy_has_nothing_to_say(built: Path) -> None:
     """Of what was compiled for the vectors: the compiler that warns compiles."""
     assert (built / "stderr").read_text("utf-8") == ""
