@@ -45,9 +45,9 @@ bench:              ## measure the compiler and generated Python against cantool
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 
-prove:              ## prove that no input causes undefined behaviour in the C cores, parsers and builders (MACHINE=x86_16)
+prove:              ## prove that no input causes undefined behaviour in the C cores, parsers and builders (MACHINE=x86_16 LENGTHS=ends)
 	@sh generator/setup.sh tests
-	$(PYTHON) tests/proofs/prove.py $(if $(MACHINE),--machine $(MACHINE))
+	$(PYTHON) tests/proofs/prove.py $(if $(MACHINE),--machine $(MACHINE)) $(if $(LENGTHS),--$(LENGTHS))
 
 misra:              ## compare MISRA C:2012 findings in generated headers and runtimes with the table of justified ones
 	@sh generator/setup.sh tests

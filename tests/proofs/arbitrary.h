@@ -15,4 +15,18 @@
 /* The longest object that a machine of 16 bits has room for, in bytes; others have more. */
 #define LARGE 32767U
 
+/*
+ * With -DENDS, of the lengths that are followed alone those between are left out: what a program does at a short length
+ * it does at a longer one, but for constants, which lie near the longest.
+ */
+#ifdef ENDS
+#define SHORT 24U
+#define NOT_BETWEEN(length, most) \
+    if (((length) > SHORT) && ((length) < ((most) - 12U))) { \
+        return; \
+    }
+#else
+#define NOT_BETWEEN(length, most)
+#endif
+
 #endif

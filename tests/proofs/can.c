@@ -6,7 +6,11 @@
 #include "arbitrary.h"
 #include "fieldscribe_can.h"
 
+#ifdef ENDS
+#define WORDS 6U
+#else
 #define WORDS 12U /* of a telegram that is followed with exactly its slots */
+#endif
 #define SLOTS (LARGE / sizeof(fieldscribe_can_slot))
 
 static uint8_t data[FIELDSCRIBE_CAN_BYTES];

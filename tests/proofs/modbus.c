@@ -10,7 +10,9 @@
 #define STEPS 6U /* bytes that a receiver has got: each way through them is followed alone */
 #define KNOWN 3U    /* functions of a profile: each is looked at alone */
 #define FRAMES 264U /* longer than the longest frame, of 260 bytes */
+#ifndef SHORT
 #define SHORT 32U   /* where build is followed with exact arrays; put_values, which fills in the data, for all lengths */
+#endif
 #define ITEMS 256U  /* as many are followed exactly; more in arrays that may be longer than told */
 #define WORDS 128U  /* more than a byte count can announce: 255 bytes are 127 words */
 
@@ -97,6 +99,7 @@ void prove_crc(size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         (void)fieldscribe_modbus_crc(EXACTLY(length, frame), length);
     }
 }
@@ -154,6 +157,7 @@ void prove_allows__values(uint16_t count)
 {
     if (count <= ITEMS) {
         //@ split count;
+        NOT_BETWEEN(count, ITEMS);
         know(1U);
         ask(count);
         (void)fieldscribe_modbus_allows(&profile, &request);
@@ -164,6 +168,7 @@ void prove_are_coils(uint16_t count)
 {
     if (count <= ITEMS) {
         //@ split count;
+        NOT_BETWEEN(count, ITEMS);
         ask(count);
         (void)fieldscribe_modbus_are_coils(&request);
     }
@@ -173,6 +178,7 @@ void prove_coils(uint16_t count, uint16_t byte)
 {
     if (count <= ITEMS) {
         //@ split count;
+        NOT_BETWEEN(count, ITEMS);
         ask(count);
         (void)fieldscribe_modbus_coils(&request, 8U * (uint32_t)byte);
     }
@@ -182,6 +188,7 @@ void prove_coils(uint16_t count, uint16_t byte)
 void prove_put_values__data(uint8_t data_bytes)
 {
     //@ split data_bytes;
+    NOT_BETWEEN(data_bytes, 255U);
     ask_any();
     fieldscribe_modbus_put_values(&request, EXACTLY(data_bytes, frame), data_bytes);
 }
@@ -191,6 +198,7 @@ void prove_put_values__words(uint16_t count)
 {
     if (count <= WORDS) {
         //@ split count;
+        NOT_BETWEEN(count, WORDS);
         ask(count);
         request.function = 0x10U;
         fieldscribe_modbus_put_values(&request, frame, 2U * (uint32_t)count);
@@ -346,6 +354,7 @@ void prove_take_items__data(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
+        NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_take_items(&request, EXACTLY(size, frame), size, &reply);
@@ -357,6 +366,7 @@ void prove_take_items__values(size_t size, size_t room)
     const size_t stored = room < ITEMS ? room : ITEMS;
     if (size >= 2U && size <= FRAMES) {
         //@ split stored;
+        NOT_BETWEEN(stored, ITEMS);
         ask_any();
         into(EXACTLY(stored, items), stored);
         (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
@@ -367,6 +377,7 @@ void prove_take_echo(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
+        NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_take_echo(&request, EXACTLY(size, frame), size, &reply);
@@ -377,6 +388,7 @@ void prove_take_echo__request(uint16_t count, size_t size)
 {
     if (count <= WORDS && size >= 2U && size <= FRAMES) {
         //@ split count;
+        NOT_BETWEEN(count, WORDS);
         ask(count);
         into(many_items, LARGE / 2U);
         (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
@@ -387,6 +399,7 @@ void prove_take_answer(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
+        NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply);
@@ -397,6 +410,7 @@ void prove_parse_rtu(size_t length, size_t room)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, &reply);
@@ -407,6 +421,7 @@ void prove_parse_pdu(size_t length, size_t room)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_parse_pdu(&request, EXACTLY(length, frame), length, &reply);
@@ -417,6 +432,7 @@ void prove_parse_tcp(size_t length, size_t room)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
         (void)fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, &reply);
@@ -448,6 +464,7 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
     const size_t stored = room < WORDS ? room : WORDS;
     if (length <= FRAMES) {
         //@ split stored;
+        NOT_BETWEEN(stored, WORDS);
         ask_any();
         into(EXACTLY(stored, items), stored);
         (void)fieldscribe_modbus_parse(framing, &request, frame, length, &reply);
@@ -486,6 +503,7 @@ void prove_left(size_t size, size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), size, length);
         (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), size, length);
     }

@@ -39,6 +39,7 @@ void prove_jumo_controller(size_t length, size_t room)
             (void)fieldscribe_modbus_build(
                 &jumo_controller_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, bytes, FRAMES, &used);
             //@ split length;
+            NOT_BETWEEN(length, FRAMES);
             (void)fieldscribe_modbus_parse(
                 FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, bytes), length, &reply);
         }
@@ -55,6 +56,7 @@ void prove_siemens_mm4(size_t length, size_t room)
         link.single_first = number % 2U != 0U;
         (void)fieldscribe_uss_build(&siemens_mm4_uss_profile, &link, &task, &process, bytes, FRAMES, &used);
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         (void)fieldscribe_uss_parse(
             &siemens_mm4_uss_profile, &link, &task, EXACTLY(length, bytes), length, &answer);
     }

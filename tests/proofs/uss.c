@@ -8,7 +8,9 @@
 #include "fieldscribe_uss.h"
 
 #define FRAMES 300U /* longer than the longest telegram */
+#ifndef SHORT
 #define SHORT 48U   /* where build is followed with exact arrays; assemble, which fills them, for all lengths */
+#endif
 #define WORDS 256U  /* more than a link can be set to */
 #define STEPS 6U    /* bytes that a receiver has got: each way through them is followed alone */
 #define KNOWN 3U    /* tasks and lengths that a profile knows: each is looked at alone */
@@ -71,6 +73,7 @@ void prove_write(uint8_t unit, size_t count)
 {
     if (count <= WORDS) {
         //@ split count;
+        NOT_BETWEEN(count, WORDS);
         request = fieldscribe_uss_write(unit, &writing, EXACTLY(count, words), count);
         request = fieldscribe_uss_write(unit, &writing, NULL, count);
     }
@@ -80,6 +83,7 @@ void prove_words_of_reply(size_t count)
 {
     if (count <= WORDS) {
         //@ split count;
+        NOT_BETWEEN(count, WORDS);
         (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(count, words), count);
         (void)fieldscribe_uss_words_of_reply(&reply, &reading, NULL, count);
     }
@@ -123,6 +127,7 @@ void prove_left(size_t size, size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         (void)fieldscribe_uss_left(&link, EXACTLY(length, frame), size, length);
     }
 }
@@ -145,6 +150,7 @@ void prove_begun(size_t size, size_t length)
 {
     if (length > 0U && length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         has(frame, size, length);
         (void)fieldscribe_uss_begun(&receiver, EXACTLY(length, frame), length);
     }
@@ -204,6 +210,7 @@ void prove_check(size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         (void)fieldscribe_uss_check(EXACTLY(length, frame), length);
     }
 }
@@ -271,6 +278,7 @@ void prove_assemble__buffer(uint8_t address, size_t pzd_count, size_t size)
     if (pzd_count <= WORDS && size <= FRAMES) {
         size_t length;
         //@ split size;
+        NOT_BETWEEN(size, FRAMES);
         send(words, pzd_count);
         (void)fieldscribe_uss_assemble(address, part, 0U, &process, EXACTLY(size, frame), size, &length);
         (void)fieldscribe_uss_assemble(address, part, 6U, &process, EXACTLY(size, frame), size, &length);
@@ -283,6 +291,7 @@ void prove_assemble__words(uint8_t address, size_t head_bytes, size_t pzd_count,
     if ((head_bytes == 0U || head_bytes == 6U || head_bytes == 8U) && pzd_count <= WORDS && size <= FRAMES) {
         size_t length;
         //@ split pzd_count;
+        NOT_BETWEEN(pzd_count, WORDS);
         //@ split head_bytes;
         send(EXACTLY(pzd_count, words), pzd_count);
         (void)fieldscribe_uss_assemble(address, EXACTLY(head_bytes, part), head_bytes, &process, frame, size, &length);
@@ -372,6 +381,7 @@ void prove_parse__frame(size_t length, size_t room)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         know(KNOWN);
         into(words, room);
         (void)fieldscribe_uss_parse(
@@ -392,6 +402,7 @@ void prove_parse__no_words(size_t length, size_t room)
 {
     if (length <= FRAMES) {
         //@ split length;
+        NOT_BETWEEN(length, FRAMES);
         know(KNOWN);
         into(NULL, room);
         (void)fieldscribe_uss_parse(&profile, &link, &request, EXACTLY(length, frame), length, &reply);
@@ -403,6 +414,7 @@ void prove_parse__words(size_t length, size_t room)
     const size_t stored = room < WORDS ? room : WORDS;
     if (length <= FRAMES) {
         //@ split stored;
+        NOT_BETWEEN(stored, WORDS);
         know(KNOWN);
         into(EXACTLY(stored, words), stored);
         (void)fieldscribe_uss_parse(

@@ -68,13 +68,12 @@ def test_make(project: Path) -> None:
     changed = ("-W", str(ROOT / "descriptions/hitachi_l200/bus.yaml"))
     assert "fieldscribe vendor" in succeed([tool("make"), *changed, "-n"], cwd=project)
     (project / "drivers/fieldscribe_modbus.h").unlink()
-    succeed([tool("make")], cwd=project)
-    assert (project / "drivers/fieldscribe_modbus.h").is_file()
+    assert "fieldscribe vendor" in succeed([tool("make"), "-n"], cwd=project)
     makefile = project / "Makefile"
     makefile.write_text(makefile.read_text("utf-8").replace("D001,A020", "D001"), "utf-8")
     succeed([tool("make")], cwd=project)
+    assert (project / "drivers/fieldscribe_modbus.h").is_file()
     assert "BASE_FREQUENCY" not in (project / "drivers/hitachi_l200.h").read_text("utf-8").upper()
-    assert run([tool("make"), "--question"], cwd=project).returncode == 0
 
 
 @pytest.mark.full(seconds=3)

@@ -9,10 +9,9 @@ import pytest
 from fieldscribe.model import Device
 from fieldscribe.targets.c.literals import raw_type, wire_kind
 from fieldscribe.targets.c.word_functions import has_form
-from support.c_device import SANITIZING, program, run_program, write_headers
+from support.c_device import program, run_program, write_headers
 from support.described import made
 from support.python_families import uss_device
-from support.quick import full_but
 
 HANDLES = {
     "modbus": "{{NULL, &ask, 3U, 0U, 0U, false}}",
@@ -68,9 +67,16 @@ def check(device: Device, way: str, out: Path) -> None:
     run_program(text, way, folder, out, "-Wno-unused-function")
 
 
-@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize(
-    "device", full_but(("kitchen_codes", "sample_uss"), ("kitchen_sink", "kitchen_codes", "sample_uss"), seconds=3)
+    ("device", "way"),
+    [
+        ("kitchen_codes", "quick"),
+        ("sample_uss", "quick"),
+        *(
+            pytest.param(device, "clang", marks=pytest.mark.full(seconds=seconds))
+            for device, seconds in (("kitchen_sink", 4), ("kitchen_codes", 1), ("sample_uss", 1))
+        ),
+    ],
 )
 def test_a_call_does_what_codec_and_frames_do(device: str, way: str, tmp_path: Path) -> None:
     check(uss_device() if device == "sample_uss" else made(device), way, tmp_path)

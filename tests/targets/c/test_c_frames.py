@@ -392,8 +392,8 @@ void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request
 {calls}}}
 """
     (tmp_path / "wrong.c").write_text(text, "utf-8")
-    words = [*STANDARDS[standard], *WARNINGS, f"-I{folder}", "-c", "-o", tmp_path / "one.o", tmp_path / "wrong.c"]
-    done = run([tool(driver(compiler, standard)), *words])
+    words = [tool(driver(compiler, standard)), *STANDARDS[standard], *WARNINGS, f"-I{folder}", "-c"]
+    done = run([*words, "-o", tmp_path / "one.o", tmp_path / "wrong.c"])
     assert done.returncode != 0
     messages = re.split(r"^\S*wrong\.c:(\d+):\d+: error: ", done.stderr, flags=re.MULTILINE)
     said_at: dict[int, str] = {}
