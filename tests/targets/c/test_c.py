@@ -147,7 +147,7 @@ def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: P
     [
         *(pytest.param(device, QUICKEST, id=device) for device in IN_CORE),
         *(
-            plain(device, COMPILERS[turn % 2], ("c99", "c++20")[turn % 2], "float")
+            plain(device, COMPILERS[1 - turn % 2], ("c++20", "c99")[turn % 2], "float")
             for turn, device in enumerate(SHIPPED)
         ),
     ],
