@@ -150,6 +150,8 @@ def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: P
             plain(device, COMPILERS[1 - turn % 2], ("c++20", "c99")[turn % 2], "float")
             for turn, device in enumerate(SHIPPED)
         ),
+        optimized("siemens_mm4", "c99", "float"),
+        optimized("nord_sk5xxe", "c17", "float"),
     ],
 )
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
