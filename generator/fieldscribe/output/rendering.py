@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import NamedTuple
 
 from fieldscribe.diagnostics import show_traceback
 from fieldscribe.output.children import results_of_child
 from fieldscribe.output.contents import Contents, Spool
 from fieldscribe.pipeline import Models, TargetError, outputs
-from fieldscribe.targets import target
+from fieldscribe.targets import TARGETS, target
 
 
 class Failure(NamedTuple):
@@ -39,11 +39,15 @@ class ChildTargets:
         return {path: self._spool.joined(contents) for path, contents in files.items()}
 
 
-def halves(targets: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Cut the targets of a run in two parts that take about as long; the second is empty where there is one target."""
-    weights = [target(name).WEIGHT for name in targets]
-    cut = min(range(1, len(targets) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
-    return targets[:cut], targets[cut:]
+def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Cut the targets of a run in two parts that take about as long; the second is empty where there is one target.
+
+    Neighbours in the list of all targets stay together: the page of a device has the scripts of its package.
+    """
+    ordered = tuple(name for name in TARGETS if name in targets)
+    weights = [target(name).WEIGHT for name in ordered]
+    cut = min(range(1, len(ordered) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
+    return ordered[:cut], ordered[cut:]
 
 
 def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
