@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.output import generation
-from fieldscribe.targets import vectors
+from fieldscribe.output.rendering import halves
+from fieldscribe.targets import TARGETS as ALL
+from fieldscribe.targets import docs
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning"),  # of tests that run in threads
@@ -29,20 +32,33 @@ def contents(out: Path) -> dict[str, bytes]:
     return {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
 
 
+@pytest.mark.parametrize(
+    ("targets", "expected"),
+    [
+        (reversed(ALL), (("c", "python", "rust", "vectors"), ("typescript", "docs"))),
+        (("rust", "python", "c"), (("c",), ("python", "rust"))),
+        (("docs",), (("docs",), ())),
+    ],
+)
+def test_halves_take_about_as_long(targets: Iterable[str], expected: tuple[tuple[str, ...], tuple[str, ...]]) -> None:
+    """In any order; the page of a device stays with the package whose scripts it has."""
+    assert halves(tuple(targets)) == expected
+
+
 def test_the_same_files_are_written(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/other")
     place = project / "descriptions/other/device.yaml"
     place.write_text(place.read_text("utf-8").replace("device: jumo_controller", "device: other"), "utf-8")
     assert main(["generate", "--target", TARGETS]) == 0
     parent = os.getpid()
-    outputs = vectors.outputs
+    outputs = docs.outputs
 
     def elsewhere(device: Any, render: Any) -> Any:
         assert os.getpid() != parent
         return outputs(device, render)
 
     in_children(monkeypatch)
-    monkeypatch.setattr(vectors, "outputs", elsewhere)
+    monkeypatch.setattr(docs, "outputs", elsewhere)
     assert main(["generate", "--target", TARGETS, "--out", "apart"]) == 0
     assert contents(project / "apart") == contents(project / "generated")
 
@@ -51,13 +67,13 @@ def test_a_target_that_fails_in_a_child_leaves_its_device_alone(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def failing(*_: Any) -> Any:
-        raise ValueError("no vectors")
+        raise ValueError("no page")
 
     in_children(monkeypatch)
-    monkeypatch.setattr(vectors, "outputs", failing)
+    monkeypatch.setattr(docs, "outputs", failing)
     assert main(["generate", "--target", TARGETS]) == 1
-    assert "internal error in target vectors: ValueError: no vectors" in " ".join(capsys.readouterr().err.split())
-    assert not (project / "generated/docs").exists()
+    assert "internal error in target docs: ValueError: no page" in " ".join(capsys.readouterr().err.split())
+    assert not (project / "generated/vectors").exists()
 
 
 def test_a_child_that_is_killed_ends_the_run(
@@ -65,9 +81,9 @@ def test_a_child_that_is_killed_ends_the_run(
 ) -> None:
     """As by a system that has no memory left."""
     in_children(monkeypatch)
-    monkeypatch.setattr(vectors, "outputs", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+    monkeypatch.setattr(docs, "outputs", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
     assert main(["generate", "--target", TARGETS]) == 2
     assert "a process that made files broke off: is there enough memory, and room for temporary files?" in " ".join(
         capsys.readouterr().err.split()
     )
-    assert not (project / "generated/docs").exists()
+    assert not (project / "generated/vectors").exists()
