@@ -85,6 +85,13 @@ def test_a_wrong_device_leaves_the_others_alone(tmp_path: Path, capsys: pytest.C
     assert docs(tmp_path / "wrong.yaml", "--format", "csv", "--out", tmp_path / "out") == 1
 
 
+def test_an_empty_name_is_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a variable that is not set: the devices here are not written."""
+    monkeypatch.chdir(ROOT / "descriptions")
+    assert docs("", "--format", "markdown", "--out", tmp_path) == 2
+    assert not list(tmp_path.iterdir())
+
+
 def test_without_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setitem(sys.modules, "xlsxwriter", None)
     assert docs(KITCHEN, "--format", "xlsx", "--out", tmp_path / "out") == 2

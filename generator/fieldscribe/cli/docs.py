@@ -71,7 +71,8 @@ def run(arguments: Namespace) -> int:
 
 def _named(name: str) -> list[str]:
     """Return the devices that a name stands for: all those of a folder, else the one."""
-    files = find_devices([Path(name)], Report()) if Path(name).is_dir() else []
+    is_folder = bool(name) and Path(name).is_dir()  # an empty name would be the working folder
+    files = find_devices([Path(name)], Report()) if is_folder else []
     return list(map(str, files)) if len(files) > 1 else [name]
 
 
