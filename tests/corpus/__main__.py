@@ -1,6 +1,7 @@
 """`make corpus FOLDER=...`: a line of marks for each collection in the folder, and what its drafts do not carry.
 
-With `VALUES=1000000` it compares so many values of 40 random devices of each in all languages with an oracle, instead.
+With `VALUES=1000000` it decodes and encodes so many values of 40 random devices of each in all languages, instead, and
+compares them with an oracle.
 """
 
 from __future__ import annotations

@@ -21,6 +21,13 @@ Points: TypeAlias = Sequence[Mapping[str, Any]]
 """The points of a device as `export json` has them."""
 
 
+class Counts(NamedTuple):
+    """For how many random contents of a point there are vectors: that are read, and that are written."""
+
+    read: int
+    written: int
+
+
 class Collection(NamedTuple):
     """A kind of files: which of a folder, and what drafts one; it returns None for a file that it leaves out.
 
@@ -30,4 +37,4 @@ class Collection(NamedTuple):
     name: str
     files: Callable[[Path], list[Path]]
     draft: Callable[[Path], Drafted | None]
-    expected: Callable[[Path, Points, Random, int], Iterator[tuple[str, Iterator[str]]]]
+    expected: Callable[[Path, Points, Random, Counts], Iterator[tuple[str, Iterator[str]]]]

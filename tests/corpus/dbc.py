@@ -6,10 +6,12 @@ import math
 import random
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from cantools.database.can import Node
 from cantools.database.errors import DecodeError
 from fieldscribe.cli.import_dbc import database_of, text_of
 from fieldscribe.diagnostics import Report
@@ -20,10 +22,13 @@ from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.pipeline import load_device
 
-from corpus.collection import Collection, Drafted, Points
-from corpus.registers import UnlikeError, names_of, nearest, real
+from corpus.collection import Collection, Counts, Drafted, Points
+from corpus.registers import Register, UnlikeError, names_of
+from corpus.writing import nearest, real
 
 FRAMES = 20
+NODE = "fieldscribe_device"
+"""The device: it sends every other message, and the others are sent to it."""
 
 
 def _files(folder: Path) -> list[Path]:
@@ -37,7 +42,10 @@ def _draft(file: Path) -> Drafted | None:
         database = database_of(text)
     except UnreadableError:
         return None
-    drafted = DbcDraft(database, text)
+    database.nodes.append(Node(NODE, None))
+    for message in database.messages[::2]:
+        message.senders.append(NODE)
+    drafted = DbcDraft(database, text, NODE)
     if not drafted.groups:
         return None
     document = Document(file.name, "ab" * 32, "database")
@@ -80,7 +88,7 @@ def _values(message: Any, data: bytes) -> list[str]:
     return sorted(repr(float(value)) for value in values)
 
 
-def expected(file: Path, points: Points, chance: random.Random, count: int) -> Iterator[tuple[str, Iterator[str]]]:
+def expected(file: Path, points: Points, chance: random.Random, counts: Counts) -> Iterator[tuple[str, Iterator[str]]]:
     """Yield points with vectors for random frames, as cantools takes them apart."""
     of_message: dict[str, dict[str, Mapping[str, Any]]] = {}
     for point in points:
@@ -89,7 +97,7 @@ def expected(file: Path, points: Points, chance: random.Random, count: int) -> I
         given = of_message.get(message.name, {})
         known = [signal for signal in message.signals if _title(signal) in given]
         taken: dict[str, list[tuple[bytes, float]]] = {}
-        for _ in range(count if known else 0):
+        for _ in range(counts.read if known else 0):
             data = _frame(message, chance)
             try:
                 raws = message.decode(data, decode_choices=False, scaling=False)
@@ -100,7 +108,9 @@ def expected(file: Path, points: Points, chance: random.Random, count: int) -> I
         for signal in known:
             if not (signal.is_float and (signal.scale, signal.offset) != (1, 0)):
                 point = given[_title(signal)]
-                yield point["name"], _vectors(message, signal, taken.get(signal.name, []), point)
+                read = _vectors(message, signal, taken.get(signal.name, []), point)
+                written = _register(signal).written(point, chance, counts.written * (point["access"] == "w"))
+                yield point["name"], chain(read, written)
 
 
 def _title(signal: Any) -> str:
@@ -160,6 +170,8 @@ def _vectors(message: Any, signal: Any, taken: list[tuple[bytes, float]], point:
         pattern = sum((data[bit // 8] >> bit % 8 & 1) << place for place, bit in enumerate(_bits(signal)))
         raw = pattern if signal.is_float else int(found)
         yield f"can_signal\t{message.frame_id}\t{data.hex()}\tok\t{raw}\t{_alone(message, signal, raw).hex()}"
+        if point["access"] == "w":
+            continue
         if signal.is_float:
             yield from [f"decode\t{raw}\tok\t{real(found)}"] if math.isfinite(found) else []
         elif ratio == 1 and not offset:
@@ -171,6 +183,34 @@ def _vectors(message: Any, signal: Any, taken: list[tuple[bytes, float]], point:
                 raise UnlikeError(f"{raw} is no special code, or should be one")
             value = f"special\t-\t{code['name']}" if code else f"ok\t{real(nearest(raw * ratio + offset))}"
             yield f"decode\t{raw}\t{value}"
+
+
+def _register(signal: Any) -> Register:
+    """Return a signal as it is written: between its limits, if these are raw numbers of it and leave out no name.
+
+    Beside a scale, a number with a name is none that a value may become.
+    """
+    ratio, offset = (Fraction(str(number)) for number in (signal.scale, signal.offset))
+    named = {int(raw): str(title) for raw, title in (signal.choices or {}).items() if _holds(signal, int(raw))}
+    kind = "f" if signal.is_float else "s" if signal.is_signed else "u"
+    one = Register(kind, signal.length, ratio=ratio, offset=offset)
+    if ratio == 1 and not offset:
+        one.names = named
+    else:
+        one.codes = {raw & (1 << signal.length) - 1: title for raw, title in named.items()}
+    if not (signal.is_float or signal.is_multiplexer or signal.minimum is None or signal.maximum is None):
+        ends = [(Fraction(str(end)) - offset) / ratio for end in (signal.minimum, signal.maximum)]
+        low, high = sorted(ends)
+        fit = low < high and all(end.denominator == 1 and _holds(signal, int(end)) for end in ends)
+        if fit and all(low <= raw <= high for raw in one.names):
+            one.ends = low * ratio + offset, high * ratio + offset
+            one.ends = min(one.ends), max(one.ends)
+    return one
+
+
+def _holds(signal: Any, raw: int) -> bool:
+    least = -(1 << signal.length - 1) if signal.is_signed else 0
+    return bool(least <= raw < least + (1 << signal.length))
 
 
 DBC = Collection("dbc", _files, _draft, expected)

@@ -13,6 +13,10 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
+from corpus import writing
+from corpus.collection import Counts
+from corpus.writing import Written, WrittenFloat, nearest, real, written_text
+
 KINDS = {
     "decode": "raw:int status:word value:real special:word",
     "decode_count": "raw:int status:word count:int special:word",
@@ -22,6 +26,7 @@ KINDS = {
     "words": "raw:int words:ints",
     "text_decode": "words:ints text:bytes",
     "can_signal": "id:int bytes:bytes status:word raw:int packed:bytes",
+    **writing.KINDS,
 }
 """The kinds of vectors that oracles write, with their fields."""
 
@@ -30,21 +35,12 @@ class UnlikeError(ValueError):
     """A point has another form than its register."""
 
 
-def real(value: float) -> str:
-    """Return a number as vectors have it: its pattern without zeros at the end."""
-    return struct.pack(">d", value).hex().rstrip("0") or "0"
-
-
-def nearest(value: Fraction) -> float:
-    """Return the binary64 nearest to a number."""
-    return value.numerator / value.denominator
-
-
 @dataclass(slots=True)
 class Register:
     """A register: `kind` is u, s, b (decimal digits), f or t (text), `bits` are the first and the number of them.
 
-    `names` are the titles of raw numbers, or of bits if it `has_flags`; `codes` are patterns that are no number.
+    `names` are the titles of raw numbers, or of bits if it `has_flags`; `codes` are patterns that are no number. What
+    may be written is between the `ends`, which are values, or what has a name if it is `closed`.
     """
 
     kind: str
@@ -56,24 +52,67 @@ class Register:
     ratio: Fraction = Fraction(1)
     offset: Fraction = Fraction(0)
     factor: str = ""
+    most_exponent: int = 10
     names: Mapping[int, str] = field(default_factory=dict)
     has_flags: bool = False
     codes: Mapping[int, str] = field(default_factory=dict)
     per_word: int = 2
     clears: bool = False
     """Whether the bits beside its own are written as 0, if it is written."""
+    ends: tuple[Fraction | None, Fraction | None] = None, None
+    closed: bool = False
+    access: str = "r"
 
-    def vectors(self, point: Mapping[str, Any], chance: Random, count: int) -> Iterator[str]:
+    def vectors(self, point: Mapping[str, Any], chance: Random, counts: Counts) -> Iterator[str]:
         """Yield vectors for so many random contents, for a point of the export. Raises UnlikeError."""
-        words, self.clears = -(-self.width // 16), self.clears and "w" in point["access"]
-        if (words, self.address or point["address"]) != (point["words"], point["address"]):
-            raise UnlikeError(f"{point['words']} words at {point['address']}, not {words} at {self.address}")
+        words, self.clears = -(-self.width // 16), self.clears and "w" in self.access
+        place = words, self.address or point["address"], self.access
+        if place != (point["words"], point["address"], point["access"]):
+            raise UnlikeError(f"{point['words']} words at {point['address']} {point['access']}, not {place}")
         given = names_of(point, self.names, self.has_flags)
-        for _ in range(count):
+        for _ in range(counts.read if "r" in self.access else 0):
             if self.kind == "t":
                 yield self._text(chance)
             else:
                 yield from self._number(chance, given)
+        yield from self.written(point, chance, counts.written if "w" in self.access else 0)
+
+    def written(self, point: Mapping[str, Any], chance: Random, count: int) -> Iterator[str]:
+        """Yield vectors for so many random contents that are written."""
+        for _ in range(count):
+            if self.kind == "t":
+                yield written_text(self.width // 16, self.per_word, chance)
+            elif self.kind == "f":
+                yield from self._written_float().vectors(chance)
+            else:
+                exponent = self._exponent(chance)
+                if self.factor:
+                    yield f"with\t{self.factor}={exponent}"
+                yield from self._written(exponent).vectors(point, chance)
+
+    def _written_float(self) -> WrittenFloat:
+        low, high = self.ends
+        limits = None if low is None or high is None else (nearest(low), nearest(high))
+        return WrittenFloat(self.width, limits, self.codes)
+
+    def _written(self, exponent: int) -> Written:
+        """Return what may be written; an end between two raw numbers leaves out the one beyond."""
+        width, ratio = self.bits[1] if self.bits else self.width, self.ratio * Fraction(10) ** exponent
+        least, greatest = (-(1 << width - 1), (1 << width - 1) - 1) if self.kind == "s" else (0, (1 << width) - 1)
+        if self.kind == "b":
+            greatest = 10 ** (width // 4) - 1
+        stated = [None if end is None else (end - self.offset) / ratio for end in self.ends]
+        low, high = stated if ratio > 0 else stated[::-1]
+        limits = (
+            least if low is None else min(max(math.ceil(low), least), greatest),
+            greatest if high is None else max(min(math.floor(high), greatest), least),
+        )
+        codes = {self._raw(code, width) for code in self.codes if self.kind != "b" or f"{code:x}".isdecimal()}
+        named = () if self.has_flags else tuple(self.names)
+        return Written(least, greatest, ratio, self.offset, limits, named, self.closed, codes)
+
+    def _exponent(self, chance: Random) -> int:
+        return chance.randint(-self.most_exponent, self.most_exponent) if self.factor else 0
 
     def _text(self, chance: Random) -> str:
         room = self.width // 16 * self.per_word
@@ -133,8 +172,8 @@ class Register:
     def _meaning(self, raw: int, pattern: int, chance: Random, names: Mapping[int, str]) -> Iterator[str]:
         is_plain = self.ratio == 1 and not self.offset and not self.factor and self.kind != "f"
         kind = "decode_count" if is_plain else "decode"
+        exponent = self._exponent(chance)
         if self.factor:
-            exponent = chance.randint(-10, 10)
             yield f"with\t{self.factor}={exponent}"
         if pattern in self.codes:
             yield f"{kind}\t{raw}\tspecial\t-\t{self.codes[pattern]}"
@@ -142,7 +181,7 @@ class Register:
             yield f"decode_count\t{raw}\tok\t{raw}"
         elif not is_plain:
             found = self._real(pattern) if self.kind == "f" else raw
-            number = Fraction(found) * self.ratio * (Fraction(10) ** exponent if self.factor else 1) + self.offset
+            number = Fraction(found) * self.ratio * Fraction(10) ** exponent + self.offset
             yield f"decode\t{raw}\tok\t{real(nearest(number) if number or found else found)}"
         if self.has_flags:
             for bit in self.names:

@@ -13,7 +13,7 @@ from typing import Any
 from fieldscribe.importing.sunspec import draft_models
 from fieldscribe.importing.sunspec.models import read_models
 
-from corpus.collection import Collection, Drafted, Points
+from corpus.collection import Collection, Counts, Drafted, Points
 from corpus.registers import Register
 
 
@@ -22,14 +22,19 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _draft(file: Path) -> Drafted:
-    return Drafted(*draft_models(read_models(file, ()), "device", 2, {}))
+    return Drafted(*draft_models(read_models(file, ()), "device", 2, {}, _most_exponent(file)))
+
+
+def _most_exponent(file: Path) -> int:
+    """Return how large scale factors are: of some files so that numbers have counts of 64 bits too."""
+    return Random(file.name).choice((10, 6, 4))
 
 
 _KINDS = {"int": "s", "uint": "u", "enum": "u", "bitfield": "u", "raw": "u", "acc": "u", "float": "f", "count": "u",
           "sunssf": "s", "string": "t"}  # fmt: skip
 
 
-def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator[tuple[str, Iterator[str]]]:
+def expected(file: Path, points: Points, chance: Random, counts: Counts) -> Iterator[tuple[str, Iterator[str]]]:
     """Yield points with vectors for random contents of their registers, which the model is read for once more."""
     model = json.loads(file.read_text("utf-8"))
     by_code: dict[str, list[Mapping[str, Any]]] = {}
@@ -42,7 +47,9 @@ def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator
             kind = _KINDS.get(item["type"].rstrip("0123456789"))
             if kind is None or point["untyped"]:
                 continue
-            yield point["name"], _register(kind, at, item, point).vectors(point, chance, count)
+            one = _register(kind, at, item, point)
+            one.most_exponent = _most_exponent(file)
+            yield point["name"], one.vectors(point, chance, counts)
 
 
 def _items(
@@ -75,6 +82,8 @@ def _register(kind: str, at: int | None, item: Mapping[str, Any], point: Mapping
     if item["type"].startswith(("enum", "bitfield")):
         one.names = {symbol["value"]: symbol["name"] for symbol in item.get("symbols", [])}
         one.has_flags = item["type"].startswith("bitfield") and bool(one.names)
+        one.closed = bool(one.names) and not one.has_flags
+    one.access = item.get("access", "R").lower()
     return one
 
 

@@ -1,7 +1,7 @@
 """Values of random imported devices in C, Python and Rust, against what their collection's own files say.
 
-So many random files are imported, compiled to all languages, and given about so many random contents in all; the oracle
-of the collection says what these mean.
+So many random files are imported and compiled to all languages. In each language about so many random values are
+decoded, and as many encoded; the oracle of the collection says what these give.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ from support.places import TESTS
 from support.rust_crates import without_registry
 from support.rust_workspace import RUNTIMES, WORKSPACE
 
-from corpus.collection import Collection
+from corpus import writing
+from corpus.collection import Collection, Counts
 from corpus.dbc import DBC
 from corpus.registers import KINDS, UnlikeError
 from corpus.sunspec import SUNSPEC
@@ -39,20 +40,23 @@ LANGUAGES = ("c", "python", "rust")
 
 
 class Compared(NamedTuple):
-    """A device: its points, those that the oracle knows, its vectors, and what is unlike the oracle."""
+    """A device: its points, those that the oracle knows, its vectors of both kinds, and what is unlike the oracle."""
 
     name: str
     file: Path
     points: int
     known: int
-    vectors: int
+    read: int
+    written: int
     unlike: Sequence[str]
 
 
 def compare(folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
     """Print a line of counts for each collection, and what differs; return how much that is."""
-    print("| collection | devices | points | compared | values in each language | wrong in C | Python | Rust |")
-    print("|---|---|---|---|---|---|---|---|", flush=True)
+    print(
+        "| collection | devices | points | compared | decoded in each language | encoded | wrong in C | Python | Rust |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|", flush=True)
     chance = random.Random(seed)
     with TemporaryDirectory(prefix="fieldscribe-values-") as place:
         out = Path(place)
@@ -63,9 +67,7 @@ def compare(folder: Path, values: int, devices: int = 40, seed: int = 1) -> int:
         }
         _compile(out)
         compared = {
-            collection: [
-                _asked(collection, one, values // len(LANGUAGES) // len(imported), chance, out) for one in imported
-            ]
+            collection: [_asked(collection, one, values // len(imported), chance, out) for one in imported]
             for collection, imported in made.items()
         }
         _write_workspace([one.name for each in compared.values() for one in each], out)
@@ -120,9 +122,9 @@ def _imported(collection: Collection, file: Path) -> str:
 def _compare(collection: Collection, compared: Sequence[Compared], out: Path) -> int:
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         ran = list(pool.map(lambda one: [_run(language, one, out) for language in LANGUAGES], compared))
-    points, known, vectors = (sum(getattr(one, key) for one in compared) for key in ("points", "known", "vectors"))
+    totals = [sum(getattr(one, key) for one in compared) for key in ("points", "known", "read", "written")]
     wrong = Counter({name: sum(counts[at] for counts in ran) for at, name in enumerate(LANGUAGES)})
-    columns = (collection.name, len(compared), points, known, vectors, *wrong.values())
+    columns = (collection.name, len(compared), *totals, *wrong.values())
     print(f"| {' | '.join(map(str, columns))} |", flush=True)
     for one in compared:
         for text in one.unlike:
@@ -135,11 +137,15 @@ def _asked(collection: Collection, made: tuple[str, Path], values: int, chance: 
     name, file = made
     device = load_device(out / "descriptions" / name / "device.yaml", Report())
     assert device is not None
-    points = [point for point in export_model(device)["points"] if point["generated"]]
+    encodes = {point.name: point.encodes_values for point in device.points}
+    points = [
+        point | {"encodes": encodes[point["name"]]} for point in export_model(device)["points"] if point["generated"]
+    ]
+    per_point = [-(-values // (2 * max(1, sum(way in point["access"] for point in points)))) for way in "rw"]
     lines: list[str] = []
     counts: Counter[str] = Counter()
     unlike, known = [], 0
-    for point, vectors in collection.expected(file, points, chance, -(-values // (2 * max(1, len(points))))):
+    for point, vectors in collection.expected(file, points, chance, Counts(*per_point)):
         lines.append(f"point\t{point}")
         known += 1
         try:
@@ -153,7 +159,8 @@ def _asked(collection: Collection, made: tuple[str, Path], values: int, chance: 
     head = [line for line in place.read_text("utf-8").split("\n") if line.startswith(("vectors\t", "set\t"))]
     kinds = ["\t".join(("kind", kind, str(count), *KINDS[kind].split())) for kind, count in counts.items()]
     place.write_text("\n".join((*head, *kinds, *lines, "")), "utf-8")
-    return Compared(name, file, len(points), known, counts.total(), unlike)
+    written = sum(counts[kind] for kind in writing.KINDS)
+    return Compared(name, file, len(points), known, counts.total() - written, written, unlike)
 
 
 def _run(language: str, one: Compared, out: Path) -> int:
@@ -170,9 +177,10 @@ def _run(language: str, one: Compared, out: Path) -> int:
         done = _done(out / "rust", *command, vectors=vectors)
     counts = {kind: (int(good), int(bad)) for kind, good, bad in re.findall(_COUNTS, done.stdout)}
     passed = sum(good for kind, (good, _) in counts.items() if kind in KINDS)
-    if passed < one.vectors:
+    wrong = one.read + one.written - passed
+    if wrong:
         print(f"  {one.file.name} in {language}: {done.stderr[-3000:]}", flush=True)
-    return one.vectors - passed
+    return wrong
 
 
 _COUNTS = re.compile(r"(?m)^(\w+) (\d+) passed, (\d+) failed")

@@ -16,7 +16,7 @@ from fieldscribe.importing.wb.templates import read_template
 from jinja2 import FileSystemLoader
 from jinja2.sandbox import SandboxedEnvironment
 
-from corpus.collection import Collection, Drafted, Points
+from corpus.collection import Collection, Counts, Drafted, Points
 from corpus.registers import Register
 
 
@@ -37,7 +37,7 @@ def _draft(file: Path) -> Drafted | None:
     return Drafted(drafted.groups, drafted.head)
 
 
-def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator[tuple[str, Iterator[str]]]:
+def expected(file: Path, points: Points, chance: Random, counts: Counts) -> Iterator[tuple[str, Iterator[str]]]:
     """Yield points with vectors for random contents of their registers, which the template is read for once more."""
     text = file.read_text("utf-8-sig")
     if file.suffix == ".jinja":
@@ -65,7 +65,7 @@ def expected(file: Path, points: Points, chance: Random, count: int) -> Iterator
             given.setdefault((point["space"], point["address"], tuple(point["bits"] or ())), []).append(point)
     for place, here in places.items():
         for item, point in _pairs(here, given.get(place, []), english):
-            yield point["name"], _register(item, english).vectors(point, chance, count)
+            yield point["name"], _register(item, english).vectors(point, chance, counts)
 
 
 def _pairs(
@@ -104,10 +104,28 @@ def _place(item: Mapping[str, Any]) -> tuple[str, int, tuple[int, ...]]:
 
 
 def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
+    one = _read(item, english)
+    is_read_only = item.get("readonly") or item.get("read_only") or _place(item)[0] in ("input", "discrete")
+    one.access = "r" if is_read_only else "rw"
+    one.closed = bool(one.names) and item.get("type") != "pushbutton"
+    if not one.names and one.width > 1:
+        low, high = (None if key not in item else Fraction(_number(item[key])) for key in ("min", "max"))
+        one.ends = low, high
+    return one
+
+
+def _number(value: Any) -> Any:
+    """Return a number of a template, which may be a text: "0x1F"."""
+    return int(value, 0) if isinstance(value, str) and "." not in value else value
+
+
+def _read(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
+    """Return the register but for what may be written."""
     form, (space, _, bits) = str(item.get("format", "u16")), _place(item)
     ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
     if space in ("coil", "discrete"):
-        return Register("u", 1, names=_states(item, ratio, offset) if offset else {})
+        named = offset or item.keys() & {"on_value", "off_value"}
+        return Register("u", 1, names=_states(item, ratio, offset) if named else {})
     if form in ("string", "string8"):
         return Register("t", 16 * int(item["string_data_size"]), per_word=1 if form == "string" else 2)
     kind, width = {"float": ("f", 32), "double": ("f", 64), "char8": ("u", 8)}.get(form) or (
@@ -120,8 +138,7 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     one.clears = width == 8 and ":" not in str(item["address"])
     for key, name in (("unsupported_value", "unsupported"), ("error_value", "error")):
         if key in item:
-            code = item[key]
-            one.codes = {**one.codes, (int(code, 0) if isinstance(code, str) else int(code)) & (1 << width) - 1: name}
+            one.codes = {**one.codes, int(_number(item[key])) & (1 << width) - 1: name}
     if "enum" in item:
         raws = [(Fraction(str(value)) - offset) / ratio for value in item["enum"]]
         titles = item.get("enum_titles", [])
@@ -129,7 +146,9 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
         one.names = {int(raw): english.get(title, title) for raw, title in zip(raws, titles, strict=True)}
     elif item.get("type") in ("switch", "alarm"):
         one.names = _states(item, ratio, offset)
-    elif item.get("type") != "pushbutton" or "on_value" not in item:
+    elif item.get("type") == "pushbutton" and _number(item.get("on_value", 1)) != 1:
+        one.names = {_number(item["on_value"]): "Press"}
+    else:
         one.ratio, one.offset = ratio, offset
     return one
 
@@ -137,7 +156,7 @@ def _register(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
 def _states(item: Mapping[str, Any], ratio: Fraction, offset: Fraction) -> Mapping[int, str]:
     """Return the raw numbers of a switch: 1 is on if the template does not say otherwise."""
     if "on_value" in item or "off_value" in item:
-        return {}
+        return {_number(item.get("off_value", 0)): "Off", _number(item.get("on_value", 1)): "On"}
     return {int((value - offset) / ratio): title for value, title in enumerate(("Off", "On"))}
 
 

@@ -19,6 +19,6 @@ def test_samples_have_the_values_of_their_files(tmp_path: Path, capsys: pytest.C
         shutil.copy(path, tmp_path)
     for path in (*SAMPLES.glob("wb/heater.json"), *SAMPLES.glob("wb/relays.json.jinja")):
         shutil.copy(path, tmp_path / f"config-{path.name}")
-    different = compare(tmp_path, 6_000)
+    different = compare(tmp_path, 2_000)
     printed = capsys.readouterr().out
     assert (different, printed.count("| 0 | 0 | 0 |")) == (0, 3), printed
