@@ -20,7 +20,7 @@ from fieldscribe.pasted_numbers import typed_bytes
 from fieldscribe.user_errors import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
-from support.described import kitchen_sink
+from support.described import kitchen_sink, made
 from support.models import changed, named, sample_device, titles
 
 DEVICE = sample_device()
@@ -43,6 +43,34 @@ def decode_last(*frames: bytes, request: bytes | None = None, **settings: int) -
 def texts_of(decoded: FrameResult) -> list[str]:
     """Return the texts of the items."""
     return [item.text for item in decoded.items]
+
+
+def _reads(unit: int, address: int, *words: int) -> tuple[bytes, bytes]:
+    """Return the request and the reply that read these words."""
+    data = b"".join(word.to_bytes(2, "big") for word in words)
+    request = bytes((unit, 3)) + address.to_bytes(2, "big") + len(words).to_bytes(2, "big")
+    return rtu(request.hex()), rtu((bytes((unit, 3, len(data))) + data).hex())
+
+
+def test_blocks_are_where_the_frames_before_have_shown_them() -> None:
+    device = made("kitchen_blocks")
+    decoder = StreamDecoder(device, {}, ModbusFrameDecoder(device))
+    marker = int.from_bytes(b"Su", "big"), int.from_bytes(b"nS", "big")
+
+    def said(*frames: bytes) -> list[str]:
+        return [item.point for item in [decoder.decode(frame) for frame in frames][-1].items]
+
+    search = (_reads(1, 0, 1, 2), _reads(1, 50000, *marker), _reads(1, 50002, 103, 8), _reads(1, 50012, 160, 10))
+    for frames in search:
+        assert "current" not in said(*frames)
+    assert said(*_reads(1, 50004, 18, 0xFFFF)) == ["current", "current_sf"]
+    assert said(*_reads(1, 50014, 7, 40)) == ["module_id_index_1", "module_limit_index_1"]
+    assert said(*_reads(1, 50022, 7))[0] == "module_id_index_3"
+    assert "module_energy_index_3" not in said(*_reads(1, 50024, 7, 8)), "it lies behind the end of the block"
+    assert "current" not in said(*_reads(2, 50004, 18, 0)), "another unit may have its blocks elsewhere"
+    assert "curve_time" not in said(*_reads(1, 50024, 705, 20)), "nobody knows how many elements are before it"
+    assert said(*_reads(1, 50026, 3, 1)) == ["curve_points", "curve_count"]
+    assert said(*_reads(1, 50024 + 3 * 2 + 1 + 1 + 4, 0, 9)) == ["curve_time"]
 
 
 def test_a_write_is_a_request_or_its_echo() -> None:

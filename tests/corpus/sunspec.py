@@ -47,8 +47,7 @@ def expected(file: Path, points: Points, chance: Random, counts: Counts) -> Iter
             kind = _KINDS.get(item["type"].rstrip("0123456789"))
             if kind is None or point["untyped"]:
                 continue
-            one = _register(kind, at, item, point)
-            one.most_exponent = _most_exponent(file)
+            one = _register(kind, at, item, point, _most_exponent(file))
             yield point["name"], one.vectors(point, chance, counts)
 
 
@@ -66,15 +65,17 @@ def _items(
         at = None if repeats or at is None or inner.get("groups") else at + sum(one["size"] for one in inner["points"])
 
 
-def _register(kind: str, at: int | None, item: Mapping[str, Any], point: Mapping[str, Any]) -> Register:
+def _register(kind: str, at: int | None, item: Mapping[str, Any], point: Mapping[str, Any], most: int) -> Register:
     width, sf = 16 * item["size"], item.get("sf")
-    one = Register(kind, width, address=at)
+    one = Register(kind, width, address=at, most_exponent=most)
     if item["type"].startswith("acc"):
         one.codes = {0: "not_accumulated"}
     elif kind == "f":
         one.codes = {0x7FC00000 if width == 32 else 0x7FF8000000000000: "not_implemented"}
     elif kind != "t":
         one.codes = {1 << width - 1 if kind == "s" else (1 << width) - 1: "not_implemented"}
+    if item["type"] == "sunssf":
+        one.ends = Fraction(-most), Fraction(most)
     if isinstance(sf, int):
         one.ratio = Fraction(10) ** sf
     elif sf:

@@ -35,15 +35,21 @@ def at_bases(device: Device, pairs: Sequence[str]) -> tuple[Device, list[str]]:
         if not low <= numbers[name] <= high:
             raise UnclearError(f"{name} is {low}..{high}, not {shortened(text)}", "")
     starts = {base.name: base.at(numbers) for base in device.bases if numbers.keys() >= set(base.wanted)}
-    if not starts:
-        return device, others
+    return moved(device, starts, {}) if starts else device, others
+
+
+def moved(device: Device, starts: Mapping[str, int], lasts: Mapping[str, int]) -> Device:
+    """Return the device with the points of these bases at their addresses; without those behind the last of a block."""
     terms: dict[int, Terms] = {}
-    points = tuple(
-        [_moved(point, starts[point.base], terms) if point.base in starts else point for point in device.points]
-    )
+    points = []
+    for point in device.points:
+        base = point.base or ""
+        here = _moved(point, starts[base], terms) if base in starts else point
+        if base not in lasts or max(here.addresses, default=0) <= lasts[base]:
+            points.append(here)
     stepped = tuple([_of_steps(command, starts) for command in device.stepped_commands])
     left = tuple(base for base in device.bases if base.name not in starts)
-    return replace(device, points=points, stepped_commands=stepped, bases=left), others
+    return replace(device, points=tuple(points), stepped_commands=stepped, bases=left)
 
 
 def advice(bases: Iterable[Base]) -> str:

@@ -10,11 +10,14 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings, setting_of
 from fieldscribe.conditions import absent
+from fieldscribe.conversation.bases import moved
+from fieldscribe.conversation.found_blocks import FoundBlocks
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.near_misses import Doubts
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
 from fieldscribe.families import family
+from fieldscribe.families.decoded_frame import Span
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Place, Point
 from fieldscribe.text import line
@@ -177,6 +180,15 @@ class DecodeState:
     """It grows with each change of what later frames rely on."""
     changed: set[str] = field(default_factory=set)
     """The settings that have changed since the incomplete points were last tried."""
+    blocks: FoundBlocks | None = None
+    """The blocks that a master searches for, if the device has such."""
+
+    def locate(self, span: Span, described: Device) -> None:
+        """Move the points of blocks to where these are, as far as the words that the unit reported show it."""
+        if self.blocks is not None and self.blocks.take(span.space, span.address, span.words or ()):
+            self.device = moved(described, self.blocks.starts, self.blocks.lasts)
+            self.directory, self.formatters = Directory(self.device), {}
+            self.version += 1
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep the numbers of points that the device reported."""

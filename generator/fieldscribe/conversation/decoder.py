@@ -11,6 +11,7 @@ from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
 from fieldscribe.conversation.decode_state import DecodeState, Directory, PointFormatter
 from fieldscribe.conversation.encoding import family_part
+from fieldscribe.conversation.found_blocks import FoundBlocks
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
 from fieldscribe.families.frame_results import FrameResult, Item, Options
@@ -67,7 +68,7 @@ class StreamDecoder:
         """`doubting` makes items say whether their numbers are in range, and which other readings are."""
         given, directory = dict(settings), Directory(device)
         formatters: dict[Any, PointFormatter] = {}
-        self._frame_decoder, self._directory = frame_decoder, directory
+        self._frame_decoder, self._device = frame_decoder, device
         self._framings: Sequence[str] = device.bus.framings
         """The framings of the manual; none once a note has named them."""
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
@@ -75,9 +76,13 @@ class StreamDecoder:
         self._open_requests = decoded_frame.OpenRequests()
         self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int, FrameResult]] = {}
         """Results by the identity of what they were made of, each with the state at that time and its version."""
-        self._state_of_unit = lru_cache(decoded_frame.MOST_STATES)(
-            lambda _unit: DecodeState(device, directory, formatters, given, dict(given), doubting)
-        )
+
+        @lru_cache(decoded_frame.MOST_STATES)
+        def state_of_unit(_unit: int | None) -> DecodeState:
+            blocks = None if device.found is None else FoundBlocks(device, device.found)
+            return DecodeState(device, directory, formatters, given, dict(given), doubting, blocks=blocks)
+
+        self._state_of_unit = state_of_unit
 
     def requests(self, options: Options) -> list[FrameResult]:
         """Decode the request that the following frames answer, if the options give one. Raises UnclearError."""
@@ -99,14 +104,17 @@ class StreamDecoder:
         """
         requests = self._open_requests if requests is None else requests
         decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
-        state = self._state_of_unit(decoded.unit)
+        state = self._state_of_unit(decoded.unit if self._device.found is None else decoded.result.unit)
         requests.follow(decoded, expecting=expecting)
         kept = self._kept.get(id(decoded))
         if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] == state.version:
             return kept[3]
+        for content in decoded.contents if state.blocks else ():
+            if isinstance(content, decoded_frame.Span) and content.learned and not content.written:
+                state.locate(content, self._device)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         framings = self._framings
-        notes = tuple(self._warnings(decoded))
+        notes = tuple(self._warnings(decoded, state.directory))
         if isinstance(frame, decoded_frame.CutFrame):
             return decoded.result.complete(items, (*notes, frame.note))
         result = decoded.result.complete(items, notes)
@@ -116,7 +124,7 @@ class StreamDecoder:
             self._kept[id(decoded)] = decoded, state, state.version, result
         return result
 
-    def _warnings(self, decoded: decoded_frame.DecodedFrame) -> Iterator[str]:
+    def _warnings(self, decoded: decoded_frame.DecodedFrame, directory: Directory) -> Iterator[str]:
         """Yield what may be a mistake in a frame: its framing, an address from 1, a misprint of the manual."""
         framing = decoded.result.framing
         if self._framings and framing not in self._framings:  # once is enough: a gateway changes all
@@ -125,7 +133,7 @@ class StreamDecoder:
             self._framings = ()
         for content in decoded.contents if decoded.request else ():
             if isinstance(content, decoded_frame.Span):
-                yield from _off_by_one(self._directory, content)
+                yield from _off_by_one(directory, content)
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
             yield misprint_text(misprint)
