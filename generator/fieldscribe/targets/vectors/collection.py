@@ -188,6 +188,7 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         None if point.variant is None else str(point.variant),
         None if terms.when is None else _only_for(terms.when, variants),
         terms.keeps,
+        terms.conditions or None,
         *(() if elsewhere is None else (terms.space, elsewhere)),
     )
     for old in point.was:

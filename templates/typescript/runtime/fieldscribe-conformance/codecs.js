@@ -313,11 +313,11 @@ function hasFacts(device, vector) {
   const point = pointNamed(device, vector.point);
   const { facts, unit, group, name } = point;
   const changes = [facts.changes ?? null, facts.changesWith ?? []];
-  const where = [facts.keeps ?? null, facts.writeAt?.space ?? null, facts.writeAt?.addresses ?? []];
+  const where = [facts.keeps ?? null, facts.conditions ?? [], facts.writeAt?.space ?? null, facts.writeAt?.addresses ?? []];
   const only = facts.onlyFor ? [facts.onlyFor[0], ...facts.onlyFor[1]] : [];
   const found = [group, name, unit || null, facts.default ?? null, changes, facts.variant?.join("=") ?? null, only, where];
   const changing = [vector.changes, vector.changes_with.map(camelName)];
-  const written = [vector.keeps, vector.write_space, vector.write_addresses];
+  const written = [vector.keeps, vector.conditions, vector.write_space, vector.write_addresses];
   const { symbol, variant, only_for: expectedOnly } = vector;
   const expected = [vector.group, vector.name, symbol, vector.default, changing, variant, expectedOnly, written];
   return isList(found, expected) && isTyped(point.form.wire, vector.type);
