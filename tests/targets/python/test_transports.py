@@ -87,6 +87,23 @@ def test_a_client_of_pymodbus(l200: Any) -> None:
         asyncio.run(asynchronous())
 
 
+def test_a_client_of_pymodbus_without_a_server(l200: Any) -> None:
+    """Nothing was sent, so the request may be sent again."""
+    with socket.create_server(("127.0.0.1", 0)) as unused:
+        port = unused.getsockname()[1]
+    client = ModbusTcpClient("127.0.0.1", port=port, retries=0)
+    failure = error(l200.HitachiL200(transport("pymodbus").PymodbusLine(client), unit=1).read_at, "holding", STATUS)
+    assert (failure.status, failure.unsent) == ("line", True)
+
+    async def asynchronous() -> None:
+        client = AsyncModbusTcpClient("127.0.0.1", port=port, retries=0, reconnect_delay=0)
+        drive = l200.HitachiL200Async(transport("pymodbus").AsyncPymodbusLine(client), unit=1)
+        with pytest.raises(type(failure), match="the client cannot connect"):
+            await drive.read_at("holding", STATUS)
+
+    asyncio.run(asynchronous())
+
+
 @pytest.mark.full(seconds=1)
 def test_a_serial_line_by_url(l200: Any) -> None:
     serial = transport("serial")
