@@ -11,7 +11,7 @@
  * - whether the meter still has what older editions list at holding 0006h, 0008h, 001Eh, 0024h, 002Ah, 002Ch, 0058h and 00D8h (settings_of_other_editions)
  * - whether the meter has anything at holding F910h, F920h and F930h (registers_of_drivers)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -22,13 +22,23 @@ export interface EastronSdm630Options {
   /** Its address on the bus. */
   unit: number;
 }
+/** What it reads at once: a group, or points. */
+type Requested = "measurements" | "settings" | "maintenance" | "order_of_registers" | Iterable<keyof Values<typeof points> | Point<any, "eastron_sdm630">>;
 /** Eastron SDM630-Modbus V2 on a line. */
 export declare class EastronSdm630 extends ModbusDevice {
   constructor(line: Line, options: EastronSdm630Options);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "measurements" | "settings" | "maintenance" | "order_of_registers" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "eastron_sdm630">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface EastronSdm630 extends Handles<typeof points> {}

@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate fronius_datamanager --target typescript
 // SPDX-License-Identifier: 0BSD
 /** Fronius Datamanager with a three-phase inverter: its device, its points, and names for their numbers. */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -13,13 +13,23 @@ export interface FroniusDatamanagerOptions {
   /** Its address on the bus. */
   unit: number;
 }
+/** What it reads at once: a group, or points. */
+type Requested = "common" | "inverter" | "nameplate" | "settings" | "status" | "controls" | "mppt" | "storage" | "fronius" | Iterable<keyof Values<typeof points> | Point<any, "fronius_datamanager">>;
 /** Fronius Datamanager with a three-phase inverter on a line. */
 export declare class FroniusDatamanager extends ModbusDevice {
   constructor(line: Line, options: FroniusDatamanagerOptions);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "common" | "inverter" | "nameplate" | "settings" | "status" | "controls" | "mppt" | "storage" | "fronius" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "fronius_datamanager">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface FroniusDatamanager extends Handles<typeof points> {}

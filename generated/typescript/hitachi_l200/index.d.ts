@@ -15,7 +15,7 @@
  * - what lies at wire 0000h, 0003h and 0005h to 000Fh (status_register_0003)
  * - whether C073 exists, at wire 1139h (c073_missing)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -27,13 +27,23 @@ export interface HitachiL200Options {
   unit: number;
   voltageClass?: "200V" | "400V";
 }
+/** What it reads at once: a group, or points. */
+type Requested = "coils" | "status" | "monitor_d" | "basic_f" | "standard_a" | "fine_tuning_b" | "control_c" | "motor_h" | Iterable<keyof Values<typeof points> | Point<any, "hitachi_l200">>;
 /** Hitachi L200 on a line. */
 export declare class HitachiL200 extends ModbusDevice {
   constructor(line: Line, options: HitachiL200Options);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "coils" | "status" | "monitor_d" | "basic_f" | "standard_a" | "fine_tuning_b" | "control_c" | "motor_h" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "hitachi_l200">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface HitachiL200 extends Handles<typeof points> {}

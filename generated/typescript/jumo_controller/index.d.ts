@@ -13,7 +13,7 @@
  * - what a request for more than 32 words gets (too_many_words)
  * - what lies at the addresses between those listed (addresses_not_listed)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -24,13 +24,23 @@ export interface JumoControllerOptions {
   /** Its address on the bus. */
   unit: number;
 }
+/** What it reads at once: a group, or points. */
+type Requested = "process_data" | "examples" | "command_words" | Iterable<keyof Values<typeof points> | Point<any, "jumo_controller">>;
 /** JUMO Controller with MOD-Bus on a line. */
 export declare class JumoController extends ModbusDevice {
   constructor(line: Line, options: JumoControllerOptions);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "process_data" | "examples" | "command_words" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "jumo_controller">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface JumoController extends Handles<typeof points> {}

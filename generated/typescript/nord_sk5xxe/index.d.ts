@@ -14,7 +14,7 @@
  * - which parameters can be written (parameter_access)
  * - how a parameter of 32 bits is read and written, and which of its words goes first (parameter_words)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { ModbusDevice } from "fieldscribe-runtime/modbus";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -25,13 +25,23 @@ export interface NordSk5xxeOptions {
   /** Its address on the bus. */
   unit: number;
 }
+/** What it reads at once: a group, or points. */
+type Requested = "process_data" | Iterable<keyof Values<typeof points> | Point<any, "nord_sk5xxe">>;
 /** NORD SK 5xxE on a line. */
 export declare class NordSk5xxe extends ModbusDevice {
   constructor(line: Line, options: NordSk5xxeOptions);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "process_data" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "nord_sk5xxe">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface NordSk5xxe extends Handles<typeof points> {}

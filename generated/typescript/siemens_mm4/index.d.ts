@@ -21,7 +21,7 @@
  * - whether both interfaces report F070 (off_time_fault)
  * - what words 5 to 8 of the process data hold (words_5_to_8)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { UssDevice } from "fieldscribe-runtime/uss";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -35,13 +35,23 @@ export interface SiemensMm4Options {
   model?: "mm410" | "mm420" | "mm430" | "mm440";
   interface?: "rs485" | "rs232";
 }
+/** What it reads at once: a group, or points. */
+type Requested = "parameters" | "answer" | Iterable<keyof Values<typeof points> | Point<any, "siemens_mm4">>;
 /** Siemens MICROMASTER 4 on a line. */
 export declare class SiemensMm4 extends UssDevice {
   constructor(line: Line, options: SiemensMm4Options);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "parameters" | "answer" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "siemens_mm4">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface SiemensMm4 extends Handles<typeof points> {}

@@ -19,7 +19,7 @@
  * - whether the relay events 17, 20, 21, 70, 80, 84 and 93 occur (event_functions)
  * - which relay event means that a relay is not used (event_without_number_0)
  */
-import type { Handles, Line, Point } from "fieldscribe-runtime";
+import type { FieldscribeError, Handles, Line, Point, Values } from "fieldscribe-runtime";
 import { CanDevice } from "fieldscribe-runtime/can";
 import type * as points from "./points.js";
 export * from "./enums.js";
@@ -31,13 +31,23 @@ export interface WoodwardMpu2sOptions {
   unit: number;
   voltage?: "100V" | "400V";
 }
+/** What it reads at once: a group, or points. */
+type Requested = "visualisation_data" | "parameters_access" | "parameters_general" | "parameters_controllers" | "parameters_breaker" | "parameters_synchronisation" | "parameters_monitoring_generator" | "parameters_monitoring_mains" | "parameters_monitoring_power" | "parameters_inputs" | "parameters_texts" | "parameters_analog" | "parameters_relays" | "parameters_operation" | Iterable<keyof Values<typeof points> | Point<any, "woodward_mpu2s">>;
 /** Woodward MPU2-S on a line. */
 export declare class WoodwardMpu2s extends CanDevice {
   constructor(line: Line, options: WoodwardMpu2sOptions);
-  /** Read a group by its name, or several points by their names or as they are, with few requests. */
+  /**
+   * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has
+   * its value; else what is not there has none.
+   */
+  readMany<Name extends keyof Values<typeof points>>(
+    what: Iterable<Name>,
+    how?: { errors?: "raise" },
+  ): Promise<Pick<Values<typeof points>, Name>>;
+  readMany(what: Requested, how?: { errors?: "raise" }): Promise<Partial<Values<typeof points>>>;
   readMany(
-    what: "visualisation_data" | "parameters_access" | "parameters_general" | "parameters_controllers" | "parameters_breaker" | "parameters_synchronisation" | "parameters_monitoring_generator" | "parameters_monitoring_mains" | "parameters_monitoring_power" | "parameters_inputs" | "parameters_texts" | "parameters_analog" | "parameters_relays" | "parameters_operation" | Iterable<Extract<keyof Handles<typeof points>, string> | Point<any, "woodward_mpu2s">>,
-    how?: { errors?: "raise" | "return" },
-  ): Promise<Record<string, any>>;
+    what: Requested,
+    how: { errors?: "raise" | "return" },
+  ): Promise<Partial<Values<typeof points, FieldscribeError>>>;
 }
 export interface WoodwardMpu2s extends Handles<typeof points> {}

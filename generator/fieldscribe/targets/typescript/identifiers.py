@@ -45,7 +45,7 @@ _CLASS_TAKEN = frozenset(
     | {"WordKind", "WriteOnly", "U8", "U16", "U32", "U64", "S8", "S16", "S32", "S64", "F32", "F64"}
 )
 """Names that generated modules use, so that no class may have them."""
-_BESIDE_DEVICE = frozenset({"Extract", "Iterable", "Line", "Point"})
+_BESIDE_DEVICE = frozenset({"FieldscribeError", "Iterable", "Line", "Partial", "Pick", "Point", "Requested", "Values"})
 """Names that only the module with the class of the device uses, beside the class of its family."""
 
 _POINT_TAKEN = _RESERVED | OBJECT_MEMBERS | MAKERS | DEVICE_MEMBERS

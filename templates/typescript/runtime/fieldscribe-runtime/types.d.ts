@@ -188,3 +188,10 @@ export type Handles<Module> = {
       ? CommandHandle<Given>
       : never;
 };
+
+/** The values of the points of a module that can be read, by attribute; with `Failure` where that may stand instead. */
+export type Values<Module, Failure = never> = {
+  [Name in keyof Handles<Module> as Handles<Module>[Name] extends { read(): any } ? Name : never]:
+    | (Handles<Module>[Name] extends { read(): Promise<infer Value> } ? Value : never)
+    | Failure;
+};

@@ -6,7 +6,7 @@ import * as jumo from "jumo-controller";
 import * as nord from "nord-sk5xxe";
 import * as mm4 from "siemens-mm4";
 import * as mpu2s from "woodward-mpu2s";
-import { SpecialCode, type Line, type UnknownNumber } from "fieldscribe-runtime";
+import { FieldscribeError, SpecialCode, type Line, type UnknownNumber } from "fieldscribe-runtime";
 
 export const all = [eastron, fronius, l200, jumo, nord, mm4, mpu2s];
 
@@ -74,8 +74,19 @@ export async function talk(line: Line): Promise<void> {
   const drive = new l200.HitachiL200(line, { unit: 1, voltageClass: "200V" });
   const read: number = await drive.baseFrequency.read();
   await drive.baseFrequency.write(read);
-  await drive.readMany("status");
+  const named = await drive.readMany(["baseFrequency", "digitalOutputs"]);
+  named.baseFrequency.toFixed(named.digitalOutputs.relayAl ? 1 : 2);
+  // @ts-expect-error it was not asked for
+  named.outputFrequency;
+  const group = await drive.readMany("status");
+  // @ts-expect-error a point may not exist in this device
+  group.outputFrequency.toFixed(1);
+  group.outputFrequency?.toFixed(1);
   await drive.readMany([l200.baseFrequency, "outputFrequency"]);
+  const tried = await drive.readMany(["baseFrequency"], { errors: "return" });
+  // @ts-expect-error its error may stand there
+  tried.baseFrequency?.toFixed(1);
+  if (!(tried.baseFrequency instanceof FieldscribeError)) tried.baseFrequency?.toFixed(1);
   await drive.enter.send();
   // @ts-expect-error there is no such group
   await drive.readMany("statuses");
@@ -89,6 +100,10 @@ export async function talk(line: Line): Promise<void> {
   new l200.HitachiL200(line, { unit: 1, voltageClass: "230V" });
   // @ts-expect-error every device has a unit
   new l200.HitachiL200(line, {});
+  // @ts-expect-error a command has no value
+  await drive.readMany(["enter"]);
   const other = new mm4.SiemensMm4(line, { unit: 0, link: { pkw: 4, pzd: 2 } });
   await other.maximumFrequency.write(50, { keep: true });
+  // @ts-expect-error it is only written
+  await other.readMany(["controlWord"]);
 }
