@@ -24,7 +24,7 @@ function readDevice() {
     point.allowed = data.limits[point.limits];
     return point;
   });
-  data.byName = new Map(data.points.map((/** @type {Point} */ point) => [point.name, point]));
+  data.byName = new Map(data.points.flatMap((/** @type {Point} */ point) => [...point.was, point.name].map((name) => [name, point])));
   return data;
 }
 
@@ -206,7 +206,7 @@ function listRow(point) {
   const name = element("td", { className: "title" }, link, element("span", { className: "name" }, point.name + (point.variant ? ` · ${point.variant}` : "")));
   const address = element("td", { className: "address" }, at === null ? "" : shortAddress(at), at === null ? null : element("span", { className: "soft" }, ` ${at}`));
   const row = element("tr", {}, element("td", { className: "code" }, point.code), name, address,
-    element("td", {}, shared.type ?? ""), element("td", {}, shared.access), element("td", { className: "range" }, point.allowed.range ?? point.allowed.raw ?? ""), element("td", {}, shared.unit ?? ""));
+    element("td", {}, shared.type ?? ""), element("td", {}, shared.access), element("td", { className: "range" }, point.allowed.range ?? (point.allowed.raw ? `raw ${point.allowed.raw}` : "")), element("td", {}, shared.unit ?? ""));
   row.dataset.point = point.name;
   if (point.name === ui.current) row.setAttribute("aria-current", "true");
   if (!shared.generated) row.className = "documented";
@@ -253,7 +253,7 @@ function filterFields() {
   const types = [...new Set(device.points.map(typeName))].filter(Boolean).sort();
   const accesses = [...new Set(device.points.map((point) => point.shared.access))].sort();
   const fields = [
-    choice("Group", "group", device.groups.map(([name, title]) => [name, titlesOf(title)[0] ?? name])),
+    ui.group = choice("Group", "group", device.groups.map(([name, title]) => [name, titlesOf(title)[0] ?? name])),
     choice("Access", "access", accesses.map((access) => [access, access])),
     choice("Type", "type", types.map((type) => [type, type])),
     choice("Order", "order", Object.entries(ORDERS).map(([name, [text]]) => [name, text]), false),
@@ -320,7 +320,9 @@ function show() {
   ui.detail.replaceChildren(...(isList ? [] : [point ? withNeighbours(point) : sectionArticle(section)]));
   if (point) fillCalculator(document.getElementById("calculator"), point);
   document.title = point ? `${point.code || point.name} · ${device.name}` : device.name;
-  if (kind === "group") { state.group = ""; showGroup(name); } else if (!isList) {
+  if (kind === "group") showGroup(name);
+  else if (kind === "point" && !point) ui.status.textContent = `There is no point ${name.slice(0, 99)}: ${ui.status.textContent}`;
+  else if (!isList) {
     const place = document.getElementById(`${kind}=${name}`);
     if (place) place.scrollIntoView({ block: "center" });
     else scrollTo(0, 0);
@@ -339,11 +341,13 @@ function markRow(point) {
   if (row && ui.list.clientHeight && (below < 0 || below > ui.list.clientHeight - row.offsetHeight)) ui.list.scrollTop = row.offsetTop - ui.list.clientHeight / 3;
 }
 
-/** @param {string} name */
+/** List a group alone, as if the reader had chosen it. @param {string} name */
 function showGroup(name) {
-  const at = ui.shown.findIndex((/** @type {Point} */ point) => device.groups[point.group]?.[0] === name);
-  if (at >= 0) extendList(Math.max(ui.listed, at + CHUNK));
-  document.getElementById(`group=${name}`)?.scrollIntoView();
+  const isKnown = device.groups.some(([each]) => each === name);
+  state.query = ui.find.value = "";
+  state.group = ui.group.querySelector("select").value = isKnown ? name : "";
+  showList();
+  scrollTo(0, 0);
 }
 
 /** Return the section whose tables have the target of a link. @param {string} hash */

@@ -36,6 +36,12 @@ function countUnit(point) {
   return counts > 0 ? `in 10^-${counts} ${unit}`.trim() : unit && `in ${unit}`;
 }
 
+/** Return what makes the raw number of the words of a telegram in C. @param {Point} point @param {string} name @param {string} word */
+function rawInC(point, name, word) {
+  if (point.shared.isGroup) return `${name}_extract(${word})`;
+  return point.addresses.length > 1 || point.shared.type?.startsWith("s") ? `${name}_from_words(&${word})` : word;
+}
+
 /** @type {Record<string, (device: PageDevice, point: Point, type: string, name: string) => (string | false)[]>} */
 const SNIPPETS = {
   /** @param {PageDevice} device @param {Point} point @param {string} prefix @param {string} name */
@@ -45,7 +51,7 @@ const SNIPPETS = {
     const remark = countUnit(point) && ` /* ${countUnit(point)} */`;
     const head = `#include "${device.id}_${device.family}.h"\n`;
     const address = `${prefix}_${name}`.toUpperCase() + "_ADDRESS";
-    if (isCyclic(point)) return [head, `raw = words[${address}];${remark}`];
+    if (isCyclic(point)) return [head, `raw = ${rawInC(point, `${prefix}_${name}`, `words[${address}]`)};${point.shared.form === "integer" ? remark : ""}`];
     if (point.shared.form === "text") return [head, `const uint16_t address = ${address}; /* read its words, then call ${prefix}_${name}_decode */`];
     if (device.family === "can") {
       return [

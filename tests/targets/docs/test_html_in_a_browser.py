@@ -100,6 +100,23 @@ def test_a_slash_begins_a_search_and_arrows_go_to_points(seen: dict[str, Any]) -
     assert seen["typed"] == ["base_freq", "base_frequency"]
 
 
+def test_a_link_to_a_group_lists_it_alone(seen: dict[str, Any]) -> None:
+    """Whatever was searched before."""
+    query, listed, in_group = seen["group"]
+    assert query == ""
+    assert 0 < listed == in_group < 256
+
+
+def test_a_link_to_a_point_that_is_gone_says_so(seen: dict[str, Any]) -> None:
+    assert seen["unknown"] == "There is no point gone: 256 of 256 points"
+
+
+def test_a_range_beside_a_unit_is_no_raw_number(seen: dict[str, Any]) -> None:
+    """Where the scale is not known, the raw range says what it is."""
+    assert seen["ranges"]["base_frequency"] == "0..400"
+    assert seen["ranges"]["scaled_output_frequency"] == "raw 0..999999"
+
+
 def test_escape_clears_what_finds_nothing(seen: dict[str, Any]) -> None:
     assert seen["nothing"].startswith("0 of ")
     assert seen["cleared"] == ""
@@ -128,9 +145,11 @@ def test_a_hostile_description_is_shown_as_text(tmp_path: Path) -> None:
     device = shipped("jumo_controller")
     points = tuple(replace(point, title={"en": hostile}, note={"en": hostile}) for point in device.points)
     groups = tuple(replace(group, title={"en": hostile}) for group in device.groups)
+    points = (replace(points[0], was=("earlier",)), *points[1:])
     device = replace(device, vendor=hostile, model="-->", title={"en": hostile}, points=points, groups=groups)
     first = next(point.item for point in points if point.generated)
-    seen = _visited(device, tmp_path, ["onerror"], ["", f"#point={first}"])
+    seen = _visited(device, tmp_path, ["onerror"], ["", f"#point={first}", "#point=earlier"])
+    assert seen["shown"]["#point=earlier"] == points[0].item
     assert (seen["troubles"], seen["wide"]) == ([], [])
     assert seen["searches"]["onerror"]["points"]
     assert seen["elements"] == 4  # the data, the vectors, the code and the script of the page

@@ -7,7 +7,7 @@ const [file, executablePath, modules, wanted] = process.argv.slice(2);
 const { queries, hashes } = JSON.parse(wanted);
 const STRANGE = ["#__proto__", "#constructor", "#%", "#point=%", "#point=__proto__", "#erratum=toString", `#${"A".repeat(99999)}`];
 const { browser, page, troubles } = await opened(executablePath, modules);
-const seen = { troubles, wide: [], axe: {}, searches: {}, papers: [] };
+const seen = { troubles, wide: [], axe: {}, searches: {}, papers: [], shown: {} };
 
 async function open(hash = "") {
   await page.goto("about:blank");
@@ -18,6 +18,7 @@ const titles = () => page.$$eval("#list tbody a", (links) => links.map((link) =>
 for (const hash of hashes) {
   await open(hash);
   seen.wide.push(...(await wideAt(page)).map((each) => `${hash} at ${each}`));
+  seen.shown[hash] = await page.evaluate("ui.current");
   const found = await axeFinds(page, modules, hash ? ["#list"] : []); // which is the same in each view
   if (found.length) seen.axe[hash] = found;
 }
@@ -49,6 +50,13 @@ if (await axis.count()) {
 await page.keyboard.press("/");
 await page.keyboard.type("zzyzx");
 seen.nothing = await page.textContent(".status");
+seen.group = await page.evaluate(async () => {
+  const [, [name]] = device.groups;
+  location.hash = `group=${name}`;
+  await new Promise((done) => addEventListener("hashchange", () => setTimeout(done), { once: true }));
+  return [ui.find.value, ui.shown.length, device.points.filter((point) => device.groups[point.group][0] === name).length];
+});
+await page.keyboard.type("zzyzx");
 await page.keyboard.press("Escape");
 seen.cleared = await page.inputValue("#find");
 seen.scrolled = await page.waitForFunction(() => {
@@ -71,6 +79,9 @@ seen.typed = [await page.inputValue("#find")];
 await page.keyboard.press("ArrowDown");
 seen.typed.push(await page.evaluate("document.activeElement.closest('tr')?.dataset.point"));
 for (const hash of STRANGE) await open(hash);
+await open("#point=gone");
+seen.unknown = await page.textContent(".status");
+seen.ranges = await page.evaluate(() => Object.fromEntries(device.points.map((point) => [point.name, listRow(point).querySelector(".range").textContent])));
 const paper = () => page.evaluate("getComputedStyle(document.body).backgroundColor");
 seen.papers.push(await paper());
 await page.click(".scheme");
