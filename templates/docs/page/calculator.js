@@ -8,9 +8,9 @@ function fillCalculator(place, point) {
   place.replaceChildren(...new Calculator(point, codec).parts());
 }
 
-/** What was entered last stays for a visit: the unit, the framing, and the raw numbers of other points. */
-/** @type {{ unit: number | null, framing: string, pkw?: number, raws: Record<string, any>, bases: Record<string, number> }} */
-const entered = { unit: null, framing: "", raws: {}, bases: {} };
+/** What was entered last stays for a visit: the unit, the framing, other points, and the numbers that addresses depend on. */
+/** @type {{ unit: number | null, framing: string, pkw?: number, others: Record<string, string>, numbers: Record<string, number | undefined> }} */
+const entered = { unit: null, framing: "", others: {}, numbers: {} };
 
 class Calculator {
   /** @param {Point} point @param {Codec} codec */
@@ -39,17 +39,18 @@ class Calculator {
     const [low, high] = profile.units;
     entered.unit ??= low <= 1 && high >= 1 ? 1 : low;
     entered.framing ||= device.framings[0] ?? device.family;
-    const open = this.needs.filter((name) => entered.raws[name] === undefined);
+    const open = this.needs.filter((name) => entered.others[name] === undefined);
     let choices = [{}];
     for (const name of open) {
-      const starts = [...startsOf(this.other(name), 1)];
-      choices = choices.flatMap((made) => starts.map((raw) => ({ ...made, [name]: String(raw) }))).slice(0, MOST_CHOICES);
+      const other = this.other(name);
+      const starts = [...startsOf(other, 1)].map((raw) => (isFloat(other) ? shownValue(other, raw, {}) : String(raw)));
+      choices = choices.flatMap((made) => starts.map((text) => ({ ...made, [name]: text }))).slice(0, MOST_CHOICES);
     }
     const tried = (/** @type {(raw: any) => any} */ test) => firstGood(choices, (made) => {
-      Object.assign(entered.raws, made);
+      Object.assign(entered.others, made);
       if (firstGood(startsOf(this.codec), test) === undefined) throw new SyntaxError();
     });
-    Object.assign(entered.raws, tried((raw) => this.test(raw)) ?? tried((raw) => this.codec.form.decode(raw, this.raws())) ?? choices[0]);
+    Object.assign(entered.others, tried((raw) => this.test(raw)) ?? tried((raw) => this.codec.form.decode(raw, this.raws())) ?? choices[0]);
   }
 
   /** Raise what is wrong with a raw number. @param {any} raw */
@@ -66,6 +67,7 @@ class Calculator {
 
   parts() {
     const { codec, point } = this;
+    /** @type {any} */
     this.value = this.field("Value", (text) => this.rawOfValue(text), point.shared.unit);
     this.rawField = this.field("Raw", (text) => this.rawOfNumber(text));
     this.words = this.field(codec.size > 1 ? "Words" : "Word", (text) => this.rawOfWords(text));
@@ -77,7 +79,7 @@ class Calculator {
     this.show();
     return [element("h3", {}, "Calculator"),
       element("div", { className: "fields" }, ...fields.map((each) => each.box ?? each)),
-      others.length ? element("div", { className: "fields", role: "group", ariaLabel: "Raw numbers of other points" }, element("span", { className: "soft" }, "with raw"), ...others) : "",
+      others.length ? element("div", { className: "fields", role: "group", ariaLabel: "Other points" }, element("span", { className: "soft" }, "with"), ...others) : "",
       this.bits?.box, this.status, this.line(), this.frames].filter(Boolean);
   }
 
@@ -95,31 +97,48 @@ class Calculator {
     return element("label", {}, element("span", {}, "Name"), list);
   }
 
-  /** A field for the raw number of another point, with what it means. @param {string} name */
+  /** A field for another point with what it means: its raw number, or the value of a float. @param {string} name */
   need(name) {
     const other = this.other(name);
-    const input = element("input", { type: "text", value: entered.raws[name], spellcheck: false, autocomplete: "off" });
+    const input = element("input", { type: "text", value: entered.others[name], spellcheck: false, autocomplete: "off" });
     const told = element("span", { className: "unit" });
-    const say = () => { try { told.textContent = other.told(wholeText(input.value, other.form.wire.isBig)); } catch { told.textContent = ""; } };
-    input.addEventListener("input", () => { entered.raws[name] = input.value.trim(); say(); this.show(); });
+    const say = () => { try { told.textContent = other.told(this.rawOf(name)); } catch { told.textContent = ""; } };
+    input.addEventListener("input", () => {
+      entered.others[name] = input.value.trim();
+      say();
+      if (this.again) this.take(this.again, this.value.input); else this.show();
+    });
     say();
-    return element("label", {}, pointLink(other.item), element("span", { className: "unseen" }, ` raw number of ${other.name}`), input, told);
+    return element("label", {}, pointLink(other.item), element("span", { className: "soft" }, isFloat(other) ? "value" : "raw number", element("span", { className: "unseen" }, ` of ${other.name}`)), input, told);
+  }
+
+  /** @param {string} name */
+  rawOf(name) {
+    const other = this.other(name);
+    const text = entered.others[name];
+    return isFloat(other) ? other.form.wire.raw(other.form.converted(numberText(text), {})) : wholeText(text, other.form.wire.isBig);
   }
 
   raws() {
-    return Object.fromEntries(this.needs.map((name) => [name, wholeText(entered.raws[name], this.other(name).form.wire.isBig)]));
+    return Object.fromEntries(this.needs.map((name) => [name, this.rawOf(name)]));
   }
 
-  /** The variant of the point, and those that the reader chose; of other axes the first. */
+  /** The variant of the point, else those that the reader chose, of other axes the first: as far as the point exists then. */
   variants() {
     const [axis, value] = this.point.variant.split("=");
-    const chosen = Object.entries(device.variants).map(([name, values]) => [name, (name === axis && value) || state.variants[name] || values[0]]);
+    const [only, kept] = this.codec.facts.onlyFor ?? [];
+    const chosen = Object.entries(device.variants).map(([name, all]) => {
+      const values = name === axis ? [value] : name === only ? kept : all;
+      return [name, values.includes(state.variants[name]) ? state.variants[name] : values[0]];
+    });
     return Object.fromEntries(chosen);
   }
 
   /** @param {() => any} read @param {HTMLElement} source */
   take(read, source) {
     this.typed = undefined;
+    /** Reads the value again, which stays when other points change. */
+    this.again = source === this.value?.input ? read : undefined;
     try {
       this.raw = read();
       this.show(source);
@@ -164,8 +183,12 @@ class Calculator {
 
   /** @param {string} text */
   rawOfWords(text) {
-    const words = (text.match(/[0-9a-f]+/gi) ?? []).map((word) => parseInt(word, 16));
-    return this.codec.fromWords(words);
+    const words = text.replace(/0x/gi, " ").split(/[\s,;:]+/).filter(Boolean);
+    const odd = words.find((word) => !/^[0-9a-f]{1,4}h?$/i.test(word));
+    const { size } = this.codec;
+    if (odd !== undefined) throw new SyntaxError(`${odd} is no word of up to four hexadecimal digits`);
+    if (words.length !== size) throw new SyntaxError(`${words.length || "no"} word${words.length === 1 ? "" : "s"} here, ${size === 1 ? "one is" : `${size} are`} needed`);
+    return this.codec.fromWords(words.map((word) => parseInt(word, 16)));
   }
 
   /** Show what follows from the raw number in all fields but the one that is edited. @param {HTMLElement} [source] */
@@ -173,7 +196,6 @@ class Calculator {
     const { codec, raw } = this;
     if (raw === null) return;
     const set = (/** @type {any} */ field, /** @type {string} */ text) => { if (field.input !== source) field.input.value = text; };
-    let raws = {};
     /** @type {string[]} */
     const problems = [];
     const attempt = (/** @type {() => any} */ work, /** @type {any} */ other) => {
@@ -183,20 +205,20 @@ class Calculator {
         return other;
       }
     };
-    raws = attempt(() => this.raws(), {});
-    set(this.value, attempt(() => shownValue(codec, raw, raws), ""));
+    const raws = attempt(() => this.raws(), null);
+    set(this.value, raws ? attempt(() => shownValue(codec, raw, raws), "") : "");
     set(this.rawField, String(raw));
     set(this.words, attempt(() => hexWords(this.wordsOf(raw)), ""));
     if (this.list && this.list !== source) this.list.value = this.entries?.find(([number]) => number.replace(/ \(.*/, "") === String(raw))?.[0] ?? "";
-    if (codec.check) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); }, undefined);
-    const told = attempt(() => codec.told(raw, raws), "");
+    if (codec.check && raws) attempt(() => { codec.requireRaw(raw); codec.check(raw, raws); }, undefined);
+    const told = raws ? attempt(() => codec.told(raw, raws), "") : "";
     const name = codec.nameOf(raw);
     const isRounded = typeof this.typed === "number" && !problems.length && String(this.typed) !== shownValue(codec, raw, raws);
     this.status.textContent = [told, isRounded ? `rounded, ${this.typed} is between two raw numbers` : "", typeof name === "string" && !told.includes(name) ? name : "", this.flagNames(), ...problems].filter(Boolean).join(" · ");
     this.status.classList.toggle("wrong", problems.length > 0);
     this.bits?.show();
     this.drawBits();
-    void this.exchange(raws, problems.length === 0);
+    void this.exchange(raws ?? {}, problems.length === 0);
   }
 
   /** What the set flags are called, and the numbers of those of several bits. */
@@ -265,7 +287,7 @@ class Calculator {
 
   /** The settings of the line: unit, framing, and what addresses count from. */
   line() {
-    const { profile, bases } = generatedCode().Device.table.facts;
+    const { profile, given } = generatedCode().Device.table.facts;
     const [low, high] = profile.units;
     const unit = element("input", { type: "number", min: low, max: high, value: String(entered.unit) });
     unit.addEventListener("input", () => { entered.unit = Number(unit.value); this.show(unit); });
@@ -282,14 +304,17 @@ class Calculator {
       list.addEventListener("input", () => { entered.pkw = Number(list.value); this.show(list); });
       fields.push(element("label", {}, element("span", {}, "Parameter part"), list));
     }
-    const base = this.codec.at.base;
-    if (base !== undefined && bases) {
-      entered.bases[base] ??= 0;
-      const address = element("input", { type: "number", min: 0, max: 65535, value: String(entered.bases[base]) });
-      address.addEventListener("input", () => { entered.bases[base] = Number(address.value); this.show(address); });
-      fields.push(element("label", {}, element("span", {}, `Address of ${base}`), address));
+    for (const [name, [least, most]] of Object.entries(this.numbers())) {
+      const input = element("input", { type: "number", min: least, max: most, value: String(entered.numbers[name] ?? "") });
+      input.addEventListener("input", () => { entered.numbers[name] = input.value === "" ? undefined : Number(input.value); this.show(input); });
+      fields.push(element("label", {}, element("span", {}, given?.[name] ? capital(name) : `Address of ${name}`), input));
     }
     return element("div", { className: "fields" }, ...fields);
+  }
+
+  /** The numbers that say where this point and those that it needs are, with their ranges. */
+  numbers() {
+    return Object.assign({}, ...[this.codec, ...this.needs.map((name) => this.other(name))].map(({ at }) => baseNumbers(at.base)));
   }
 
   /** Show the requests and replies that read and write this number. @param {any} raws @param {boolean} isAllowed */
@@ -298,9 +323,16 @@ class Calculator {
     const { codec, raw } = this;
     if (this.isCyclic) { this.showCyclic(); return; }
     if (!codec.at.addresses.length) return;
+    const { given } = generatedCode().Device.table.facts;
+    const missing = Object.keys(this.numbers()).filter((name) => entered.numbers[name] === undefined);
+    if (missing.length) {
+      this.frames.replaceChildren(element("p", { className: "soft" }, `Enter ${missing.map((name) => (given?.[name] ? name : `the address of ${name}`)).join(" and ")} to see its frames.`));
+      return;
+    }
     const boxes = [];
-    if (codec.decode) boxes.push(this.readBox(await this.sent(raw, raws, (/** @type {any} */ point) => point.readRaw())));
-    if (codec.encode && isAllowed) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (/** @type {any} */ point) => point.writeRaw(raw))));
+    const read = codec.decode ? await this.sent(raw, raws, (/** @type {any} */ point) => point.readRaw()) : null;
+    if (read) boxes.push(this.readBox(read));
+    if (codec.encode && isAllowed && !read?.error) boxes.push(exchangeBox("Write", await this.sent(raw, raws, (/** @type {any} */ point) => point.writeRaw(raw))));
     if (this.turn === turn && !this.frames.contains(document.activeElement)) this.frames.replaceChildren(...boxes);
   }
 
@@ -309,6 +341,7 @@ class Calculator {
     const { codec, raw } = this;
     const isAsked = device.telegrams.some(([name, , direction]) => name === codec.at.telegram && direction === "request");
     try {
+      answeringDevice({ unit: entered.unit, framing: device.family, variants: this.variants() }); // which refuses units that cannot be
       const frames = cyclicFrames(codec, this.wordsOf(raw), raw, entered.unit ?? 0);
       const rows = frames.map((frame) => frameRow(isAsked ? "To the device" : "From the device", frameText(frame)));
       this.frames.replaceChildren(...rows, rows.length ? element("p", { className: "soft" }, "All other words are 0 here.") : "");
@@ -324,15 +357,15 @@ class Calculator {
     const { FieldscribeError, Device } = generatedCode();
     /** @type {any} */
     let line = { exchanges: [] };
+    const start = (/** @type {Codec} */ { at }) => baseAddress(at.base, entered.numbers) ?? 0;
     try {
-      const bases = codec.at.base === undefined ? {} : { [codec.at.base]: entered.bases[codec.at.base] ?? 0 };
-      const opened = answeringDevice({ unit: entered.unit, framing: device.family === "modbus" ? entered.framing : device.family, pkw: entered.pkw, variants: this.variants(), bases });
+      const opened = answeringDevice({ unit: entered.unit, framing: device.family === "modbus" ? entered.framing : device.family, pkw: entered.pkw, variants: this.variants(), numbers: entered.numbers });
       line = opened.line;
       for (const [name, number] of Object.entries(raws)) {
         const other = this.other(name);
-        hold(line, other, other.facts.bits ? [other.insert(0, number)] : other.toWords(number));
+        hold(line, other, other.facts.bits ? [other.insert(0, number)] : other.toWords(number), start(other));
       }
-      hold(line, codec, this.wordsOf(raw));
+      hold(line, codec, this.wordsOf(raw), start(codec));
       line.answer = reply;
       const result = await work(opened.made[Device.table.attributes.get(codec)]);
       return { exchanges: line.exchanges, result };
@@ -367,9 +400,9 @@ function pkwText(words) {
   return words === 127 ? "127, variable" : `${words} words`;
 }
 
-/** @param {AnsweringLine} line @param {Codec} codec @param {any[]} words */
-function hold(line, codec, words) {
-  line.hold(codec.at, line.framing === "uss" && words.length > 1 ? [words] : words);
+/** @param {AnsweringLine} line @param {Codec} codec @param {any[]} words @param {number} start what its addresses count from */
+function hold(line, codec, words, start) {
+  line.hold(codec.at, line.framing === "uss" && words.length > 1 ? [words] : words, start);
 }
 
 /** @param {string} what @param {any} facts */
@@ -397,13 +430,20 @@ function shownValue(codec, raw, raws) {
   return typeof value === "object" && value !== null && !(value instanceof Date) ? codec.told(raw, raws) : value instanceof Date ? value.toISOString() : String(value);
 }
 
+/** Whether people know a point by its value: the raw number of a float says nothing. @param {Codec} codec */
+function isFloat(codec) {
+  return device.byName.get(codec.item)?.shared.form === "float";
+}
+
 const MOST_CHOICES = 400;
 
-/** Yield raw numbers to begin with: the default, then `first`, 0, and the ends of what is allowed and named.
+/** Yield raw numbers to begin with: the default, then `first` (of floats 100 times that), 0, and the ends of what is allowed
+ * and named.
  * @param {Codec} codec @param {number} [first] */
 function* startsOf(codec, first = 0) {
   const { form, facts, rawLimits: [low, high], names } = codec;
-  const raws = [facts.default, () => codec.encode(facts.default), facts.fixed && !facts.bits ? facts.fixed[1] : first, 0, () => codec.encode(""), () => form.converted(codec.minimum, {}), () => form.converted(100, {}), () => form.converted(50, {}), low, high];
+  const begin = isFloat(codec) ? () => form.converted(100 * first, {}) : first;
+  const raws = [facts.default, () => codec.encode(facts.default), facts.fixed && !facts.bits ? facts.fixed[1] : begin, 0, () => codec.encode(""), () => form.converted(codec.minimum, {}), () => form.converted(100, {}), () => form.converted(50, {}), low, high];
   for (const bounds of facts.allowed ?? []) raws.push(...bounds);
   if (names && !facts.bits) raws.push(...Object.values(names));
   for (const each of raws) {

@@ -4,6 +4,8 @@
 
 const MOST_LINES = 100_000;
 const SHOWN_AT_ONCE = 100;
+/** The field holds so much of a long paste: browsers stand still for seconds where it holds all. */
+const MOST_IN_FIELD = { lines: 2000, signs: 200_000 };
 const SLICE_TIME = 20; // milliseconds between two looks at what the reader does
 
 const USS_FRAMINGS = { pkw: "parameter part alone", pzd: "process data of the master", "pzd response": "process data of the device", broadcast: "broadcast alone" };
@@ -49,6 +51,12 @@ function* linesOf(text) {
   }
 }
 
+/** Return the beginning of a text, as much as the field holds. @param {string} text */
+function inField(text) {
+  const { lines, signs } = MOST_IN_FIELD;
+  return text.slice(0, signs).split("\n", lines).join("\n");
+}
+
 /** @param {Pasted} pasted */
 function pastedText({ id, data, remote }) {
   if (id === undefined) return hexBytes(data);
@@ -78,22 +86,38 @@ class DecoderView {
     this.shown = 0;
     this.run = 0;
     this.isCut = false;
-    this.area = element("textarea", { rows: 8, spellcheck: false, value: pastedBefore.text, placeholder: device.family === "can" ? "321#DD00051513880064" : "one frame a line, in hexadecimal" });
+    this.wrong = 0;
+    this.unread = 0;
+    this.area = element("textarea", { rows: 8, spellcheck: false, placeholder: device.family === "can" ? "321#DD00051513880064" : "one frame a line, in hexadecimal" });
     this.status = element("p", { className: "status", role: "status" });
     this.results = element("div", { className: "heard" });
     this.more = element("button", { type: "button", hidden: true }, "Show more");
     this.more.addEventListener("click", () => this.extend());
     this.area.addEventListener("input", () => { pastedBefore.text = this.area.value; void this.decode(); });
+    this.area.addEventListener("paste", (/** @type {any} */ event) => {
+      const text = event.clipboardData?.getData("text/plain") ?? "";
+      if (!this.area.readOnly && inField(text).length === text.length) return;
+      event.preventDefault();
+      this.put(text);
+    });
+  }
+
+  /** Decode a text instead of what is there; the field shows its beginning. @param {string} text */
+  put(text) {
+    pastedBefore.text = text;
+    this.area.value = inField(text);
+    this.area.readOnly = inField(text).length < text.length;
+    void this.decode();
   }
 
   parts() {
     const example = element("button", { type: "button" }, "Frames of the manual");
-    example.addEventListener("click", () => { this.area.value = pastedBefore.text = device.frames.map(([way, bytes]) => `${way} ${bytes}`).join("\n"); void this.decode(); });
+    example.addEventListener("click", () => this.put(device.frames.map(([way, bytes]) => `${way} ${bytes}`).join("\n")));
     const clear = element("button", { type: "button" }, "Clear");
-    clear.addEventListener("click", () => { this.area.value = pastedBefore.text = ""; void this.decode(); this.area.focus(); });
+    clear.addEventListener("click", () => { this.put(""); this.area.focus(); });
     const onlyWrong = element("input", { type: "checkbox", checked: pastedBefore.onlyWrong });
     onlyWrong.addEventListener("input", () => { pastedBefore.onlyWrong = onlyWrong.checked; this.show(); });
-    void this.decode();
+    this.put(pastedBefore.text);
     return [
       element("p", {}, device.family === "can" ? "Paste frames as candump prints or logs them, or identifier and data; one a line, with times or without." : "Paste frames in hexadecimal, one a line, with times or without. A reply is read with the request before it."),
       element("label", { className: "paste" }, element("span", {}, "Frames or a log"), this.area),
@@ -111,11 +135,12 @@ class DecoderView {
       const words = Array.from({ length: high - low + 1 }, (_, at) => [String(low + at), countedText(low + at, "word")]);
       fields.push(this.choice("Framing", "framing", Object.entries(USS_FRAMINGS), "by its bytes"), this.choice("Parameter part", "pkw", lengths), this.choice("Process data", "pzd", words));
     }
-    const needed = [...new Places({}).needed].map((name) => neededCode(name));
-    if (needed.length || facts.bases) {
-      const input = element("input", { type: "text", value: pastedBefore.known, spellcheck: false, placeholder: `${needed[0] ?? Object.keys(facts.bases)[0]}=1` });
+    const places = new Places({});
+    const names = [...places.unplaced, ...[...places.needed].map(neededCode)];
+    if (names.length) {
+      const input = element("input", { type: "text", value: pastedBefore.known, spellcheck: false, placeholder: `${names[0]}=1` });
       input.addEventListener("input", () => { pastedBefore.known = input.value; void this.decode(); });
-      fields.push(element("label", {}, element("span", {}, facts.bases ? "Known addresses of bases, and raw numbers" : "Known raw numbers"), input));
+      fields.push(element("label", {}, element("span", {}, places.unplaced.size ? "Known addresses and raw numbers" : "Known raw numbers"), input));
     }
     return fields;
   }
@@ -131,12 +156,15 @@ class DecoderView {
     const number = (/** @type {string} */ text) => (text === "" ? undefined : Number(text));
     const { text, known, framing, pkw, pzd } = pastedBefore;
     this.heard = [];
+    [this.wrong, this.unread] = [0, 0];
     this.isCut = text.trimEnd().split("\n", MOST_LINES + 1).length > MOST_LINES;
     this.show();
     let sliced = performance.now();
     const decoder = newDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
     for (const heard of decodedFrames(text, decoder)) {
       this.heard.push(heard);
+      if (heard.kind === "no frame") this.unread += 1;
+      if (isWrong(heard)) this.wrong += 1;
       if (performance.now() - sliced < SLICE_TIME) continue;
       this.tell(true);
       if (this.shown < SHOWN_AT_ONCE) this.extend();
@@ -150,10 +178,9 @@ class DecoderView {
 
   /** Say how many frames there are. @param {boolean} isGoing */
   tell(isGoing) {
-    const unread = this.heard.filter(({ kind }) => kind === "no frame").length;
-    const wrong = this.heard.filter(isWrong).length;
+    const { wrong, unread } = this;
     const count = countedText(this.heard.length - unread, "frame");
-    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : "", this.isCut ? `only the first ${MOST_LINES} lines are read` : ""].filter(Boolean).join(", ") : "";
+    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : "", this.isCut ? `only the first ${MOST_LINES} lines are read` : "", this.area.readOnly ? "the field shows the beginning alone" : ""].filter(Boolean).join(", ") : "";
   }
 
   show() {

@@ -17,6 +17,25 @@ function codecOf(point) {
   return opened.points.get(point.name) ?? null;
 }
 
+/** Return the numbers that say where a base is, with their ranges: those that a device is given, else the address of a block
+ * that is found. @param {string | undefined} name @returns {Record<string, [number, number]>} */
+function baseNumbers(name) {
+  const { bases = {}, given } = generatedCode().Device.table.facts;
+  if (name === undefined || !bases[name]) return {};
+  const { block, factors } = bases[name];
+  return block === undefined ? Object.fromEntries(Object.keys(factors).map((each) => [each, given[each]])) : { [name]: [0, 0xffff] };
+}
+
+/** Return what addresses count from; undefined where a number is missing. @param {string | undefined} name
+ * @param {Record<string, any>} numbers @returns {number | undefined} */
+function baseAddress(name, numbers) {
+  if (name === undefined) return 0;
+  const { block, offset, factors } = generatedCode().Device.table.facts.bases?.[name] ?? { block: 0 };
+  if (block !== undefined) return numbers[name];
+  const sum = Object.entries(factors).reduce((address, [each, factor]) => address + numbers[each] * factor, offset);
+  return Number.isNaN(sum) ? undefined : sum;
+}
+
 /** A line on which everything holds what `memory` has by place; `exchanges` are the frames that went over it. */
 class AnsweringLine {
   /** @param {string} framing */
@@ -32,11 +51,11 @@ class AnsweringLine {
     this.isSingleLast = false;
   }
 
-  /** @param {any} at @param {number[]} words */
-  hold(at, words) {
+  /** @param {any} at @param {number[]} words @param {number} start what its addresses count from */
+  hold(at, words, start) {
     const index = this.framing === "uss" ? at.index : 0; // in other frames the address alone tells the place
     const ascending = [...at.addresses].sort((one, other) => one - other);
-    ascending.forEach((address, each) => this.memory.set(this.key(at.space, address, index), words[each] ?? 0));
+    ascending.forEach((address, each) => this.memory.set(this.key(at.space, start + address, index), words[each] ?? 0));
   }
 
   /** @param {string} space @param {number} address @param {number} [index] */
@@ -123,16 +142,18 @@ function writesValue(task) {
 }
 
 /** Return the device on a line that answers by itself; `facts` may have unit, framing, words of the parameter part,
- * variants and numbers of bases. @param {any} facts */
-function answeringDevice({ unit, framing, pkw, variants, bases = {} }) {
+ * variants, and numbers that say where bases are. @param {any} facts */
+function answeringDevice({ unit, framing, pkw, variants, numbers = {} }) {
   const { Device } = generatedCode();
   const line = new AnsweringLine(framing);
   line.unit = unit;
   const link = framing === "uss" ? { pkw: pkw ?? Math.max(...Device.table.facts.profile.pkw), pzd: 2 } : undefined;
   line.pkw = link?.pkw ?? 0;
   line.isSingleLast = line.pkw === 4;
-  const made = new Device(line, { unit, ...(link && { link }), ...variants, ...bases });
-  for (const [name, address] of Object.entries(bases)) made.setBase?.(name, address, 0xffff);
+  const made = new Device(line, { unit, ...(link && { link }), ...variants, ...numbers });
+  for (const [name, { block }] of Object.entries(Device.table.facts.bases ?? {})) {
+    if (block !== undefined && numbers[name] !== undefined) made.setBase(name, numbers[name]);
+  }
   return { made, line };
 }
 

@@ -17,7 +17,7 @@ class Places {
     this.spots = new Map();
     /** The points that scales and limits need. @type {Set<string>} */
     this.needed = new Set();
-    /** The bases whose address is not known. @type {Set<string>} */
+    /** The numbers that are missing to know where points are. @type {Set<string>} */
     this.unplaced = new Set();
     /** @type {Record<string, any>} */
     this.given = {};
@@ -30,8 +30,12 @@ class Places {
     for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? [])] : []) this.needed.add(name);
     const given = known[point.name] ?? known[point.code];
     if (codec && given !== undefined) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(given);
-    const start = point.shared.base ? known[point.shared.base] : 0;
-    if (start === undefined) { this.unplaced.add(point.shared.base); return; }
+    const { base } = point.shared;
+    const start = baseAddress(base, known);
+    if (start === undefined) {
+      for (const name of Object.keys(baseNumbers(base))) if (known[name] === undefined) this.unplaced.add(name);
+      return;
+    }
     const read = codec?.at ?? { space: point.shared.space, telegram: point.shared.telegram, addresses: point.addresses };
     const write = codec?.facts.writeAt ?? read;
     const can = { reads: !codec || Boolean(codec.decode), writes: !codec || Boolean(codec.encode) };

@@ -1,5 +1,6 @@
 // Types into the calculators on the pages of devices in a real browser, and prints as JSON what the fields say then.
-// Usage: node calculate.mjs BROWSER NODE_MODULES STEPS_FILE: { page: [{ point, anew, needs, field, text, bits }, ...] }
+// Usage: node calculate.mjs BROWSER NODE_MODULES STEPS_FILE: { page: [{ point, anew, needs, field, text, bits, then }, ...] }
+// where `then` has what is typed at last, by the beginnings of labels; or { decode, known } instead.
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { opened } from "../../support/browser.mjs";
@@ -12,7 +13,11 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
   said[file] = await page.evaluate(async (typed) => {
     const found = [];
     const settled = () => new Promise((done) => setTimeout(done));
-    for (const { point, anew, needs = {}, field, text, bits = [] } of typed) {
+    for (const { point, anew, needs = {}, field, text, bits = [], then = {}, decode, known } of typed) {
+      if (decode) {
+        found.push([...decodedFrames(decode, newDecoder({ known }))].flatMap((frame) => frame.said.map((said) => `${said.name}${said.text}`)));
+        continue;
+      }
       if (anew) { location.hash = ""; await settled(); }
       if (location.hash !== `#point=${point}`) { location.hash = `#point=${point}`; await settled(); }
       const place = document.getElementById("calculator");
@@ -22,6 +27,7 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
         type([...place.querySelectorAll("label")].find((label) => label.textContent.includes(`raw number of ${name}`)).querySelector("input"), raw);
       }
       if (field) type(labelled(field), text);
+      for (const [label, last] of Object.entries(then)) type(labelled(label), last);
       for (const bit of bits) place.querySelector(`[data-bit="${bit}"]`).click();
       await settled();
       const frames = Object.fromEntries([...place.querySelectorAll(".frame")].map((row) => [row.firstChild.textContent, row.querySelector("code, input").textContent || row.querySelector("input")?.value]));

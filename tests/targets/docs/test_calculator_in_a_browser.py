@@ -11,14 +11,19 @@ from typing import Any, NamedTuple
 
 import pytest
 from fieldscribe.model import Point
+from fieldscribe.resources import render
+from fieldscribe.targets.docs import html_files
+from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.vectors.oracle import INFINITY, Oracle, Ratio, quotient
-from support.described import shipped
+from support.described import DEVICES as KITCHENS
+from support.described import made, shipped
 from support.made_once import made_once
 from support.places import ROOT
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 
 RANDOM_NUMBERS = 500
 DEVICES = ("hitachi_l200", "woodward_mpu2s")
+EXPONENT = "generator_power_exponent"
 BY_HAND = (
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "50"}, "500", "01F4"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "12,5"}, "125", "007D"),
@@ -28,6 +33,19 @@ BY_HAND = (
     ("hitachi_l200", {"point": "run_command", "field": "Name", "text": "1"}, "1", "0001"),
     ("siemens_mm4", {"point": "control_word", "field": "Word", "text": "047F"}, "1151", "047F"),
     ("jumo_controller", {"point": "setpoint_1", "field": "Value", "text": "1"}, "1065353216", "0000 3F80"),
+    ("hitachi_l200", {"point": "base_frequency", "field": "Word", "text": "0x01F4"}, "500", "0x01F4"),
+    (
+        "woodward_mpu2s",
+        {"point": "generator_active_power", "field": "Value", "text": "123000", "then": {EXPONENT: "3"}},
+        "123",
+        "007B",
+    ),
+    (
+        "siemens_mm4",
+        {"point": "main_setpoint", "field": "Value", "text": "25", "then": {"reference_frequency": "50"}},
+        "8192",
+        "2000",
+    ),
 )
 """Device, what is typed, raw number and words: by the manuals, and 1.0 as IEEE 754 has it."""
 FRAMES = (
@@ -54,10 +72,26 @@ FRAMES = (
         "Write: request": "02 0E 01 22 BC 00 00 00 00 00 05 00 00 00 00 96",
         "Read: reply": "02 0E 01 12 BC 00 00 00 00 00 05 00 00 00 00 A6",
     }),
+    ("fronius_datamanager", {"point": "ac_power", "field": "Raw", "text": "100", "then": {"Address of": "40069"}}, {
+        "Read: request": "01 03 9C 93 00 01 5A 77",
+        "Read: reply": "01 03 02 00 64 B9 AF",
+    }),
+    ("kitchen_blocks", {"point": "level", "field": "Value", "text": "40", "then": {"Slot": "3", "Half": "1"}}, {
+        "Write: request": "01 06 0B CD 01 90 1B ED",
+    }),
+    ("kitchen_can", {"point": "only_large"}, {"Read: request": "33F#FF01002F0000FF2E"}),
 )  # fmt: skip
 """Device, what is typed, frames: of the manuals, and put together by hand after them."""
 REFUSED = [{"point": "base_frequency", "field": "Value", "text": text} for text in ("401", "fast", "", "1,500", "5 A")]
 ROUNDED = {"point": "base_frequency", "field": "Value", "text": "37.54"}
+WORDS = {
+    "": "no words here, one is needed",
+    "01F4 01F4": "2 words here, one is needed",
+    "xyz": "xyz is no word",
+    "12345": "12345 is no word",
+}
+FOREIGN_UNIT = {"point": "generator_frequency", "then": {"Unit": "300"}}
+IN_SLOT = {"decode": "01 06 0B CD 01 90 1B ED", "known": {"slot": 3, "half": 1}}
 NO_WORD = {"point": "control_word", "field": "Raw", "text": "none"}
 REPLIES = [
     {"point": "base_frequency", "field": "Read: reply", "text": text}
@@ -114,9 +148,14 @@ def _steps(device_id: str) -> list[dict[str, Any]]:
     """All that is typed on the page of a device, one after the other."""
     by_hand = [step for device, step, *_ in (*BY_HAND, *FRAMES) if device == device_id]
     samples = _samples(device_id) if device_id in DEVICES else []
-    l200 = [*REPLIES, *REFUSED, ROUNDED] if device_id == "hitachi_l200" else []
+    l200 = [*REPLIES, *REFUSED, ROUNDED, *map(_words, WORDS)] if device_id == "hitachi_l200" else []
     bits = [NO_WORD] if device_id == "siemens_mm4" else []
-    return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps())]
+    last = {"woodward_mpu2s": [FOREIGN_UNIT], "kitchen_blocks": [IN_SLOT]}.get(device_id, [])
+    return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps()), *last]
+
+
+def _words(text: str) -> dict[str, Any]:
+    return {"point": "base_frequency", "field": "Word", "text": text}
 
 
 @pytest.fixture(scope="module")
@@ -124,10 +163,11 @@ def typed(tmp_path_factory: pytest.TempPathFactory) -> Typed:
     """What the fields say after a step on the page of a device: one browser visits all pages."""
     npm_package("playwright-core")
     devices = sorted({device for device, *_ in (*BY_HAND, *FRAMES)})
-    pages = {str(ROOT / f"generated/docs/{device}.html"): _steps(device) for device in devices}
+    steps_of = {device: _steps(device) for device in devices}
 
     def calculate(folder: Path) -> None:
         listed = folder / "steps.json"
+        pages = {str(_page(device, folder)): steps for device, steps in steps_of.items()}
         listed.write_text(json.dumps(pages), "utf-8")
         program, browser = Path(__file__).with_name("calculate.mjs"), tool("chromium-headless-shell")
         said = succeed([tool("node"), program, browser, NODE_MODULES, listed])
@@ -137,10 +177,19 @@ def typed(tmp_path_factory: pytest.TempPathFactory) -> Typed:
     assert done["troubles"] == []
     said = {
         (Path(page).stem, json.dumps(step)): found
-        for page, steps in pages.items()
-        for step, found in zip(steps, done["said"][page], strict=True)
+        for page, all_found in done["said"].items()
+        for step, found in zip(steps_of[Path(page).stem], all_found, strict=True)
     }
     return lambda device, step: said[device, json.dumps(step)]
+
+
+def _page(device: str, folder: Path) -> Path:
+    """Return the page of a device; of one of the tests it is made in a folder."""
+    if (KITCHENS / device).exists():
+        [(name, text)] = html_files(scope_of(made(device)), render)
+        (folder / name).write_text(text, "utf-8")
+        return folder / name
+    return ROOT / f"generated/docs/{device}.html"
 
 
 @pytest.mark.parametrize("device_id", DEVICES)
@@ -199,3 +248,19 @@ def test_a_reply_that_came_is_decoded(typed: Typed) -> None:
     assert torn["wrong"]
     assert "CRC" in torn["status"]
     assert "address_not_found" in refused["status"]
+
+
+@pytest.mark.parametrize("text", WORDS)
+def test_what_is_no_word_is_told(text: str, typed: Typed) -> None:
+    said = typed("hitachi_l200", _words(text))
+    assert said["wrong"]
+    assert WORDS[text] in said["status"]
+
+
+def test_a_unit_that_cannot_be_has_no_frames(typed: Typed) -> None:
+    assert typed("woodward_mpu2s", FOREIGN_UNIT)["frames"] == {}
+
+
+def test_the_decoder_takes_numbers_that_addresses_depend_on(typed: Typed) -> None:
+    [said] = typed("kitchen_blocks", IN_SLOT)
+    assert said.startswith("level = 40 %")

@@ -244,6 +244,15 @@ def test_what_is_said_of_pasted_text(place: int, heard: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("device", DEVICES)
+def test_a_long_paste_is_decoded_whole_and_shown_in_part(device: str, heard: dict[str, Any]) -> None:
+    length, is_fixed, status, *cleared = heard[device]["long"]
+    assert (length, is_fixed) == (3 * 2000 - 1, True)
+    assert "5000" in status
+    assert "the field shows the beginning alone" in status
+    assert cleared == [0, False]
+
+
+@pytest.mark.parametrize("device", DEVICES)
 def test_the_page_runs_its_vectors(device: str, heard: dict[str, Any]) -> None:
     """As many of each kind as the vectors announce; a spoiled one is shown."""
     good, spoiled = heard[device]["ran"]

@@ -43,6 +43,17 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
     await page.waitForFunction(() => !document.querySelector("#detail .status").textContent.includes("so far"), null, OFTEN);
     shown.push(await page.evaluate(() => ({ status: document.querySelector("#detail .status").textContent, text: document.querySelector(".heard").innerText, strange: document.querySelectorAll(".heard img, .heard script").length })));
   }
+  const long = await page.evaluate(async () => {
+    const area = document.querySelector(".paste textarea");
+    const clipboardData = new DataTransfer();
+    clipboardData.setData("text/plain", "00\n".repeat(5000));
+    area.dispatchEvent(new ClipboardEvent("paste", { clipboardData, cancelable: true }));
+    const said = [area.value.length, area.readOnly];
+    while (document.querySelector("#detail .status").textContent.includes("so far")) await new Promise((done) => setTimeout(done, 20));
+    said.push(document.querySelector("#detail .status").textContent);
+    [...document.querySelectorAll("#detail button")].find((button) => button.textContent === "Clear").click();
+    return [...said, area.value.length, area.readOnly];
+  });
   await page.goto(`${pathToFileURL(file).href}#device`);
   const ran = [await runVectors()];
   await page.evaluate(([line, other]) => {
@@ -51,7 +62,7 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
   }, spoil);
   ran.push(await runVectors());
   const snippets = await page.evaluate(() => device.points.map((point) => snippetsOf(device, point)));
-  found[file] = { decoded: JSON.parse(decoded), shown, ran, snippets };
+  found[file] = { decoded: JSON.parse(decoded), shown, long, ran, snippets };
 }
 console.log(JSON.stringify({ found, troubles }));
 await browser.close();
