@@ -154,11 +154,10 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.bases import read_bases
     from fieldscribe.resolve.bus import bus_of, reader_of
-    from fieldscribe.resolve.commands import commands_of
+    from fieldscribe.resolve.commands import commands_of, identifications_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
-    from fieldscribe.resolve.identifications import identifications_of
     from fieldscribe.resolve.points import ResolvedPoint, resolve_points
     from fieldscribe.resolve.scope import open_scope
     from fieldscribe.resolve.symbols import symbols_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.audit.claims import Claim, Number
 from fieldscribe.audit.claims_of_device import claims_of_codes, claims_of_entry, claims_of_settings
-from fieldscribe.audit.notation import Notation
+from fieldscribe.audit.numbers import Notation
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map

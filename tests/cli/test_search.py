@@ -11,8 +11,7 @@ from typing import NamedTuple
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.search.entries import Entry, entries_of
-from fieldscribe.search.matching import near_words, search
+from fieldscribe.search import Entry, entries_of, near_words, search
 from support.loaded_once import load_analysis
 from support.places import ROOT
 

@@ -19,8 +19,7 @@ from fieldscribe.export import ExportError, export_form
 from fieldscribe.families.can import of_bus
 from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.dbc_signals import decimal, point_signals
-from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
-from fieldscribe.families.can.receiver import Receiver
+from fieldscribe.families.can.frames import CanFrame, Receiver, build, identifier, parse
 from fieldscribe.model import Device, Entry, Enum, Message, Point, Role, Special, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.families.can.frames import CanFrame, build, parse, telegram_words
-from fieldscribe.families.can.receiver import Receiver
+from fieldscribe.families.can.frames import CanFrame, Receiver, build, parse, telegram_words
 from fieldscribe.model import Message, Role, Source, Telegram
 from hypothesis import given
 from hypothesis import strategies as st

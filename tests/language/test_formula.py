@@ -8,9 +8,9 @@ from time import process_time
 
 import pytest
 from fieldscribe.language.formula.conditions import Comparison, Constant, parse_case, parse_condition
-from fieldscribe.language.formula.lint import cut_off, exact_scale
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression, parse_range, parse_scale
+from fieldscribe.language.formula.suggestions import cut_off, exact_scale
 from fieldscribe.language.formula.syntax import Binary, FormulaError, Name, Number, names
 from hypothesis import example, given
 from hypothesis import strategies as st

@@ -9,9 +9,8 @@ from random import Random
 
 import pytest
 from fieldscribe.listening.captures import chunks_of
-from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, Chunk
-from fieldscribe.listening.packet_files import Packet, PacketWriter, is_packet_file, read_packets
-from fieldscribe.listening.packets import Packets
+from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, Chunk, Packet
+from fieldscribe.listening.packets import Packets, PacketWriter, is_packet_file, read_packets
 from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
 

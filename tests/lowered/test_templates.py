@@ -13,7 +13,7 @@ import pytest
 from fieldscribe import lowered
 from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
-from fieldscribe.lowered.template_keys import TemplateKeys
+from fieldscribe.lowered import TemplateKeys
 from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Special, Variant
 from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript

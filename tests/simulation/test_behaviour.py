@@ -7,9 +7,8 @@ from fractions import Fraction
 
 import pytest
 from fieldscribe.simulation.behaviour import Behaviour
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import layout_of, rules_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import layout_of, rules_of
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 
 
 def running(name: str) -> SimulatedDevice:

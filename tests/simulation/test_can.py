@@ -18,9 +18,8 @@ import cantools
 import pytest
 from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.simulation import core_of
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import layout_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import layout_of
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
 from support.places import PACKAGES, TESTS

@@ -11,9 +11,8 @@ from pathlib import Path
 import pytest
 from fieldscribe.arithmetic.words import joined
 from fieldscribe.families import family
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import layout_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import layout_of
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.line import Line, Stream
 from support.places import ROOT
 from support.rust_workspace import rust_program

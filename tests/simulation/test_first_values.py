@@ -6,7 +6,7 @@ import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.model import Point
-from fieldscribe.simulation.descriptions import layout_of
+from fieldscribe.simulation.bench import layout_of
 from fieldscribe.simulation.memory import Memory
 from support.described import DEVICES as MADE
 from support.places import ROOT

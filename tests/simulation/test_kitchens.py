@@ -6,9 +6,8 @@ from typing import Any
 
 import pytest
 from fieldscribe.live.devices import device_class
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import layout_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import layout_of
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 from support.places import TESTS
 from support.simulated_lines import DirectBus, direct_line
 

@@ -16,8 +16,7 @@ from typing import Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import Simulated
-from fieldscribe.simulation.bench import Bench
-from fieldscribe.simulation.console import carry_out
+from fieldscribe.simulation.bench import Bench, carry_out
 from fieldscribe.user_errors import UnclearError
 
 L200 = "hitachi_l200"

@@ -12,9 +12,8 @@ from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.simulation import core_of
 from fieldscribe.families.uss.telegrams import Request, broadcast, build, parse, telegram
 from fieldscribe.simulation.behaviour import Behaviour
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import layout_of, rules_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.bench import layout_of, rules_of
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Line, Stream

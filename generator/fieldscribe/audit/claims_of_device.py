@@ -19,7 +19,7 @@ from fieldscribe.audit.claims import (
     line_of,
     numbers_in,
 )
-from fieldscribe.audit.notation import Notation
+from fieldscribe.audit.numbers import Notation
 from fieldscribe.audit.point_claims import claims_of_point
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import families, sections_of_codes

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from fieldscribe.audit.claims import Claim, ClaimMaker, Number, absolute, numbers_in
-from fieldscribe.audit.notation import Notation, joined
+from fieldscribe.audit.numbers import Notation, joined
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Flag, Point

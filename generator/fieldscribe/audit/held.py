@@ -13,8 +13,7 @@ from fieldscribe.audit.claims import Cited, Claim, Label, Number, Run
 from fieldscribe.audit.claims_of_device import PrintedErratum, claims_of, passed_over, printed_errata
 from fieldscribe.audit.evidence import Found, found, labels_found, lies_in_section
 from fieldscribe.audit.manual import Extent, Manual, has_word
-from fieldscribe.audit.notation import Notation
-from fieldscribe.audit.numbers import Token
+from fieldscribe.audit.numbers import Notation, Token
 from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.point_claims import KEYS_OF_PRINTED
 from fieldscribe.model import About

@@ -9,7 +9,7 @@ from typing import Any
 
 from fieldscribe.audit.claims import Claim, ClaimMaker, Number, Word, absolute, numbers_in
 from fieldscribe.audit.flag_claims import claims_of_flags
-from fieldscribe.audit.notation import USUAL_ACCESS, USUAL_TYPES, Notation, joined
+from fieldscribe.audit.numbers import USUAL_ACCESS, USUAL_TYPES, Notation, joined
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map

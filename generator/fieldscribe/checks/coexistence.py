@@ -1,14 +1,15 @@
-"""Tells which points share a word, and which can exist in the same device: by variants, conditions and versions."""
+"""Tells which points share a word, which can exist in the same device, and which no frame of it can read or write."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
 from fieldscribe.conditions import ANY, Clause, Comparison, Domain, ends_before, possible
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.telegrams import KEY_OF
 
 WordKey = tuple[str, str | None, int, int]
 """Space, telegram or base, index (0 where addresses of the space have no index) and address."""
@@ -80,3 +81,22 @@ def _bands(point: Point) -> Iterator[tuple[int, int]]:
         for interval in point.allowed.intervals:
             yield interval.outer
     yield from ((special.low, special.high) for special in point.specials)
+
+
+Needs = Callable[["Analysis", list["Point"]], Iterable[tuple[int, str, str, str]]]
+"""Yields what the device lacks: how many points need it, what it is, the key under `bus` that gives it, and a hint."""
+
+
+def report_missing(analysis: Analysis, needs: Needs) -> None:
+    """Report each missing way to read or write points outside telegrams."""
+    if not analysis.bus_is_whole or analysis.scope.bus is None:
+        return
+    sound = [
+        resolved.point
+        for resolved in analysis.resolved
+        if resolved.point.generated and "type" not in resolved.facts.failed
+    ]
+    for count, message, key, hint in needs(analysis, [point for point in sound if point.space not in KEY_OF]):
+        if count:
+            needed = f"{count} point{'s need' if count > 1 else ' needs'} it"
+            analysis.report.error("no-function", f"{message}, and {needed}", analysis.scope.bus.key_span(key), hint)

@@ -8,11 +8,10 @@ from contextlib import suppress
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, print_json
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
-from fieldscribe.conversation import bases
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import Explanation, explain_point
 from fieldscribe.conversation.lookup import Match, advice, find, prefixes
-from fieldscribe.conversation.selection import absence
+from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Device
@@ -61,7 +60,7 @@ def run(arguments: Namespace) -> int:
     device, what = placed(open_device(arguments), arguments), arguments.what
     if arguments.settings:
         message = f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
-        raise StopError(message, bases.advice(device.bases))
+        raise StopError(message, base_options(device.bases))
     if not what.strip():
         raise StopError("there is nothing to explain", "give a code, a name or an address")
     raw = None if arguments.raw is None else _raw_number(arguments.raw)

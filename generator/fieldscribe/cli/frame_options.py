@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
 from fieldscribe.cli.common import StopError, add_repeated
-from fieldscribe.conversation.bases import at_bases
+from fieldscribe.conversation.selection import at_bases
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options

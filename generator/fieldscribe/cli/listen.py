@@ -21,11 +21,10 @@ from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
-from fieldscribe.listening.chunks import Chunk
+from fieldscribe.listening.chunks import Chunk, timed
 from fieldscribe.listening.exchanges import Exchange, finding_text, item_text, seconds
 from fieldscribe.listening.listener import Listener, Station
-from fieldscribe.listening.logs import timed
-from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
+from fieldscribe.listening.packets import PacketWriter, is_packet_file
 from fieldscribe.listening.statistics import Statistics
 from fieldscribe.live import project as project_file
 from fieldscribe.live.lines import LineAddress, read_line, require_line

@@ -10,8 +10,7 @@ from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import place_text, visible
-from fieldscribe.search.entries import Entry, entries_of
-from fieldscribe.search.matching import Hit, near_words, search
+from fieldscribe.search import Entry, Hit, entries_of, near_words, search
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
 

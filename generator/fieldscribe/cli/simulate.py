@@ -25,9 +25,7 @@ from fieldscribe.cli.common import (
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.report import visible
-from fieldscribe.simulation.bench import Bench, read_bench
-from fieldscribe.simulation.console import carry_out
-from fieldscribe.simulation.descriptions import BrokenError
+from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
 from fieldscribe.simulation.device import Complaint
 from fieldscribe.simulation.faults import KINDS
 from fieldscribe.simulation.line import Trace

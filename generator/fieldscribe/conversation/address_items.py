@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of, split
-from fieldscribe.conversation.bases import advice
 from fieldscribe.conversation.decode_state import (
     PARAMETER,
     Base,
@@ -16,7 +15,7 @@ from fieldscribe.conversation.decode_state import (
     named_item,
     without_variants,
 )
-from fieldscribe.conversation.selection import absence
+from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import Element, Span, Word
 from fieldscribe.families.frame_results import Item
@@ -159,7 +158,7 @@ class _SpanItems:
         low, high = addresses[0], addresses[-1]
         gaps = self._device.bus.gaps.get(self._space, ())
         gap = next((gap for gap in gaps if gap[0] <= high and low <= gap[1]), None)
-        unplaced = advice(self._device.bases)
+        unplaced = base_options(self._device.bases)
         hint = f"; other points count from a base: {unplaced}" if unplaced else ""
         closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
         subject = span_text(low, high)

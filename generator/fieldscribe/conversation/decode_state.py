@@ -10,12 +10,10 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings, setting_of
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.bases import moved
 from fieldscribe.conversation.found_blocks import FoundBlocks
-from fieldscribe.conversation.meanings import Meanings, raw_form
-from fieldscribe.conversation.near_misses import Doubts
+from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
-from fieldscribe.conversation.selection import absence, same_meaning
+from fieldscribe.conversation.selection import absence, moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import Span
 from fieldscribe.families.frame_results import Item

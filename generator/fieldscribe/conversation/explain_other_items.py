@@ -13,7 +13,7 @@ from fieldscribe.model import Code, Command, Device, Erratum, Message, SteppedCo
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.steps import run_text, steps_texts
+from fieldscribe.wording.rules import run_text, steps_texts
 
 Row = tuple[str, str]
 

@@ -10,8 +10,7 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of, number_of, with_fixed
 from fieldscribe.conversation.decode_state import Directory
-from fieldscribe.conversation.meanings import Meanings, raw_form
-from fieldscribe.conversation.near_misses import Doubts
+from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family

@@ -11,8 +11,7 @@ from fractions import Fraction
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.notations import seconds_of
-from fieldscribe.arithmetic.texts import fits, length_of, pattern_of_text
+from fieldscribe.arithmetic.texts import fits, length_of, pattern_of_text, seconds_of
 from fieldscribe.arithmetic.words import mask_of, with_fixed
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point

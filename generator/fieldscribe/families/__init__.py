@@ -10,8 +10,8 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `frames.py` (Modbus also `exchange.py`; USS `telegrams.py` and `parts.py`) builds and parses bytes; pure functions.
 - `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has longer lists of sentences.
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
-- `lines.py`: the lines that a live device may be on, as `SCHEMES` with their settings, and what opens them.
-- `listening.py`: how what others say is cut into frames; `listening/__init__.py` says what it has.
+- `lines.py`: the lines that a live device may be on, as `SCHEMES` with their settings, and what opens them; how what is
+  said there is cut into frames, as `listening/__init__.py` asks for.
 - `bus_facts.py`: what the documentation and exports say of the bus.
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
 

@@ -1,11 +1,12 @@
 """Passive listening: what devices and their masters say, from a capture or on a line, by name and with units.
 
-- `captures.py` opens a capture and returns its chunks; `packet_files.py` reads pcap and pcapng, and writes pcapng;
-  `packets.py` takes packets apart, and joins the segments of a connection; `logs.py` reads lines of text.
-- `lines.py` listens on a serial line or a bus.
-- A family's `listening.py` has its kinds of chunks (`KINDS`) and ports (`PORTS`), reads a line of a log
-  (`chunk_of_text`), listens (`hear`), and cuts chunks into frames: `take` and `rest` of what `cutter` returns.
-  `cutting.py` helps where only a check tells where a frame ends. `action` says what a frame does, `packet` writes it.
+- `captures.py` opens a capture and returns its chunks; `packets.py` reads pcap and pcapng, writes pcapng, takes packets
+  apart, and joins the segments of a connection.
+- `chunks.py` has what all sources give, listens on a serial line, reads lines of a log, and cuts bytes into frames
+  where only a check tells where a frame ends.
+- A family's `lines.py` has its kinds of chunks (`KINDS`) and ports (`PORTS`), reads a line of a log (`chunk_of_text`),
+  listens (`hear`), and cuts chunks into frames: `take` and `rest` of what `cutter` returns. `action` says what a frame
+  does, `packet` writes it.
 - `listener.py` gives each frame to the decoder of its device, and pairs requests with their answers.
 - `statistics.py` counts who polls what, how often, and what is wrong.
 

@@ -12,9 +12,8 @@ from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
-from fieldscribe.listening.chunks import SILENT, Chunk, Cut
+from fieldscribe.listening.chunks import SILENT, Chunk, Cut, Packet
 from fieldscribe.listening.exchanges import Exchange
-from fieldscribe.listening.packet_files import Packet
 from fieldscribe.model import Device
 from fieldscribe.user_errors import UnclearError
 
@@ -51,7 +50,7 @@ class Listener:
         names = {station.device.family for station in stations}
         if len(names) > 1:
             raise UnclearError(f"devices of {' and '.join(sorted(names))} are not on one line", "listen to one family")
-        self.part = family(stations[0].device.family).part("listening")
+        self.part = family(stations[0].device.family).part("lines")
         if self.part is None:
             raise UnclearError(f"nothing here cuts what devices of {', '.join(names)} say into frames")
         self.each: Callable[[Packet], object] | None = None

@@ -1,7 +1,7 @@
 """A real device on its line, through the Python runtime.
 
-- `devices.py` makes the class of a device from the model, by the calls that the Python target writes: `evaluation.py`
-  makes their objects, `numbers.py` the classes of its numbers and flags.
+- `devices.py` makes the class of a device from the model, by the calls that the Python target writes, with the classes
+  of its numbers and flags.
 - `lines.py` reads the text that names a line (`tcp://host:port`); `project.py` those that `fieldscribe.toml` names.
 - `connection.py` opens a line by `families/<family>/lines.py`, and makes devices on it.
 - `readings.py`, `writing.py` and `scanning.py` do the work of the commands; they print nothing.

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import enum
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
+from types import new_class
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from fieldscribe.live.evaluation import evaluated
-from fieldscribe.live.numbers import classes_of
-from fieldscribe.model import Device, Point
+from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.model import Device, Entry, Point
 from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of
+from fieldscribe.targets.python.enums import reader
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of, word_attribute
 from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
-from fieldscribe.targets.runtime_calls.expressions import Call
+from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName
 from fieldscribe.targets.runtime_calls.point_call import (
     attribute_of,
     call_of,
@@ -23,6 +25,7 @@ from fieldscribe.targets.runtime_calls.point_call import (
     variants_call,
 )
 from fieldscribe.targets.runtime_calls.scope import Scope
+from fieldscribe.text import upper
 
 use_python_runtime()
 
@@ -30,6 +33,70 @@ import fieldscribe_runtime as runtime  # noqa: E402 - it is found from here on
 
 if TYPE_CHECKING:
     from fieldscribe_runtime import AnyAsyncDevice, AnyDevice
+
+
+def evaluated(node: Node, names: Mapping[str, Any]) -> Any:
+    """Return the object that an expression makes; `names` are the classes, functions and constants that it may name."""
+    if isinstance(node, Call):
+        keywords = {name: evaluated(item, names) for name, item in node.keywords.items()}
+        return names[node.name](*[evaluated(item, names) for item in node.positional], **keywords)
+    if isinstance(node, Name):
+        return names[node]
+    if isinstance(node, tuple):
+        return tuple([evaluated(item, names) for item in node])
+    if isinstance(node, Mapping):
+        return {evaluated(key, names): evaluated(item, names) for key, item in node.items()}
+    if isinstance(node, PointName):
+        return str(node)
+    return int(node) if isinstance(node, Hex) else node
+
+
+def classes_of(scope: Scope, runtime: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the classes of a device by name, made of names of the runtime."""
+    classes: dict[str, Any] = {}
+    for named in scope.device.enums:
+        name = scope.names.enum_class(named.name)
+        classes[name] = _numbers(name, named.entries, runtime)
+    for point in scope.device.points:
+        if name := scope.names.word_class(point):
+            classes[name] = _word(name, point, _readers(point, scope, classes, runtime), runtime)
+    return classes
+
+
+def _numbers(name: str, entries: Iterable[Entry], runtime: Mapping[str, Any]) -> Any:
+    return runtime["NamedNumber"](name, {upper(entry.name): entry.raw for entry in entries})
+
+
+def _readers(point: Point, scope: Scope, classes: dict[str, Any], runtime: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return what reads each flag of a word by its attribute; classes of its numbers are added to the others."""
+    readers = {}
+    for flag in point.flags:
+        named = scope.names.field_class(point, flag.name) or ""
+        if named and named not in classes:
+            classes[named] = _numbers(named, flag.values, runtime)
+        readers[word_attribute(flag.name)] = evaluated(reader(flag, named), {**runtime, **classes})
+    return readers
+
+
+def _word(name: str, point: Point, readers: Mapping[str, Any], runtime: Mapping[str, Any]) -> Any:
+    base = type(f"_{name}Flags", (runtime["Word"],), dict(readers))
+    bits = {upper(flag.name): mask_of(flag.width, flag.low) for flag in point.flags}
+    members = {**bits, "of": _composer(point, readers)} if point.writable else bits
+    return new_class(name, (base, enum.IntFlag), {"boundary": enum.KEEP}, lambda body: body.update(members))
+
+
+def _composer(point: Point, readers: Mapping[str, Any]) -> Any:
+    """Return the method `of`; flags whose bits are always written as a constant are none of its parameters."""
+    mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
+    free = [word_attribute(flag.name) for flag in point.flags if mask_of(flag.width, flag.low) & ~mask]
+
+    def of(cls: Any, /, **flags: int) -> Any:
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
+        if unknown := flags.keys() - set(free):
+            raise TypeError(f"{cls.__name__}.of() takes {', '.join(free)}, not {', '.join(sorted(unknown))}")
+        return cls(cls._joined(*(readers[name].place(flags.get(name, 0)) for name in free), bits))
+
+    return classmethod(of)
 
 
 @overload

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.arithmetic import codec
-from fieldscribe.live.partial_reads import PartialReads
-from fieldscribe.live.readings import NOT_THERE, in_words, may_be_read
+from fieldscribe.live.readings import NOT_THERE, PartialReads, in_words, may_be_read
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import use_python_runtime

@@ -1,24 +1,146 @@
-"""The files of an index: the list of devices, Fieldscribe's own pages, and one search over all of them."""
+"""The files of an index: the list of devices, Fieldscribe's own pages, and one search over all of them.
+
+A link to a page or a heading that is not there is a finding.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
-from posixpath import dirname, relpath
-from typing import NamedTuple
+from posixpath import dirname, join, normpath, relpath
+from typing import TYPE_CHECKING, NamedTuple
+from urllib.parse import unquote
 
 from fieldscribe import __version__
-from fieldscribe.diagnostics import Report
-from fieldscribe.model import Device
-from fieldscribe.pages.devices import device_name, device_view, rows_of
-from fieldscribe.pages.links import Links, html_path
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.families import family
+from fieldscribe.model import Device, Point
 from fieldscribe.pages.texts import Page, page_of
 from fieldscribe.resources import Render, pages_dir
 from fieldscribe.targets.docs.html import source
-from fieldscribe.text import html_code
+from fieldscribe.text import html_code, line
+from fieldscribe.wording import label, title_text
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from markdown_it.token import Token
+
+
+FOLDER = "fieldscribe"
+"""Where our pages lie, beside the pages of devices."""
+
+_ELSEWHERE = re.compile(r"(?i)[a-z][a-z0-9+.-]*:")
+_DEVICE = re.compile(r"descriptions/(\w+)")
+_OURS = re.compile(r"[^/]+\.md|descriptions/.*\.md")
+"""The paths that pages have. What else a link may name, such as a folder, is not delivered: its words stay alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Leads links: to `pages` by their paths, which were read below `root`, and to `devices` that have a page."""
+
+    pages: Mapping[str, Page]
+    devices: Collection[str]
+    root: Path
+    report: Report
+
+    def lead(self) -> None:
+        """Change the links of all pages, and report those that lead nowhere."""
+        for page in self.pages.values():
+            for token in page.tokens:
+                if token.children:
+                    token.children = list(self._led(page, token))
+
+    def _led(self, page: Page, inline: Token) -> Iterator[Token]:
+        line, leads = (inline.map or [0])[0] + 1, True
+        for token in inline.children or ():
+            line += token.type == "softbreak"
+            if token.type == "link_open":
+                href = str(token.attrGet("href"))
+                target = href if _ELSEWHERE.match(href) else self._target(page, href)
+                leads = target is not None
+                token.attrSet("href", target or "")
+                if not leads and _OURS.fullmatch(_path(page, href)):
+                    span = Span(str(self.root / page.path), line, 1)
+                    message = f"the link `{unquote(href)}` leads to no page or heading"
+                    self.report.error("broken-link", message, span, "copy the link that stands at the heading")
+            if leads or token.type not in ("link_open", "link_close"):
+                yield token
+
+    def _target(self, page: Page, href: str) -> str | None:
+        """Return where a link leads; None if that is nowhere."""
+        path, anchor = _path(page, href), unquote(href.partition("#")[2])
+        device = _DEVICE.fullmatch(path)
+        if device and device[1] in self.devices:
+            return relpath(f"{device[1]}.html", dirname(html_path(page.path)))
+        target = self.pages.get(path)
+        if target is None or (anchor and anchor not in {section.anchor for section in target.sections}):
+            return None
+        named = f"#{anchor}" if anchor else ""
+        return named if named and target is page else relpath(html_path(path), dirname(html_path(page.path))) + named
+
+
+def html_path(path: str) -> str:
+    """Return where a page of Markdown lies as HTML."""
+    return f"{FOLDER}/{path.removesuffix('.md')}.html"
+
+
+def _path(page: Page, href: str) -> str:
+    """Return the path that a link names, as from the top."""
+    path = unquote(href.partition("#")[0])
+    return normpath(join(dirname(page.path), path)) if path else page.path
+
+
+Row = tuple[str, str, str, str]
+"""What a search sees of a place: its anchor, its title, its further words, and the heading above it."""
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """A row of the list of devices, in HTML."""
+
+    href: str
+    cells: tuple[str, ...]
+
+
+def device_view(device: Device) -> DeviceView:
+    """Return the row of a device in the list."""
+    framings = ", ".join(device.bus.framings)
+    generated = sum(point.generated for point in device.points)
+    texts = (
+        *(device.model, device.vendor, title_text(device.title)),
+        *(f"{device.family}: {framings}" if framings else device.family, str(len(device.points))),
+        *(str(generated), str(len(device.errata))),
+    )
+    return DeviceView(html_code(f"{device.id}.html"), tuple(html_code(line(text)) for text in texts))
+
+
+def device_name(device: Device) -> str:
+    """Return maker and model."""
+    return line(f"{device.vendor} {device.model}")
+
+
+def rows_of(device: Device) -> Iterator[Row]:
+    """Yield what a search sees of the points of a device: names, codes, titles, addresses in all notations."""
+    groups = {group.name: line(title_text(group.title)) for group in device.groups}
+    for point in device.points:
+        title = f"{label(point)}: {line(title_text(point.title))}"
+        yield f"point={point.item}", title, " ".join(dict.fromkeys(_numbers(device, point))), groups[point.group]
+
+
+def _numbers(device: Device, point: Point) -> Iterable[str]:
+    """Yield the numbers under which manuals and tools know a point, and its old names."""
+    yield from point.was
+    if point.addresses:
+        first = min(point.addresses)
+        yield from (hex_text(first), str(first), f"0x{first:04X}")
+        yield from map(str, family(device.family).numbers(point.space, first).values())
+    yield from map(str, point.references.values())
+
 
 NAME = "index"
 """The name of the files, as a device has one: their manifest's, too."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from fieldscribe.arithmetic.codings import BCD, MAGNITUDE, coded_ends
-from fieldscribe.arithmetic.words import ends_of
+from fieldscribe.arithmetic.words import BCD, MAGNITUDE, coded_ends, ends_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import quoted
 from fieldscribe.language.nodes import Map

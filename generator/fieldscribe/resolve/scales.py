@@ -7,10 +7,9 @@ from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.conditions import parse_case
-from fieldscribe.language.formula.lint import cut_off
 from fieldscribe.language.formula.normal import Affine, scale_rule
 from fieldscribe.language.formula.parser import parse_scale
-from fieldscribe.language.formula.suggestions import suggest_scale
+from fieldscribe.language.formula.suggestions import cut_off, suggest_scale
 from fieldscribe.language.formula.syntax import FormulaError, Part
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Factor, Linear, ScaleCase

@@ -17,13 +17,12 @@ from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
-from fieldscribe.resolve.notations import epoch_of
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scope import Scope, humanised
 from fieldscribe.resolve.special_codes import quantities
 from fieldscribe.resolve.values import FactError
-from fieldscribe.resolve.word_contents import allowed_digits, digits_of, enum_of, fixed_of, flags_of, text_of
+from fieldscribe.resolve.word_contents import allowed_digits, digits_of, enum_of, epoch_of, fixed_of, flags_of, text_of
 
 _WHOLE = re.compile(r"(-?[0-9]{1,9})\.\.(-?[0-9]{1,9})")
 """An interval of whole numbers in its usual form; the parser of formulas reads all others."""

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from fieldscribe.arithmetic.codings import BCD, coded_ends, coded_number
-from fieldscribe.arithmetic.words import ends_of, mask_of, number_of
+from fieldscribe.arithmetic.words import BCD, coded_ends, coded_number, ends_of, mask_of, number_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval

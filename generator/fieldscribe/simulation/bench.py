@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from decimal import Decimal
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,13 +16,73 @@ from fieldscribe.families import family
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.source import read_source
+from fieldscribe.model import Device
+from fieldscribe.pipeline import DEVICE_FILE, load_device
+from fieldscribe.resources import descriptions_dir
 from fieldscribe.simulation.behaviour import Behaviour
-from fieldscribe.simulation.clock import Clock
-from fieldscribe.simulation.descriptions import has_behaviour, layout_of, rules_of
-from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.behaviour_file import FILE, find_behaviour, read_behaviour
+from fieldscribe.simulation.behaviour_rules import Rules
+from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.faults import Fault
+from fieldscribe.simulation.layout import Layout
 from fieldscribe.simulation.line import Line, Trace
 from fieldscribe.user_errors import UnclearError, did_you_mean
+
+LOCAL = Path("descriptions")
+Made = TypeVar("Made")
+
+
+class BrokenError(UnclearError):
+    """A file has errors; `report` has all of them."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__(report.findings[0].message, report.findings[0].hint or "")
+        self.report = report
+
+
+@lru_cache(maxsize=64)
+def layout_of(
+    name: str, variants: tuple[str, ...] = (), given: tuple[tuple[str, int], ...] = (), folder: Path = LOCAL
+) -> Layout:
+    """Return the layout of a device. Raises UnclearError."""
+    return Layout(_model(name, folder), variants, dict(given))
+
+
+def has_behaviour(name: str, folder: Path = LOCAL) -> bool:
+    """Return True if a behaviour file stands beside a description. Raises UnclearError."""
+    return find_behaviour(_file(name, folder)) is not None
+
+
+@lru_cache(maxsize=16)
+def rules_of(name: str, folder: Path = LOCAL) -> Rules:
+    """Return the rules of the behaviour beside a description. Raises UnclearError."""
+    file, report = _file(name, folder), Report()
+    path = find_behaviour(file)
+    if path is None:
+        raise UnclearError(f"`{name}` has no behaviour", f"write a {FILE} beside {file}")
+    return _read(read_behaviour(path, _model(name, folder), report), report)
+
+
+@lru_cache(maxsize=16)
+def _model(name: str, folder: Path) -> Device:
+    report = Report()
+    return _read(load_device(_file(name, folder), report), report)
+
+
+def _file(name: str, folder: Path) -> Path:
+    paths = [folder / name, Path(name), LOCAL / name, descriptions_dir() / name]
+    files = (path if path.is_file() else path / DEVICE_FILE for path in paths)
+    file = next((file for file in files if file.is_file()), None)
+    if file is None:
+        raise UnclearError(f"there is no device `{name[:80]}`", f"give an id, or a folder with a {DEVICE_FILE}")
+    return file
+
+
+def _read(made: Made | None, report: Report) -> Made:
+    if made is None:
+        raise BrokenError(report)
+    return made
+
 
 Settings = Mapping[str, Any]
 Item = TypeVar("Item")
@@ -160,3 +221,56 @@ def _wrong(settings: Settings, key: str | None, message: str, hint: str) -> Uncl
 
 def _at(span: Span | None, message: str, hint: str) -> UnclearError:
     return UnclearError(f"{span.file}:{span.line}:{span.column}: {message}" if span is not None else message, hint)
+
+
+HELP = """\
+get POINT           the value that a device holds
+set POINT=VALUE     let it hold another one, whatever its rules say
+unmet CONDITION     refuse the writes that need a condition; `met CONDITION` ends that
+fault KIND ...      spoil answers: `fault late 0.5 x3`, `fault cut 4 10%`; `clear` ends all faults
+restart             switch the devices off and on: what was not stored is lost
+advance SECONDS     let time pass at once
+quit                end
+behind @UNIT, as in `@3 get A020`, a line is about that unit alone"""
+
+
+def carry_out(bench: Bench, text: str) -> str:
+    """Return what to print for a line of text. Raises UnclearError, and EOFError for `quit`."""
+    unit, _, words = text.strip().partition(" ") if text.strip().startswith("@") else ("", "", text.strip())
+    verb, _, rest = words.strip().partition(" ")
+    devices = [device for line in bench.lines for device in line.core.devices if unit in ("", f"@{device.unit}")]
+    if not devices:
+        raise UnclearError(f"no device has the unit `{unit[1:21]}`", "")
+    try:
+        if verb == "advance":
+            bench.clock.advance(max(0.0, float(rest)))
+        elif verb == "fault":
+            for line in bench.lines:
+                line.faults.waiting.append(Fault.of(rest))
+        elif verb == "clear":
+            for line in bench.lines:
+                line.faults.waiting.clear()
+        elif verb == "quit":
+            raise EOFError
+        elif verb in ("get", "set", "restart", "met", "unmet"):
+            return "\n".join(filter(None, (_one(device, verb, rest) for device in devices)))
+        else:
+            return HELP if verb == "help" else f"there is no `{verb[:20]}`; `help` lists what there is" * bool(verb)
+    except (KeyError, ValueError) as error:
+        raise UnclearError(str(error.args[0]), "") from None
+    return ""
+
+
+def _one(device: SimulatedDevice, verb: str, rest: str) -> str:
+    if verb != "restart" and not rest.strip():
+        raise UnclearError(f"`{verb}` needs more", "`help` says what")
+    if verb == "get":
+        return f"{device.unit} {rest} = {device.values[rest]}"
+    if verb == "set":
+        name, _, value = rest.partition("=")
+        device.values[name.strip()] = value.strip()
+    elif verb == "restart":
+        device.restart()
+    else:
+        device.meet([rest], holds=verb == "met")
+    return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import ChainMap, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,12 +12,32 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.words import raw_of, split, with_fixed
 from fieldscribe.model import Command, Point, Source
-from fieldscribe.simulation.clock import Clock
 from fieldscribe.simulation.layout import Area, Cells, Layout, joined_cells
-from fieldscribe.simulation.memory import Memory
-from fieldscribe.simulation.values import Plant, Values
+from fieldscribe.simulation.memory import Memory, Plant, Values
 from fieldscribe.wording import label
 from fieldscribe.wording.rules import condition_text
+
+
+class Clock:
+    """Seconds since the start, `scale` times as fast as real ones; with a scale of 0 only `advance` moves them."""
+
+    def __init__(self, scale: float = 1.0) -> None:
+        self.scale = scale
+        self._start = time.monotonic()
+        self._ahead = 0.0
+
+    def now(self) -> float:
+        """Return the seconds since the start."""
+        return (time.monotonic() - self._start) * self.scale + self._ahead
+
+    def advance(self, seconds: float) -> None:
+        """Let so many seconds pass at once."""
+        self._ahead += seconds
+
+    def real(self, seconds: float) -> float:
+        """Return how many real seconds a delay takes; none while the clock stands."""
+        return seconds / self.scale if self.scale else 0.0
+
 
 BUSY_FOR = 0.05
 """The seconds for which a point says that a command is at work; no manual gives them."""

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of, reader_of, split
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.bases import at_bases
-from fieldscribe.conversation.selection import choose_variants
+from fieldscribe.conversation.selection import at_bases, choose_variants
 from fieldscribe.families import family
 from fieldscribe.model import Base, Command, Device, Place, Point
 from fieldscribe.text import shortened

@@ -2,17 +2,114 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, MutableMapping
+from decimal import Decimal
 from fractions import Fraction
 from random import Random
 from threading import RLock
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
-from fieldscribe.arithmetic.codec import setting_of
-from fieldscribe.arithmetic.words import insert, joined, words_of
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings, setting_of
+from fieldscribe.arithmetic.texts import pattern_of_text, text_of
+from fieldscribe.arithmetic.words import insert, joined, with_fixed, words_of
+from fieldscribe.conversation.selection import choose_point
+from fieldscribe.conversation.typed_values import read_value
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
-from fieldscribe.simulation.starting import corrected_raw, starting_raw
+from fieldscribe.user_errors import UnclearError
+
+_ELECTRIC = {"voltage": 230, "current": 5, "frequency": 50, "power": 1000, "energy": 1000}
+_USUAL = _ELECTRIC | {"temperature": 40, "ratio": 50, "rotational speed": 1500, "time": 10}
+"""What a measured value is about, in the base unit of its quantity, where its range does not say."""
+
+
+_NUMBERS = 100
+"""The end of the numbers that a point starts with, if neither its range nor its unit says more."""
+
+_WIDE = 20_000
+"""The width of a range that is no more than what the bits can hold."""
+
+
+def starting_raw(layout: Layout, point: Point, settings: Settings, random: Random) -> int:
+    """Return the raw number that a point holds at the start, with the settings that it depends on."""
+    identifying, others = _identifying(layout, point)
+    if identifying:
+        return identifying[0]
+    if point.default_raw is not None:
+        return point.default_raw
+    try:
+        if point.default is not None:
+            return codec.encode(point, point.default, settings)
+        found = (raw for raw in _candidates(layout, point, settings, random) if _allowed(point, raw, settings))
+        return next(raw for raw in found if raw not in others)
+    except (CodecError, StopIteration):
+        return with_fixed(point, 0)
+
+
+def _identifying(layout: Layout, point: Point) -> tuple[list[int], set[int]]:
+    """Return the raw numbers by which a point tells this device, the best one first, and those of other variants."""
+    asked: list[list[int]] = []
+    others: set[int] = set()
+    for known in layout.device.identifications:
+        if known.point == point.name:
+            raws = [*known.raws, *(pattern_of_text(point.text, text) for text in known.texts if point.text is not None)]
+            if known.variant is None or layout.variants[known.variant.axis] == known.variant.value:
+                asked.append(raws)
+            else:
+                others.update(raws)
+    both = [raw for raw in asked[0] if all(raw in raws for raws in asked)] if asked else []
+    return sorted(both, key=lambda raw: (raw in others, raw != point.default_raw)), others
+
+
+def corrected_raw(point: Point, raw: int, settings: Settings) -> int:
+    """Return the raw number, or the nearest one that may be written with the settings as all points have them."""
+    if _allowed(point, raw, settings) or point.info.floating or point.text is not None:
+        return raw
+    try:
+        nearest = codec.nearest_allowed(point, raw, settings)
+    except CodecError:
+        nearest = None
+    return raw if nearest is None else with_fixed(point, nearest)
+
+
+def _allowed(point: Point, raw: int, settings: Settings) -> bool:
+    try:
+        codec.check(point, raw, settings)
+    except CodecError:
+        return False
+    return True
+
+
+def _candidates(layout: Layout, point: Point, settings: Settings, random: Random) -> Iterator[int]:
+    """Yield raw numbers, the most plausible one first."""
+    if point.text is not None:
+        yield 0 if point.text.is_bytes else pattern_of_text(point.text, "")
+    if point.enum is not None:
+        yield from (entry.raw for entry in point.enum.entries)
+    if point.flags or point.digits is not None or point.width == 1 or point.name in layout.least:
+        yield with_fixed(point, 0)
+    usual = _USUAL.get(point.unit.quantity)
+    if usual is not None:
+        yield codec.encode(point, Fraction(usual), settings)
+    for low, high in _ranges(point, settings):
+        share = Fraction(random.randint(25, 75), 100)
+        number = low + (high - low) * share
+        yield codec.encode(point, Fraction(round(number)), settings) if point.info.floating else round(number)
+        yield codec.encode(point, low, settings) if point.info.floating else int(low)
+
+
+def _ranges(point: Point, settings: Settings) -> Iterator[tuple[Fraction, Fraction]]:
+    """Yield the ranges of the point: in the unit for floating-point numbers, else in raw numbers."""
+    if point.info.floating:
+        yield from point.allowed.units or ((Fraction(0), Fraction(_NUMBERS)),)
+    elif point.allowed.intervals:
+        for low, high in ((window.low, window.high) for window in codec.windows(point, settings)):
+            wide = high - low > _WIDE and low <= 0 <= high - _NUMBERS
+            yield (Fraction(0), Fraction(_NUMBERS)) if wide else (Fraction(low), Fraction(high))
+    else:
+        yield Fraction(0), Fraction(min(_NUMBERS, point.greatest))
+
 
 V = TypeVar("V")
 
@@ -117,3 +214,121 @@ def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
         if point.writable and memory.exists(point):
             memory.put(point.name, corrected_raw(point, memory.raw(point.name), memory.settings))
     return memory.areas
+
+
+Value = str | int | float
+"""A name of an enum or of a special code, a text, a whole number, or a number in the unit."""
+
+
+class Plant(Protocol):
+    """The quantities of a behaviour, which no point holds."""
+
+    @property
+    def plant(self) -> Mapping[str, Fraction]:
+        """The quantities by name."""
+
+    def set(self, name: str, number: Fraction) -> None:
+        """Let a quantity be a number from now on."""
+
+    def touch(self) -> None:
+        """Take notice that points were written."""
+
+
+class Values(MutableMapping[str, Value]):
+    """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse.
+
+    The quantities of a behaviour are values, too.
+    """
+
+    def __init__(self, memory: Memory, advance: Callable[[], None], plant: Plant | None = None) -> None:
+        self._memory, self._advance, self._plant = memory, advance, plant
+
+    def __getitem__(self, name: str) -> Value:
+        with LOCK:
+            self._go_on()
+            if self._plant is not None and name in self._plant.plant:
+                return _plain(self._plant.plant[name])
+            point = self._point(name)
+            return value_of(point, self._memory.raw(point.name), self._memory.settings)
+
+    def __setitem__(self, name: str, value: Value | Fraction | Decimal) -> None:
+        with LOCK:
+            self._go_on()
+            if self._plant is not None and name in self._plant.plant:
+                self._plant.set(name, _number(name, value))
+            else:
+                point = self._point(name)
+                self._memory.put(point.name, raw_for(point, value, self._memory.settings))
+            self._go_on()
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("a device has all of its points")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._memory.layout.points)
+
+    def __len__(self) -> int:
+        return len(self._memory.layout.points)
+
+    def _go_on(self) -> None:
+        """Bring the memory to the present, and let what is written now have its effect."""
+        if self._plant is not None:
+            self._plant.touch()
+        self._advance()
+
+    def _point(self, name: str) -> Point:
+        points = self._memory.layout.points
+        try:
+            return points[name] if name in points else points[choose_point(self._memory.layout.device, name).name]
+        except UnclearError as error:
+            raise KeyError(f"{error.message}; {error.hint}".rstrip("; ")) from None
+
+
+def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
+    """Return the value of a raw number: a name, a text, or a number in the unit."""
+    special = point.special(raw)
+    if special is not None:
+        return special.name
+    if point.text is not None:
+        try:
+            return text_of(point.text, raw)
+        except UnicodeDecodeError:
+            return raw
+    if point.enum is not None:
+        return next((entry.name for entry in point.enum.entries if entry.raw == raw), raw)
+    try:
+        value = codec.decode(point, raw, settings)
+    except CodecError:
+        return codec.float_of(point, raw) if point.info.floating else raw
+    return float(value) if point.info.floating else _plain(value)
+
+
+def _number(name: str, value: Value | Fraction | Decimal) -> Fraction:
+    """Return the number that a quantity shall be. Raises ValueError for what is none."""
+    try:
+        return Fraction(value)
+    except (ValueError, OverflowError, ZeroDivisionError):
+        raise ValueError(f"{name} is a number, not {value}") from None
+
+
+def _plain(value: Fraction) -> int | float:
+    return int(value) if value.denominator == 1 else float(value)
+
+
+def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Settings) -> int:
+    """Return the raw number of a value. Raises ValueError if the bits cannot hold it, or the point has no such name."""
+    try:
+        if isinstance(value, str):
+            typed = read_value(point, value)
+            raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
+        elif point.form in ("enum", "flags", "bit", "digits"):
+            raw = int(value)
+        else:
+            raw = codec.encode(point, Fraction(value), settings)
+    except UnclearError as error:
+        raise ValueError(f"{error.message}; {error.hint}".rstrip("; ")) from None
+    except (CodecError, OverflowError) as error:
+        raise ValueError(f"{point.name} cannot hold {value}: {error}") from None
+    if point.text is None and not point.least <= raw <= point.greatest:
+        raise ValueError(f"{point.name} cannot hold {value}")
+    return raw

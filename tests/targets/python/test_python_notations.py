@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from fieldscribe.arithmetic import notations
+from fieldscribe.arithmetic import texts as notations
 from support.described import kitchen_sink
 from support.notation_rows import BYTES, NONE
 from support.python_package import Slave, error, imported, write_package

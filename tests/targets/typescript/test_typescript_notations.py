@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import pytest
-from fieldscribe.arithmetic import notations
+from fieldscribe.arithmetic import texts as notations
 from support.notation_rows import BYTES, NONE
 from support.toolchains import succeed, tool
 from support.typescript_packages import install

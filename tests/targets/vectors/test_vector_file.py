@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 from fieldscribe.families import family
 from fieldscribe.model import Entry, Enum, Flag, Limit, Special
-from fieldscribe.targets.vectors.lines import Lines, Row
-from fieldscribe.targets.vectors.vector_kinds import KINDS
+from fieldscribe.targets.vectors.lines import KINDS, Lines, Row
 from support.models import allowed, linear, point, sample_bus, sample_device, scaled, titles, value_of
 from support.sample_vectors import SAMPLE, VECTORS, text_of, vectors
 from support.vector_file import counts_of, vectors_of

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 from fieldscribe.checks import frames_agree
 from fieldscribe.checks.addresses_do_not_overlap import APART
-from fieldscribe.checks.coexistence import Coexistence
+from fieldscribe.checks.coexistence import Coexistence, report_missing
 from fieldscribe.checks.frames_agree import Seen, Words
-from fieldscribe.checks.reachability import report_missing
 from fieldscribe.diagnostics import Span
 from fieldscribe.families.can import frames, identifier_bits, identifier_of, signals
 from fieldscribe.language.nodes import Map

@@ -13,6 +13,7 @@ from fieldscribe.families.can.frames import (
     CanFrame,
     Head,
     ParameterWord,
+    Receiver,
     carried,
     carries,
     differences,
@@ -21,7 +22,6 @@ from fieldscribe.families.can.frames import (
     unit_of,
 )
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
-from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, OpenRequests, Piece, Word
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Bus, Device, Message, Telegram

@@ -1,16 +1,24 @@
-"""A CAN bus, as python-can names it: an interface and a channel."""
+"""A CAN bus, as python-can names it (an interface and a channel), and its messages: each is a frame of its own."""
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families.can.frames import LONGEST, CanFrame
+from fieldscribe.families.can.notation import Pasted, read_frames
+from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.listening.chunks import BUS_SOCKET, MESSAGE, SILENCE, SILENT, Chunk, Cut, Packet
 from fieldscribe.live.lines import LineAddress, OpenLine
 from fieldscribe.model import Device
+from fieldscribe.pasted_numbers import HexError
 from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:
     import can
     from fieldscribe_runtime.transports.can import CanLine
+
 
 SCHEMES: dict[str, tuple[str, ...]] = {"can": ("bitrate",)}
 EXAMPLES = ("can://socketcan/can0",)
@@ -47,3 +55,72 @@ def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variant
     if line.timeout is not None:
         device.patience = line.timeout
     return device
+
+
+KINDS = (MESSAGE,)
+PORTS: frozenset[int] = frozenset()
+_LONG, _REMOTE, _SHORT = 0x80000000, 0x40000000, 0x7FF
+"""How SocketCAN marks long identifiers and remote messages, and the last short identifier."""
+
+
+class CanCutter:
+    """Makes frames of messages."""
+
+    def take(self, chunk: Chunk) -> Iterator[Cut]:
+        """Return the frame of a message."""
+        frame = Pasted(CanFrame(chunk.identifier, chunk.data), remote=chunk.remote)
+        yield Cut(chunk.time, frame, chunk.data, None)
+
+    def rest(self) -> Iterator[Cut]:
+        """Return nothing: each message is whole."""
+        return iter(())
+
+
+def cutter() -> CanCutter:
+    """Return what makes frames of messages."""
+    return CanCutter()
+
+
+def packet(cut: Cut) -> Packet:
+    """Return a message as a packet of SocketCAN."""
+    pasted: Pasted = cut.frame
+    identifier, data = pasted.frame.id, cut.data[:LONGEST]
+    head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if pasted.remote else 0)
+    return Packet(cut.time, BUS_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
+
+
+def hear(line: LineAddress) -> Iterator[Chunk]:
+    """Yield the messages on a bus; nothing for a while is a message without data. Raises UnclearError."""
+    try:
+        bus = open_bus(line)
+    except ModuleNotFoundError as error:
+        raise UnclearError(f"{line.scheme}://: {error}", "pip install 'fieldscribe[live]'") from error
+    try:
+        while True:
+            heard = bus.recv(SILENCE)
+            if heard is None:
+                yield Chunk(None, SILENT, b"")
+            elif not heard.is_error_frame:
+                remote, identifier = heard.is_remote_frame, heard.arbitration_id
+                yield Chunk(time.time(), MESSAGE, bytes(heard.data), identifier=identifier, remote=remote)
+    except OSError as error:
+        raise line.wrong(f"it went away: {error}") from error
+    finally:
+        bus.shutdown()
+
+
+def action(result: FrameResult) -> str:
+    """Return what a message is."""
+    return str(result.details.get("message", "message"))
+
+
+def chunk_of_text(text: str) -> Chunk:
+    """Return the message in a line of candump. Raises HexError for a line without one."""
+    try:
+        pasted = read_frames([text])[0]
+    except (UnclearError, IndexError) as error:
+        raise HexError(str(error)) from error
+    stamp = pasted.stamp.strip("()")
+    time = float(stamp) if stamp.count(".") == 1 and len(stamp) > 1 else None
+    frame = pasted.frame
+    return Chunk(time, MESSAGE, frame.data, pasted.bus, identifier=frame.id, remote=pasted.remote)

@@ -11,8 +11,8 @@ from fieldscribe.arithmetic.words import joined
 from fieldscribe.families.can import frames, identifier_bits, signals
 from fieldscribe.families.can.frames import CanFrame, carriers, identifier, parse, request_and_answer
 from fieldscribe.model import Message, Role, Telegram
-from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice
+from fieldscribe.simulation.line import Answer, Core
 
 LINES = {"can": ("can",)}
 _EXTENDED = 1 << 31
@@ -22,15 +22,10 @@ _USUAL_PAUSE = 0.1
 _PARAMETERS = ("parameter", 0)
 
 
-def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> CanCore:
-    """Return the end of a bus with these devices."""
-    return CanCore(devices, framing or "can")
-
-
 class CanCore(Core):
     """Devices on a bus. What they refuse they do not answer."""
 
-    def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
+    def __init__(self, devices: Sequence[SimulatedDevice], framing: str = "can") -> None:
         self.devices, self.framing = devices, framing
         self._units = [_Unit(device) for device in devices]
 
@@ -60,6 +55,9 @@ class CanCore(Core):
         senders = [sender for unit in self._units for sender in unit.senders]
         data = [frame for sender in senders if sender.next <= now for frame in sender.frames(now)]
         return data, min((sender.next for sender in senders), default=None)
+
+
+core_of = CanCore
 
 
 class _Sender:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from fieldscribe.checks import frames_agree
+from fieldscribe.checks.coexistence import report_missing
 from fieldscribe.checks.frames_agree import Seen
-from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap

@@ -8,8 +8,8 @@ from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, SPACES, Profil
 from fieldscribe.families.modbus.exchange import Request, request_in
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, crc16, frame, pack_bits, request_length
 from fieldscribe.model import Bus, Source
-from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
+from fieldscribe.simulation.line import Answer, Core
 
 LINES = {"tcp": ("any", "tcp", "rtu"), "serial": ("rtu",)}
 _LONGEST = 256
@@ -33,9 +33,9 @@ _REASONS = {
 """The reason for each kind of refusal; all others are about the value."""
 
 
-def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> ModbusCore:
+def core_of(devices: Sequence[SimulatedDevice], framing: str = "tcp") -> ModbusCore:
     """Return the end of a line with these devices; with the framing `any`, the first request of a client decides."""
-    return _UnsettledCore(devices) if framing == "any" else ModbusCore(devices, framing or "tcp")
+    return _UnsettledCore(devices) if framing == "any" else ModbusCore(devices, framing)
 
 
 class _Unit:
@@ -118,10 +118,6 @@ class ModbusCore(Core):
         elif what == "exception":
             pdu = bytes((pdu[0] | 0x80, 4))
         return self._framed(head, pdu)
-
-    def due(self, _now: float) -> tuple[list[bytes], float | None]:
-        """Return nothing: no Modbus device speaks unasked."""
-        return [], None
 
     def _framed(self, head: bytes, pdu: bytes) -> bytes:
         return frame(self.framing, head[-1], int.from_bytes(head[:2], "big") if len(head) > 1 else 0, pdu)

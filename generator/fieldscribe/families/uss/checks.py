@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from fieldscribe.arithmetic.words import split, words_in
 from fieldscribe.checks import frames_agree
+from fieldscribe.checks.coexistence import report_missing
 from fieldscribe.checks.frames_agree import Seen, Words
-from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.uss import FAMILY, of_bus, of_frame
 from fieldscribe.families.uss.parts import MASKS, READ_TASK, SHORT, VARIABLE, Link, part_of, write_task
 from fieldscribe.families.uss.remarks import words_printed

@@ -1,16 +1,26 @@
-"""USS lines: serial, with how the telegrams of the device are set."""
+"""USS lines: serial, with how the telegrams of the device are set.
+
+What is heard there is cut into telegrams by their start, length and check byte.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.families.uss import parts
 from fieldscribe.families.uss.parts import VARIABLE, default_link
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
+from fieldscribe.listening.chunks import BYTES, ByteCutter, Chunk, packet, serial_chunks
+from fieldscribe.listening.chunks import logged_bytes as chunk_of_text
 from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
 from fieldscribe.model import Device
 
 if TYPE_CHECKING:
     from fieldscribe_runtime.transports.serial import UssLine
     from fieldscribe_runtime.uss import UssDevice
+
 
 SCHEMES: dict[str, tuple[str, ...]] = {"uss": (*SERIAL_KEYS, "pkw", "pzd", "single_first")}
 EXAMPLES = ("uss:///dev/ttyUSB0?baud=9600&pkw=4&pzd=2",)
@@ -56,3 +66,36 @@ def any_device(line: OpenLine, unit: int) -> UssDevice:
 def probe(device: UssDevice) -> str:
     """Ask a device for its process data, which commands nothing; return what came. Raises FieldscribeError."""
     return f"word 1 of its process data is {device.read_at('reply', 0)[0]:04X}h"
+
+
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
+
+KINDS = (BYTES,)
+PORTS: frozenset[int] = frozenset()
+_LONGEST = 256
+
+
+def _size_at(data: bytes, begins: bool) -> int:
+    del begins
+    if data[0] != START:
+        return 0
+    size = data[1] + 2 if len(data) > 1 else LEAST_BYTES
+    if len(data) < size:
+        return -1
+    return size if size >= LEAST_BYTES and not check_byte(data[:size]) else 0
+
+
+def cutter() -> ByteCutter:
+    """Return what cuts chunks into telegrams."""
+    return ByteCutter(_size_at, _LONGEST, None, 2)
+
+
+def hear(line: LineAddress) -> Iterator[Chunk]:
+    """Yield what comes on a line. Raises UnclearError."""
+    return serial_chunks(line, "8E1")
+
+
+def action(result: FrameResult) -> str:
+    """Return what an exchange does, in a word."""
+    task = result.details.get("task")
+    return "process data" if not task else "write" if task in parts.TASK_WIDTHS else "read"

@@ -11,8 +11,8 @@ from fieldscribe.families.uss import of_bus, parts
 from fieldscribe.families.uss.parts import Link, Part
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
 from fieldscribe.model import Point
-from fieldscribe.simulation.core import Answer, Core
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
+from fieldscribe.simulation.line import Answer, Core
 
 LINES = {"serial": ("uss",), "tcp": ("uss",)}
 _LONGEST = 257
@@ -44,15 +44,10 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
 _VALUE = ("value_not_allowed", "not_allowed", "limit")
 
 
-def core_of(devices: Sequence[SimulatedDevice], framing: str = "") -> UssCore:
-    """Return the end of a line with these devices."""
-    return UssCore(devices, framing or "uss")
-
-
 class UssCore(Core):
     """Devices on a line. What a device does not understand it does not answer."""
 
-    def __init__(self, devices: Sequence[SimulatedDevice], framing: str) -> None:
+    def __init__(self, devices: Sequence[SimulatedDevice], framing: str = "uss") -> None:
         self.devices, self.framing = devices, framing
         self._units = {unit: _Unit(device) for unit, device in by_unit(devices).items()}
 
@@ -94,9 +89,8 @@ class UssCore(Core):
             words[0], words[2] = words[0] & 0x0FFF | parts.REFUSED << 12, 17
         return telegram(address, words)
 
-    def due(self, _now: float) -> tuple[list[bytes], float | None]:
-        """Return nothing: no USS device speaks unasked."""
-        return [], None
+
+core_of = UssCore
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,9 +10,8 @@ from functools import lru_cache
 from typing import TypeAlias
 
 from fieldscribe.conditions import OPPOSITES, TooManyClausesError, all_of, any_of
-from fieldscribe.language.formula.parser import VARIABLES, Parser
+from fieldscribe.language.formula.parser import VARIABLES, Parser, Token, number
 from fieldscribe.language.formula.syntax import FormulaError, Name
-from fieldscribe.language.formula.tokens import Token, number
 
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"

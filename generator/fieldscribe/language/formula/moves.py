@@ -12,9 +12,8 @@ from functools import lru_cache
 from typing import TypeVar
 
 from fieldscribe.language.formula.conditions import Clauses, parse_condition
-from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.parser import LONGEST, parse_expression
 from fieldscribe.language.formula.syntax import Expression, FormulaError
-from fieldscribe.language.formula.tokens import LONGEST
 
 _WORD = re.compile(r"(?:^|(?<=\s))(set|ramp to|down at|at|while|when|after)(?=\s|$)")
 _ORDER = re.compile(r"(set|ramp to at( down at)?)( while| when)?( after)?")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.notations import epoch_in_unix
+from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Flag, Point
 from fieldscribe.targets.c.layout import WIDTH, filled, folded

@@ -18,7 +18,7 @@ from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, tex
 from fieldscribe.targets.c.point_views import functions_of, symbols_of
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import AliasView, Define, PointFields, PointView
-from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.text import c_comment, c_string, upper
 
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)

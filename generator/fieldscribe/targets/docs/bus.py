@@ -11,7 +11,7 @@ from fieldscribe.model import Bus, Code, Command, Device, Message, Role, Stepped
 from fieldscribe.targets.docs.cells import Columns, Form
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.steps import run_text, steps_texts
+from fieldscribe.wording.rules import run_text, steps_texts
 
 
 @dataclass(frozen=True, slots=True)

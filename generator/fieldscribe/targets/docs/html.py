@@ -18,7 +18,7 @@ from fieldscribe.targets.docs.html_points import Points
 from fieldscribe.targets.docs.marks import MARKED
 from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.tables import items_of
-from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
 from fieldscribe.text import html_code, line

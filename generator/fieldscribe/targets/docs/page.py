@@ -10,7 +10,6 @@ import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
 from fieldscribe.model import Command, Device, Message, Point
-from fieldscribe.targets import heads
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import MARKDOWN, anchor, by_rows, cell, code, link, paragraph
@@ -18,6 +17,7 @@ from fieldscribe.targets.docs.points import GroupView, group_views
 from fieldscribe.targets.docs.scope import DocsScope, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.words import is_broken
+from fieldscribe.targets.identifiers import command as command_line
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
@@ -72,7 +72,7 @@ def page_of(scope: DocsScope) -> PageView:
     numberings = (*printed, *(key for key in computed if key not in printed))
     return PageView(
         generated=cell(generated),
-        regenerate=code(heads.command(device, "docs")),
+        regenerate=code(command_line(device, "docs")),
         heading=cell(f"{device.vendor} {device.model}: {wording.title_text(device.title)}"),
         note=paragraph(wording.title_text(device.note)) if device.note else "",
         facts=by_rows(("Fact", "Value"), device_tables.facts(device, MARKDOWN)),

@@ -11,7 +11,7 @@ from typing import Any
 import fieldscribe
 from fieldscribe.model import Device
 from fieldscribe.targets.docs.tables import Column, Encode, Table
-from fieldscribe.targets.heads import command
+from fieldscribe.targets.identifiers import command
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from fieldscribe import __version__
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
-from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment, wrapped
 from fieldscribe.targets.python.namespaces import device_name_taken, identifiers

@@ -8,7 +8,7 @@ from collections.abc import Set as AbstractSet
 from fieldscribe import wording
 from fieldscribe.model import Device, Point, Version
 from fieldscribe.resources import Render
-from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
 from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space

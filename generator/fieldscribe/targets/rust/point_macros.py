@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from fieldscribe.arithmetic.notations import epoch_in_unix
+from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Point
 from fieldscribe.resources import Render

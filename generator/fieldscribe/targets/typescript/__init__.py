@@ -8,7 +8,7 @@ from itertools import chain
 from fieldscribe import __version__
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
-from fieldscribe.targets.heads import head_lines
+from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.typescript.identifiers import Identifiers
 from fieldscribe.targets.typescript.namespaces import device_name_taken, identifiers
 from fieldscribe.text import js_comment, line

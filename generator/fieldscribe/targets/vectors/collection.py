@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from operator import attrgetter
 from types import MappingProxyType
 
-from fieldscribe.arithmetic.notations import epoch_in_unix
+from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.conditions import Condition
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Device, Point, item_of

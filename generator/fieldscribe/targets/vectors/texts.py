@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import inf, isfinite, nan
 from operator import mul
 
-from fieldscribe.arithmetic.notations import notated
+from fieldscribe.arithmetic.texts import notated
 from fieldscribe.model import Digits, Shape, Text
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines

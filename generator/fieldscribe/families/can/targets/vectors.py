@@ -8,6 +8,7 @@ from typing import Literal
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import (
     CanFrame,
+    Receiver,
     build,
     carriers,
     carries,
@@ -18,7 +19,6 @@ from fieldscribe.families.can.frames import (
     places,
     request_and_answer,
 )
-from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Bus, Device, Message, Point, Telegram
 from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
 from fieldscribe.targets.vectors.integers import bytes_exchanged

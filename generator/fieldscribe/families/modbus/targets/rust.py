@@ -10,7 +10,7 @@ from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
 from fieldscribe.targets.rust.layout import Item, Lines, array, binding, chain
 from fieldscribe.text import rust_code, rust_string
-from fieldscribe.wording.steps import run_text, steps_texts
+from fieldscribe.wording.rules import run_text, steps_texts
 
 _WRITE_COILS = 15
 _PORTS = {"rtu": 4001, "tcp": 502}
