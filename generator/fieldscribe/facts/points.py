@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from operator import itemgetter
 
@@ -97,12 +96,7 @@ SPECIAL: FactTable = (
     Fact("no_value", "Whether it says that there is no value.", BOOLEAN, BEHAVIOUR),
     Fact("writable", "Whether it may be written.", BOOLEAN, BEHAVIOUR),
     Fact("hexadecimal", "Whether the manual prints it so.", BOOLEAN, published=False),
-    Fact(
-        "shared",
-        "Whether the point gets it from a type, a group or a format.",
-        BOOLEAN,
-        published=False,
-    ),
+    Fact("shared", "Whether the point gets it from a type, a group or a format.", BOOLEAN, published=False),
 )
 
 DIGITS: FactTable = (
@@ -130,16 +124,9 @@ _REFERENCES = (
 
 POINT: FactTable = (
     Fact("name", "English snake_case; unique but for variants.", STRING),
-    Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE, column="the code that the manual prints"),
-    Fact(
-        "group",
-        "The group in which the manual presents it.",
-        STRING,
-        API,
-        refers="group",
-        label="Group",
-        text=texts.group_text,
-        column="the group in the description",
+    Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE).says(column="the code that the manual prints"),
+    Fact("group", "The group in which the manual presents it.", STRING, API, refers="group").says(
+        "Group", text=texts.group_text, column="the group in the description"
     ),
     Fact(
         "variant",
@@ -148,28 +135,12 @@ POINT: FactTable = (
         API,
         attribute="variant",
         value=lambda point, _: None if point.variant is None else str(point.variant),
-        label="Variant",
-        remark="only {}",
-        column="for which devices the row holds, where they differ",
+    ).says("Variant", remark="only {}", column="for which devices the row holds, where they differ"),
+    Fact("record", "The record it belongs to.", TEXT_OR_NULL, DOCS, for_people=True).says(
+        "Record", remark="record {}", column="the record that it belongs to"
     ),
-    Fact(
-        "record",
-        "The record it belongs to.",
-        TEXT_OR_NULL,
-        DOCS,
-        for_people=True,
-        label="Record",
-        remark="record {}",
-        column="the record that it belongs to",
-    ),
-    Fact(
-        "set",
-        "The parameter set it belongs to.",
-        INTEGER_OR_NULL,
-        API,
-        label="Set",
-        remark="set {}",
-        column="the number of its parameter set",
+    Fact("set", "The parameter set it belongs to.", INTEGER_OR_NULL, API).says(
+        "Set", remark="set {}", column="the number of its parameter set"
     ),
     Fact(
         "repeat",
@@ -179,21 +150,11 @@ POINT: FactTable = (
         derived="it is a part of the name",
     ),
     _always_null("format", "The named format it follows."),
-    Fact(
-        "space",
-        "The space in which its addresses count: `coil`, `holding`, ...",
-        STRING,
-        WIRE,
-        column="where the address counts: `coil`, `holding`, `parameter`, `telegram`, ...",
+    Fact("space", "The space in which its addresses count: `coil`, `holding`, ...", STRING, WIRE).says(
+        column="where the address counts: `coil`, `holding`, `parameter`, `telegram`, ..."
     ),
-    Fact(
-        "telegram",
-        "The telegram that carries it.",
-        TEXT_OR_NULL,
-        WIRE,
-        refers="telegram",
-        remark="telegram {}",
-        column="in which telegram a word is",
+    Fact("telegram", "The telegram that carries it.", TEXT_OR_NULL, WIRE, refers="telegram").says(
+        remark="telegram {}", column="in which telegram a word is"
     ),
     Fact(
         "direction",
@@ -208,18 +169,13 @@ POINT: FactTable = (
         "The lowest address on the wire, counted from zero; null when the manual prints none.",
         null_or(ADDRESS),
         derived="it is the lowest of the addresses",
-        label="Wire address",
-        text=texts.address_text,
-    ),
+    ).says("Wire address", text=texts.address_text),
     Fact(
         "index",
         "The element of an array: the index beside the address, or what the addressing rule counts.",
         INTEGER_OR_NULL,
         WIRE,
-        label="Index",
-        text=texts.index_text,
-        column="the index of an element",
-    ),
+    ).says("Index", text=texts.index_text, column="the index of an element"),
     Fact(
         "addresses",
         "All words, the one that holds the high part (or the first characters) first.",
@@ -228,9 +184,7 @@ POINT: FactTable = (
             View("address", values.address_class, values.address_view, yaml=("at",)),
             View("order of words", WIRE, values.word_order_view, yaml=("words",)),
         ),
-        label="Addresses",
-        text=texts.words_text,
-    ),
+    ).says("Addresses", text=texts.words_text),
     Fact(
         "byte_order",
         "The order of the two bytes in each word, if it is not the usual one: `low first`.",
@@ -239,10 +193,7 @@ POINT: FactTable = (
         shared="shape",
         value=lambda point, _: "low first" if point.swapped else None,
         yaml=("bytes",),
-        label="Order of bytes",
-        text=lambda point, _: "low byte first" if point.swapped else "",
-        remark="{}",
-    ),
+    ).says("Order of bytes", text=lambda point, _: "low byte first" if point.swapped else "", remark="{}"),
     Fact(
         "coding",
         "How the bits hold the raw number, if not plainly or in two's complement.",
@@ -250,7 +201,8 @@ POINT: FactTable = (
         WIRE,
         shared="shape",
         value=lambda point, _: point.coding or None,
-        label="Coding",
+    ).says(
+        "Coding",
         text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
         remark="{}",
     ),
@@ -259,19 +211,11 @@ POINT: FactTable = (
         "What its addresses count from, by name; null: they count from 0.",
         TEXT_OR_NULL,
         views=(View("counted from", WIRE, itemgetter("base"), refers="base", yaml=("base", "block")),),
-        label="Counted from",
-        text=texts.base_text,
-        column="what the address counts from, if not from 0",
-    ),
+    ).says("Counted from", text=texts.base_text, column="what the address counts from, if not from 0"),
     Fact(
-        "to_end",
-        "Whether it exists only where the found block is long enough.",
-        BOOLEAN,
-        BEHAVIOUR,
-        yaml=("indices",),
-        label="Exists when",
-        text=lambda point, _: "the block is long enough" if point.to_end else "",
-        remark="exists when {}",
+        "to_end", "Whether it exists only where the found block is long enough.", BOOLEAN, BEHAVIOUR, yaml=("indices",)
+    ).says(
+        "Exists when", text=lambda point, _: "the block is long enough" if point.to_end else "", remark="exists when {}"
     ),
     Fact(
         "signal",
@@ -280,17 +224,13 @@ POINT: FactTable = (
         null_or(record(("bit", "The bit.", ADDRESS), ("low_first", "Whether the low byte comes first.", BOOLEAN))),
         value=values.signal,
         views=(View("order of bytes", WIRE, values.byte_order_view, yaml=("bytes",)),),
-        label="Bits",
-        text=texts.signal_text,
-        column="the bits of a signal in its message",
-    ),
+    ).says("Bits", text=texts.signal_text, column="the bits of a signal in its message"),
     Fact(
         "references",
         *_REFERENCES,
         attribute="place.references",
         views=(View("base", WIRE, values.base_view, yaml=("numbering",)),),
-        rows=texts.reference_rows,
-    ),
+    ).says(rows=texts.reference_rows),
     Fact(
         "places",
         "Where it is, by purpose; the first repeats `space` and `address`.",
@@ -305,7 +245,8 @@ POINT: FactTable = (
         attribute="write_place",
         value=lambda point, _: None if point.write_place is None else values.place(point.write_place),
         views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
-        label="Written at",
+    ).says(
+        "Written at",
         text=lambda point, _: wording.write_place_text(point) if point.addresses else "",
         remark="written at {}",
     ),
@@ -316,10 +257,7 @@ POINT: FactTable = (
         values.type_class,
         shared="shape and terms",
         value=lambda point, _: point.shape.wire_type if point.untyped is None else None,
-        label="Type",
-        text=texts.type_text,
-        column="the wire type; empty where the manual does not settle it",
-    ),
+    ).says("Type", text=texts.type_text, column="the wire type; empty where the manual does not settle it"),
     Fact(
         "untyped",
         "What the manual says in place of a type: empty if it leaves the type open.",
@@ -333,24 +271,13 @@ POINT: FactTable = (
         COUNT,
         views=(View("length", WIRE, values.length_view, follows=("type",), yaml=("length", "characters")),),
     ),
-    Fact(
-        "access",
-        "What the bus may do with it.",
-        one_of("r", "w", "rw", "none"),
-        values.access_class,
-        label="Access",
+    Fact("access", "What the bus may do with it.", one_of("r", "w", "rw", "none"), values.access_class).says(
+        "Access",
         text=lambda point, _: wording.access_text(point.access),
         column="`r`, `w`, `rw`; `none` if no bus reaches it",
     ),
-    Fact(
-        "unit",
-        "The symbol of the unit; empty for a plain number.",
-        STRING,
-        WIRE,
-        attribute="unit.symbol",
-        label="Unit",
-        text=texts.unit_text,
-        column="the unit of values",
+    Fact("unit", "The symbol of the unit; empty for a plain number.", STRING, WIRE, attribute="unit.symbol").says(
+        "Unit", text=texts.unit_text, column="the unit of values"
     ),
     Fact(
         "unit_name",
@@ -368,15 +295,9 @@ POINT: FactTable = (
         shared="shape",
         value=lambda point, context: values.scale_of(point, context.by_name),
         refers="point",
-        rows=texts.scale_rows,
-    ),
-    Fact(
-        "bits",
-        "Its bits in a shared word; null when it has its words to itself.",
-        null_or(ref("bits")),
-        WIRE,
-        text=lambda point, _: wording.shared_text(point),
-        remark="{}",
+    ).says(rows=texts.scale_rows),
+    Fact("bits", "Its bits in a shared word; null when it has its words to itself.", null_or(ref("bits")), WIRE).says(
+        text=lambda point, _: wording.shared_text(point), remark="{}"
     ),
     Fact(
         "fixed",
@@ -386,10 +307,7 @@ POINT: FactTable = (
         WIRE,
         shared="shape",
         value=lambda point, _: {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
-        label="Fixed bits",
-        text=lambda point, _: wording.fixed_text(point),
-        remark="{}",
-    ),
+    ).says("Fixed bits", text=lambda point, _: wording.fixed_text(point), remark="{}"),
     Fact(
         "special",
         "Special codes: raw numbers that are no quantity, and what they mean.",
@@ -397,16 +315,14 @@ POINT: FactTable = (
         attribute="specials",
         table=SPECIAL,
         views=(_by_raw("special", "code", itemgetter("special"), SPECIAL, yaml=("special", "code")),),
-        rows=texts.special_rows,
-    ),
+    ).says(rows=texts.special_rows),
     Fact(
         "special_of",
         "The type, group or format whose special codes the point shares; empty if it shares none.",
         STRING,
         attribute="specials_of",
         views=(View("codes of", API, itemgetter("special_of"), follows=("special",), yaml=("special",)),),
-        remark="special codes of {}",
-    ),
+    ).says(remark="special codes of {}"),
     Fact(
         "step",
         "Which raw steps the device keeps, from which raw number on; null for every number.",
@@ -415,10 +331,7 @@ POINT: FactTable = (
         shared="terms",
         value=lambda point, _: [{"from": start, "step": step} for start, step in point.steps] or None,
         yaml=("steps",),
-        label="Steps",
-        text=lambda point, _: wording.steps_text(point),
-        remark="steps: {}",
-    ),
+    ).says("Steps", text=lambda point, _: wording.steps_text(point), remark="steps: {}"),
     Fact(
         "display",
         "How a person should see the value; null where nothing says it.",
@@ -434,10 +347,7 @@ POINT: FactTable = (
         BEHAVIOUR,
         shared="shape",
         value=lambda point, _: None if point.display is None else {"decimals": point.display},
-        label="Shown with",
-        text=lambda point, _: wording.decimals_text(point),
-        remark="shown with {}",
-    ),
+    ).says("Shown with", text=lambda point, _: wording.decimals_text(point), remark="shown with {}"),
     Fact(
         "epoch",
         "The date from which the value counts seconds; null if it is no time.",
@@ -446,17 +356,15 @@ POINT: FactTable = (
         shared="shape",
         value=lambda point, _: point.epoch or None,
         yaml=("notation",),
-        label="Time",
-        text=lambda point, _: wording.epoch_text(point),
-        remark="{}",
-    ),
+    ).says("Time", text=lambda point, _: wording.epoch_text(point), remark="{}"),
     Fact(
         "decimals",
         "k of the integer path, which counts 10^-k units; null where the point has none.",
         INTEGER_OR_NULL,
         API,
         follows=("scale", "type"),
-        label="Widths",
+    ).says(
+        "Widths",
         text=lambda point, _: "; ".join((*wording.width_texts(point), *wording.overflow_texts(point))),
         remark="{}",
     ),
@@ -477,8 +385,7 @@ POINT: FactTable = (
             View("range", BEHAVIOUR, values.range_view, refers="point", yaml=("range", "range_in_units", "enum")),
             View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type"), yaml=("range",)),
         ),
-        rows=texts.range_rows,
-    ),
+    ).says(rows=texts.range_rows),
     Fact(
         "default",
         "The default as raw number; for f32 and f64 the value as text; null when unknown or when other points decide.",
@@ -487,9 +394,7 @@ POINT: FactTable = (
         attribute="default_raw",
         value=values.default_raw,
         yaml=("default", "default_in_units"),
-        label="Default",
-        text=lambda point, _: wording.default_text(point),
-    ),
+    ).says("Default", text=lambda point, _: wording.default_text(point)),
     Fact(
         "default_value",
         "The default in the unit, where other points decide about its raw number.",
@@ -506,8 +411,7 @@ POINT: FactTable = (
         table=ENTRY,
         value=lambda point, _: None if point.enum is None else values.entries_of(point.enum),
         views=(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)),),
-        rows=texts.enum_rows,
-    ),
+    ).says(rows=texts.enum_rows),
     Fact(
         "enum_name",
         "The name of the enum, also of that of `digits`: generated code calls its type so.",
@@ -539,8 +443,7 @@ POINT: FactTable = (
         list_of(ref("flag")),
         table=FLAG,
         views=(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API, yaml=("flags",)),),
-        rows=texts.flag_rows,
-    ),
+    ).says(rows=texts.flag_rows),
     Fact(
         "digits",
         "The decimal digits of a word that mean something each, the highest first.",
@@ -586,18 +489,9 @@ POINT: FactTable = (
                 yaml=("keep_with", "keeps"),
             ),
         ),
-        label="Kept",
-        text=lambda point, context: wording.keeps_text(context.device, point),
-    ),
-    Fact(
-        "conditions",
-        "When it may be written: `stopped`.",
-        TEXTS,
-        BEHAVIOUR,
-        follows=("access",),
-        label="Write only when",
-        remark="write only when: {}",
-        column="what must hold to write it",
+    ).says("Kept", text=lambda point, context: wording.keeps_text(context.device, point)),
+    Fact("conditions", "When it may be written: `stopped`.", TEXTS, BEHAVIOUR, follows=("access",)).says(
+        "Write only when", remark="write only when: {}", column="what must hold to write it"
     ),
     Fact(
         "takes_effect",
@@ -605,9 +499,7 @@ POINT: FactTable = (
         TEXT_OR_NULL,
         BEHAVIOUR,
         follows=("access",),
-        label="Takes effect",
-        remark="takes effect {}",
-    ),
+    ).says("Takes effect", remark="takes effect {}"),
     Fact(
         "write_with",
         "The points that are written in the same request.",
@@ -615,9 +507,7 @@ POINT: FactTable = (
         BEHAVIOUR,
         refers="point",
         follows=("access",),
-        label="Write together with",
-        remark="write it in one request with {}",
-    ),
+    ).says("Write together with", remark="write it in one request with {}"),
     Fact(
         "when",
         "The condition under which it exists.",
@@ -626,20 +516,15 @@ POINT: FactTable = (
         shared="terms",
         value=lambda point, _: None if point.when is None else values.condition(point.when),
         refers="point",
-        label="Exists when",
+    ).says(
+        "Exists when",
         text=lambda point, context: wording.condition_text(point.when, context.points),
         remark="exists when {}",
     ),
-    Fact("since", "The firmware that brought it.", TEXT_OR_NULL, BEHAVIOUR, label="Since", remark="since {}"),
-    Fact("until", "The last firmware that has it.", TEXT_OR_NULL, BEHAVIOUR, label="Until", remark="until {}"),
-    Fact(
-        "changes",
-        "How often it changes: `never`, `rarely`, `always`.",
-        TEXT_OR_NULL,
-        BEHAVIOUR,
-        label="Changes",
-        remark="changes {}",
-        column="how often it changes",
+    Fact("since", "The firmware that brought it.", TEXT_OR_NULL, BEHAVIOUR).says("Since", remark="since {}"),
+    Fact("until", "The last firmware that has it.", TEXT_OR_NULL, BEHAVIOUR).says("Until", remark="until {}"),
+    Fact("changes", "How often it changes: `never`, `rarely`, `always`.", TEXT_OR_NULL, BEHAVIOUR).says(
+        "Changes", remark="changes {}", column="how often it changes"
     ),
     Fact(
         "changes_with",
@@ -648,29 +533,21 @@ POINT: FactTable = (
         BEHAVIOUR,
         refers="point",
         yaml=("changes_with",),
-        label="Changes with",
-        remark="read it again after writing {}",
-    ),
-    Fact(
-        "view_of",
-        "The point that has the same words.",
-        TEXT_OR_NULL,
-        DOCS,
-        refers="point",
-        label="A view of",
-        remark="another view of {}",
-        for_people=True,
+    ).says("Changes with", remark="read it again after writing {}"),
+    Fact("view_of", "The point that has the same words.", TEXT_OR_NULL, DOCS, refers="point", for_people=True).says(
+        "A view of", remark="another view of {}"
     ),
     Fact(
         "certainty",
         "Where the facts come from: `imported` (compared by nobody), `hardware` (seen on a device); null: the manual.",
         null_or(one_of("imported", "hardware")),
         DOCS,
-        label="Certainty",
+        for_people=True,
+    ).says(
+        "Certainty",
         text=lambda point, _: _CERTAINTIES.get(point.certainty or "", ""),
         remark="{}",
         column="where the facts come from, if not from the manual",
-        for_people=True,
     ),
     _always_null("together", "What must be read or written in one telegram."),
     Fact(
@@ -678,16 +555,12 @@ POINT: FactTable = (
         "Former names, which stay alive as deprecated aliases.",
         TEXTS,
         views=(View("old names", values.grown, itemgetter("was"), yaml=("was",)),),
-        label="Old names",
-        remark="was {}",
-    ),
-    Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API, remark="reserved"),
+    ).says("Old names", remark="was {}"),
+    Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API).says(remark="reserved"),
     TITLE,
-    replace(
-        NOTE, label="Note", text=lambda point, _: wording.title_text(point.note) if point.note else "", remark="{}"
-    ),
-    replace(ERRATA, column="where the manual is wrong, unclear or silent: ids of errata"),
-    replace(SOURCE, label="Source", text=lambda point, context: texts.place_in_manual(point.source, context.device)),
+    NOTE.says("Note", text=lambda point, _: wording.title_text(point.note) if point.note else "", remark="{}"),
+    ERRATA.says(column="where the manual is wrong, unclear or silent: ids of errata"),
+    SOURCE.says("Source", text=lambda point, context: texts.place_in_manual(point.source, context.device)),
     Fact(
         "generated",
         "False for what is only documented.",
@@ -701,7 +574,8 @@ POINT: FactTable = (
         TEXT_OR_NULL,
         DOCS,
         follows=("generated", "access", "type", "reserved", "address"),
-        label="Not generated",
+    ).says(
+        "Not generated",
         text=lambda point, _: "" if point.generated else point.reason or "no reason given",
         remark="not generated: {}",
         column="why not",

@@ -110,8 +110,7 @@ class Fact:
     follows from that is not compared and not in the digest; one that is not `published` is only in the digest. A fact
     `for_people` never reaches code.
 
-    `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
-    Without `text` it is the value. `column` says what the column of that key holds in the sheets: the plain value.
+    What is said of it to people follows in `says`.
     """
 
     key: str
@@ -127,14 +126,22 @@ class Fact:
     refers: str = ""
     yaml: tuple[str, ...] = ()
     views: tuple[View | Parts, ...] = ()
+    derived: str = ""
+    published: bool = True
+    for_people: bool = False
     label: str = ""
     text: Callable[[Any, Context], str] | None = None
     rows: Callable[[Any, Context], Iterable[Row]] | None = None
     remark: str = ""
     column: str = ""
-    derived: str = ""
-    published: bool = True
-    for_people: bool = False
+
+    def says(self, label: str = "", **said: Any) -> Fact:
+        """Return the fact with what is said of it to people.
+
+        `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
+        Without `text` it is the value. `column` says what the column of that key holds in the sheets: the plain value.
+        """
+        return replace(self, label=label, **said)
 
     def compared(self) -> tuple[View | Parts, ...]:
         """What `diff` compares of the fact."""
