@@ -18,9 +18,8 @@ from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
 from fieldscribe.listening.chunks import BYTES, STREAM, Chunk
-from fieldscribe.listening.exchanges import Exchange
+from fieldscribe.listening.exchanges import Exchange, Statistics
 from fieldscribe.listening.listener import Listener, Station
-from fieldscribe.listening.statistics import Statistics
 from fieldscribe.live.lines import read_line
 from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment

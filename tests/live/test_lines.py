@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.live.lines import families_of, read_line
-from fieldscribe.live.project import Station, read_project
+from fieldscribe.live.lines import Station, families_of, read_line, read_project
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring import project_file as vendoring
 from support.small_drive import Output

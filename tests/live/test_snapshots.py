@@ -10,8 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fieldscribe.live.journal import Journal, interrupted
-from fieldscribe.live.restoring import ordered
+from fieldscribe.live.restoring import Journal, interrupted, ordered
 from fieldscribe.live.snapshots import Held, Snapshot, compared, defaults, read_snapshot
 from fieldscribe.simulation import Simulated, simulated
 from support.described import DEVICES, described, loaded_in, shipped

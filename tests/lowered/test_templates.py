@@ -18,13 +18,12 @@ from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Specia
 from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript
 from fieldscribe.targets.c import point_templates
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
-from fieldscribe.targets.python import attributes
 from fieldscribe.targets.python import enums as python_enums
+from fieldscribe.targets.python import points_module
 from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
 from fieldscribe.targets.typescript import points as typescript_points
-from fieldscribe.text import c_comment, line
+from fieldscribe.text import MOST_FIELDS, TextTemplate, c_comment, line, placeholders
 from support.described import made, shipped
 from support.models import (
     CELSIUS,
@@ -81,7 +80,7 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust, typescript)
-FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums, typescript_points)
+FILLED = (point_templates, points_module, python_enums, conformance, point_macros, rust_enums, typescript_points)
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")

@@ -39,7 +39,7 @@ ROOMS = (
     ("nodes to the model", "resolve"),
     ("what a family reads of its own keys", "families.*.reading"),
     ("what compiled languages need alike", "lowered"),
-    ("the registry of targets", "targets targets.identifiers targets.placeholders"),
+    ("the registry of targets", "targets targets.identifiers"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),
     ("checks", "checks"),
@@ -73,8 +73,8 @@ NAMES_A_FAMILY = {
     "simulation.bench": "a line may be a bus of one",
     "simulation.library": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
-    "targets.python.namespaces": "a library of Python is called as one",
-    "targets.typescript.namespaces": "a package of npm is called as one",
+    "targets.python": "a library of Python is called as one",
+    "targets.typescript.identifiers": "a package of npm is called as one",
 }
 """Modules outside the folders of families that name one, with the reason."""
 

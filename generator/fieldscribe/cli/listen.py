@@ -22,13 +22,11 @@ from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import Chunk, timed
-from fieldscribe.listening.exchanges import Exchange, finding_text, item_text, seconds
+from fieldscribe.listening.exchanges import Exchange, Statistics, finding_text, item_text, seconds
 from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.packets import PacketWriter, is_packet_file
-from fieldscribe.listening.statistics import Statistics
-from fieldscribe.live import project as project_file
-from fieldscribe.live.lines import LineAddress, read_line, require_line
-from fieldscribe.live.project import NAME, Project, read_project
+from fieldscribe.live.lines import NAME, LineAddress, Project, read_line, read_project, require_line
+from fieldscribe.live.lines import Station as NamedStation
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.report import visible
@@ -119,7 +117,7 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
         name, equals, unit = text.rpartition("=")
         if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
             raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
-        known = project_file.Station(name if equals else text, None, int(unit) if equals else None)
+        known = NamedStation(name if equals else text, None, int(unit) if equals else None)
     arguments.line = arguments.line or (None if arguments.capture else known.line)
     own = Namespace(**vars(arguments))
     own.device = known.description

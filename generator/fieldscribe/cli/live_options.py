@@ -16,8 +16,7 @@ from fieldscribe.cli.common import StopError, add_device, add_repeated, duration
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, USAGE
 from fieldscribe.live.connection import Connection, advice
-from fieldscribe.live.lines import LineAddress, read_line
-from fieldscribe.live.project import NAME, Project, Station, read_project
+from fieldscribe.live.lines import NAME, LineAddress, Project, Station, read_line, read_project
 from fieldscribe.live.readings import in_words
 from fieldscribe.model import Device
 from fieldscribe.report import visible

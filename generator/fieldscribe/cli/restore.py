@@ -13,8 +13,7 @@ from fieldscribe.cli.live_options import LINES, Live, Progress, add_live, add_un
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.cli.write import ask
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.live.journal import Journal, interrupted
-from fieldscribe.live.restoring import Order, ordered, refusals
+from fieldscribe.live.restoring import Journal, Order, interrupted, ordered, refusals
 from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of, take
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.model import Point

@@ -8,7 +8,7 @@
   listens (`hear`), and cuts chunks into frames: `take` and `rest` of what `cutter` returns. `action` says what a frame
   does, `packet` writes it.
 - `listener.py` gives each frame to the decoder of its device, and pairs requests with their answers.
-- `statistics.py` counts who polls what, how often, and what is wrong.
+- `exchanges.py` says what an exchange is, and counts who polls what, how often, and what is wrong.
 
 Nothing here sends, and memory does not grow with a capture. Any bytes are safe.
 """

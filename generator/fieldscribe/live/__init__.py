@@ -2,8 +2,8 @@
 
 - `devices.py` makes the class of a device from the model, by the calls that the Python target writes, with the classes
   of its numbers and flags.
-- `lines.py` reads the text that names a line (`tcp://host:port`); `project.py` those that `fieldscribe.toml` names.
+- `lines.py` reads the text that names a line (`tcp://host:port`), and those that `fieldscribe.toml` names.
 - `connection.py` opens a line by `families/<family>/lines.py`, and makes devices on it.
-- `readings.py`, `writing.py` and `scanning.py` do the work of the commands; they print nothing.
-- `snapshots.py` keeps what a device holds in a file; `restoring.py` finds the order of writes, `journal.py` notes them.
+- `readings.py` and `writing.py` do the work of the commands; they print nothing.
+- `snapshots.py` keeps what a device holds in a file; `restoring.py` finds the order of writes, and notes them.
 """

@@ -1,17 +1,21 @@
-"""Opens a line, and makes devices of the Python runtime on it from the model."""
+"""Opens a line, makes devices of the Python runtime on it from the model, and finds out which units answer."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.live.devices import device_class
 from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_line
+from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device
 from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.identifiers import parameter
+from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 use_python_runtime()
+
 
 if TYPE_CHECKING:
     from fieldscribe_runtime import AnyDevice, FieldscribeError
@@ -83,3 +87,103 @@ def advice(error: FieldscribeError) -> str:
     if error.status == "line":
         return "is the line right, is the device on, and does no other program use the port?"
     return "are the unit and the settings of the line right? `fieldscribe scan` shows who answers"
+
+
+class Answer(NamedTuple):
+    """What came from a unit, if anything: `answers`, `is_other` (another device than the one looked for).
+
+    `is_of_another`: what came was the answer of another unit.
+    """
+
+    unit: int
+    answers: bool
+    text: str = ""
+    is_other: bool = False
+    is_of_another: bool = False
+
+
+def read_units(text: str | None, ends: tuple[int, int]) -> list[int]:
+    """Return unit numbers of a list such as `1-31,40`; all of a device without one. Raises UnclearError."""
+    units: dict[int, None] = {}
+    for part in (text or f"{ends[0]}-{ends[1]}").split(","):
+        low, dash, high = part.strip().partition("-")
+        numbers = [low, high if dash else low]
+        if not all(number.isascii() and number.isdigit() and len(number) < 6 for number in numbers):
+            raise UnclearError(f"`{shortened(part)}` is no unit", "write --units 1-31,40")
+        first, last = map(int, numbers)
+        if not ends[0] <= first <= last <= ends[1]:
+            raise UnclearError(f"units are {ends[0]} to {ends[1]}, not `{shortened(part)}`", "write --units 1-31,40")
+        units.update(dict.fromkeys(range(first, last + 1)))
+    return list(units)
+
+
+class Scanner:
+    """Asks the units of a line one after the other for something that is only read."""
+
+    def __init__(self, connection: Connection, model: Device | None) -> None:
+        """Raises UnclearError where such a line needs a description."""
+        self._connection, self._model = connection, model
+        self.requests = 0
+        self.ends = connection.usual_units if model is None else model.bus.units
+        self._points = [] if model is None else _harmless_points(model)
+
+    def answers(self, units: list[int]) -> Iterator[Answer]:
+        """Yield what comes from each unit; one whose answer came late is asked once more.
+
+        Raises FieldscribeError where the line itself fails.
+        """
+        silent: int | None = None
+        for unit in units:
+            answer = self._answer(unit)
+            if answer.is_of_another and silent is not None:
+                again = self._answer(silent)
+                yield again if again.answers else Answer(silent, True, "it answers late: try a longer --timeout")
+                answer = self._answer(unit)
+            yield answer
+            silent = None if answer.answers else unit
+
+    def _answer(self, unit: int) -> Answer:
+        from fieldscribe_runtime import FieldscribeError, LineError, NoReplyError, OtherDeviceError, RequestError
+
+        device = self._connection.device(self._model, unit) if self._model else self._connection.any_device(unit)
+        try:
+            return Answer(unit, True, self._asked(device))
+        except OtherDeviceError as error:
+            return Answer(unit, True, f"another device: {error}", True)
+        except (LineError, RequestError):
+            raise
+        except NoReplyError:
+            return Answer(unit, False)
+        except FieldscribeError as error:
+            is_late = error.status == "wrong_unit"
+            return Answer(unit, not error.lost or bool(error.received), _remark(error), is_of_another=is_late)
+        finally:
+            self.requests += device.traffic.requests
+
+    def _asked(self, device: AnyDevice) -> str:
+        if self._model is None:
+            return self._connection.probe(device)
+        found = device.identify() if self._model.identifications else {}
+        name = self._model.id if self._model.identifications else ""
+        variants = [f"{axis}={value}" for axis, value in found.items()]
+        readings = Reader(self._model, device).read(Choice(self._points, frozenset())) if not name else []
+        for reading in readings:
+            if reading.status not in GOOD:
+                return f"{reading.label}: {reading.text}"
+        return ", ".join([*filter(None, [name]), *variants, *(f"{one.label} = {one.text}" for one in readings)])
+
+
+def _remark(error: FieldscribeError) -> str:
+    """Return what to say of an answer that is no good one."""
+    if error.lost:
+        return f"an answer that is damaged: {error}; two units of one number, or other settings of the line?"
+    return str(error)
+
+
+def _harmless_points(model: Device) -> list[str]:
+    """Return the point that is read of each unit: the first that needs no other, one that is only read if there is."""
+    readable = [point for point in model.points if point.readable and point.generated and point.base is None]
+    alone = [point for point in readable if point.telegram is None and not point.arguments and not point.variant]
+    simple = [point for point in alone if not point.flags] or alone
+    only_read = [point for point in simple if not point.writable]
+    return [point.item for point in (only_read or simple or readable)[:1]]

@@ -15,7 +15,6 @@ from fieldscribe.targets.python.device import in_python
 from fieldscribe.targets.python.enums import reader
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of, word_attribute
 from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
-from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName
 from fieldscribe.targets.runtime_calls.point_call import (
     attribute_of,
     call_of,
@@ -24,7 +23,7 @@ from fieldscribe.targets.runtime_calls.point_call import (
     old_names_of,
     variants_call,
 )
-from fieldscribe.targets.runtime_calls.scope import Scope
+from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope
 from fieldscribe.text import upper
 
 use_python_runtime()

@@ -32,7 +32,7 @@ _SWITCHES = {*LANGUAGE_OF}
 _KEYS = {"device", "targets", "points", "out", "as", *_SWITCHES}
 _COMMON = {"out", "targets"}
 _OF_LINES = ("lines", "stations")
-"""The tables for commands that talk to devices, which `live/project.py` reads."""
+"""The tables for commands that talk to devices, which `live/lines.py` reads."""
 _WHERE = re.compile(r"at line (\d+), column (\d+)")
 
 

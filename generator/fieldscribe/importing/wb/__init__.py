@@ -19,8 +19,7 @@ from fieldscribe.importing.wb.folding import folded
 from fieldscribe.importing.wb.heads import FAMILY, base_of, blocks_of, bus_of, first_firmware, identification
 from fieldscribe.importing.wb.parameters import Parameters
 from fieldscribe.importing.wb.rows import Row, components_of
-from fieldscribe.importing.wb.templates import MOST_BYTES, read_template
-from fieldscribe.importing.wb.values import Texts, labels_text, objects
+from fieldscribe.importing.wb.templates import MOST_BYTES, Texts, labels_text, objects, read_template
 from fieldscribe.safe_files import read_regular
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
 from fieldscribe.importing.wb.conditions import COMPARE, Condition, any_of, condition_of
 from fieldscribe.importing.wb.rows import Row
-from fieldscribe.importing.wb.values import Texts
+from fieldscribe.importing.wb.templates import Texts
 from fieldscribe.wording.exact import number_text
 
 _MOST_VALUES, _LONGEST = 200, 500

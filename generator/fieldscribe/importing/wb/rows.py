@@ -11,7 +11,7 @@ from typing import Any
 from fieldscribe.importing.cells import unit_in
 from fieldscribe.importing.draft_text import DraftPoint, scalar, titles_text
 from fieldscribe.importing.wb.conditions import COMPARE
-from fieldscribe.importing.wb.values import Labels, Texts, number_of, objects
+from fieldscribe.importing.wb.templates import Labels, Texts, number_of, objects
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
 

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.layout import Function, called, function
-from fieldscribe.targets.c.literals import raw_kind
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, raw_kind
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import coded_bits, has_words
 from fieldscribe.text import upper

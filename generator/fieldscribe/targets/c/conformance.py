@@ -14,10 +14,9 @@ from fieldscribe.targets.c.declarations import shares_values
 from fieldscribe.targets.c.frames import Frames, frames_of, kind_of
 from fieldscribe.targets.c.header import STATUSES
 from fieldscribe.targets.c.layout import folded
-from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.point_views import names_of
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, raw_type
 from fieldscribe.targets.c.special_codes import special_defines
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_form, has_words

@@ -9,8 +9,7 @@ from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Flag, Point
 from fieldscribe.targets.c.layout import WIDTH, filled, folded
-from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, signed, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
 from fieldscribe.targets.c.views import Define, PointFields
 from fieldscribe.text import c_comment, upper

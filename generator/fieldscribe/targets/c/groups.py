@@ -14,13 +14,11 @@ from fieldscribe.lowered import plan_of
 from fieldscribe.model import Point
 from fieldscribe.targets.c.conversions import is_rechecked
 from fieldscribe.targets.c.layout import wrapped
-from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.point_templates import GeneratedPoint
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, raw_type
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
-from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.text import c_comment, c_string
+from fieldscribe.text import TextTemplates, c_comment, c_string, placeholders
 
 _ITSELF = Line(1, 0, 1)
 """The line from a raw number to itself."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.resources import Render
-from fieldscribe.targets.placeholders import placeholders
+from fieldscribe.text import placeholders
 
 WIDTH = 120
 """No line is longer."""

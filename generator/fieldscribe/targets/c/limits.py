@@ -10,9 +10,8 @@ from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
 from fieldscribe.model import Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
-from fieldscribe.targets.c.literals import bare, float_order, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.scales import linear
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, bare, float_order, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import PointFields, RuleView
 
 _TABLE = 3

@@ -13,14 +13,12 @@ from typing import NamedTuple
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table, name_shared
-from fieldscribe.targets.c.literals import bare, hexadecimal, signed
 from fieldscribe.targets.c.point_views import point_view
 from fieldscribe.targets.c.scales import Scaled
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, bare, hexadecimal, signed
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields, PointView
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.text import c_comment, c_string, upper
+from fieldscribe.text import MOST_FIELDS, TextTemplates, c_comment, c_string, placeholders, upper
 
 
 class LimitFields(NamedTuple):

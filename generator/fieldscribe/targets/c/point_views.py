@@ -11,9 +11,8 @@ from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import defines, value_defines
 from fieldscribe.targets.c.layout import INLINE, Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
-from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.scales import Scaled
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
 from fieldscribe.targets.c.views import EnumView, PointFields, PointView, RuleView
 from fieldscribe.targets.c.word_functions import (

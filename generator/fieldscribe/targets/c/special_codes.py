@@ -8,8 +8,7 @@ from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Point, Special
 from fieldscribe.targets.c.layout import INLINE, function
 from fieldscribe.targets.c.limits import bracketed, is_in
-from fieldscribe.targets.c.literals import hexadecimal, raw_type, signed
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.views import CodesView, Define, PointFields, SpecialView
 from fieldscribe.text import c_comment, c_string, upper
 

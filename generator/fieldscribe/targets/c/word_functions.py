@@ -8,8 +8,7 @@ from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.model import Point, Text
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
-from fieldscribe.targets.c.literals import hexadecimal, raw_type
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type
 from fieldscribe.targets.c.views import SpecialView
 
 

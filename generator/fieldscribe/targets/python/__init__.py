@@ -1,18 +1,94 @@
-"""The Python target: a typed package per device, and the runtime that all of them share."""
+"""The Python target: a typed package per device with all its identifiers, and the runtime that all of them share."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Iterator
+from keyword import iskeyword
 
 from fieldscribe import __version__
-from fieldscribe.model import Device
+from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render, runtime_files
-from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.python.identifiers import Identifiers
+from fieldscribe.targets.identifiers import Names, Owner, head_lines
+from fieldscribe.targets.python.device import imports_of, in_python
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, word_attribute
 from fieldscribe.targets.python.layout import comment, wrapped
-from fieldscribe.targets.python.namespaces import device_name_taken, identifiers
-from fieldscribe.text import python_doc, python_string, toml_string
+from fieldscribe.targets.runtime_calls.scope import command_attributes
+from fieldscribe.text import pascal, python_doc, python_string, toml_string, upper
 from fieldscribe.wording import open_texts
+
+LIBRARIES = frozenset({"can", "pymodbus", "serial"})
+"""What the transports of the runtime import where a project asks for them."""
+
+_OWN = Owner("target", "what the package needs")
+_POINTS = "Python, the points"
+_CLASSES = "Python, the classes of numbers and flags"
+
+
+def device_name_taken(name: str) -> str:
+    """Return why no package may have that name; empty if it may."""
+    if iskeyword(name):
+        return "is a word that Python reserves, so that no program could name its package"
+    if name in sys.stdlib_module_names:
+        return "is a module of Python's own, which the generated package would hide"
+    if name in LIBRARIES:
+        return "is a library that the runtime's transports import, which the generated package would hide"
+    return ""
+
+
+def identifiers(device: Device) -> Iterator[Names]:
+    """Yield every name that depends on the description, and the fixed names beside them."""
+    names = Identifiers(device)
+    yield from _of_device(device, names)
+    yield from _classes(device, names)
+    for enum in device.enums:
+        owner, space = Owner("enum", enum.name), f"Python, the enum `{enum.name}`"
+        for entry in enum.entries:
+            yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
+    for point in device.points:
+        if point.generated:
+            yield from _of_point(point)
+    for command, name in command_attributes(device, attribute).items():
+        yield Names(_POINTS, Owner("command", command), (name,))
+
+
+def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
+    """Yield the names in the device module, in the constructor of its classes, and in the exports of the package."""
+    module, constructor = "Python, the device module", "Python, the constructor"
+    yield Names(module, _OWN, ("Literal", "Points", *imports_of(device)))
+    yield Names(module, Owner("device", device.id), (names.device_class, names.async_class))
+    yield Names(constructor, _OWN, ("transport", "unit", "self", *(name for name, _ in in_python(device).settings)))
+    for axis in device.variants:
+        yield Names(module, Owner("variant", axis), (f"{pascal(axis)}Choice",))
+        yield Names(constructor, Owner("variant", axis), (parameter(axis),))
+
+
+def _classes(device: Device, names: Identifiers) -> Iterator[Names]:
+    """Yield the classes of the enums module."""
+    for enum in device.enums:
+        yield Names(_CLASSES, Owner("enum", enum.name), (names.enum_class(enum.name),))
+    for point in device.points:
+        owner, word = Owner("point", point.item), names.word_class(point)
+        if word:
+            yield Names(_CLASSES, owner, (word,))
+        for flag in point.flags if word else ():
+            if (name := names.field_class(point, flag.name)) is not None:
+                yield Names(
+                    _CLASSES, Owner("enum", flag.enum) if flag.enum else Owner("flag", flag.name, owner), (name,)
+                )
+
+
+def _of_point(point: Point) -> Iterator[Names]:
+    owner = Owner("point", point.item)
+    yield Names(_POINTS, owner, (attribute(point.item),))
+    if point.variant is not None:
+        yield Names(_POINTS, Owner("point", point.name), (attribute(point.name),))
+    for old in point.was:
+        yield Names(_POINTS, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
+    for flag in point.flags if point.form == "flags" else ():
+        space = f"Python, the flags of `{point.item}`"
+        yield Names(space, Owner("flag", flag.name, owner), (upper(flag.name), word_attribute(flag.name)))
+
 
 SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
-from fieldscribe.targets.runtime_calls.expressions import Branch, Call, Hex, Leaf, Name, Node
+from fieldscribe.targets.runtime_calls.scope import Branch, Call, Hex, Leaf, Name, Node
 from fieldscribe.text import python_doc, python_string
 
 WIDTH = 88

@@ -1,22 +1,36 @@
-"""The view of the points module: an attribute for each point."""
+"""The view of the points module: an attribute for each point, with its docstring."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
-from fieldscribe.model import Command, Device, SteppedCommand
+from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
-from fieldscribe.targets.python.attributes import Attributes, AttributeView, attribute_view
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, scope_of, sorted_imports
-from fieldscribe.targets.python.layout import DOC, WIDTH, comment, docstring, laid_out, leaf
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, scope_of, sorted_imports
+from fieldscribe.targets.python.layout import DOC, WIDTH, arguments, comment, docstring, laid_out, leaf, wrapped
 from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
-from fieldscribe.targets.runtime_calls.expressions import Call
+from fieldscribe.targets.runtime_calls.point_call import (
+    attribute_of,
+    call_of,
+    numbers_of,
+    old_attributes,
+    old_names_of,
+    variants_call,
+)
 from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
-from fieldscribe.targets.runtime_calls.scope import Scope
-from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import label
+from fieldscribe.targets.runtime_calls.point_texts import (
+    end_texts,
+    fields_of_texts,
+    limits_text,
+    remarks_text,
+    texts_of,
+)
+from fieldscribe.targets.runtime_calls.scope import Call, Scope
+from fieldscribe.text import MOST_FIELDS, TextTemplates, placeholders, python_doc, python_string
+from fieldscribe.wording import label, open_text
 
 
 def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
@@ -84,3 +98,103 @@ def _command_doc(command: Command | SteppedCommand) -> str:
     if isinstance(command, Command) and command.wears:
         text += f" The memory stands {command.wears} of them."
     return python_doc(text)
+
+
+BODY = 8
+"""The indentation of an attribute's arguments."""
+
+_FREE = 5
+"""The fields before this one have a line of their own: no line break depends on their width."""
+
+_KEEP = "`keep=True`"
+"""What a program says so that a value outlives power-off."""
+
+LimitTexts = tuple[str, tuple[str, ...]]
+"""The limits of a point for its docstring, and their ends in code."""
+
+
+class AttributeView(NamedTuple):
+    """An attribute: its name, the function that makes it, its arguments, its docstring, its old names."""
+
+    name: str
+    maker: str
+    arguments: tuple[str, ...]
+    docstring: str
+    old_names: tuple[str, ...] = ()
+
+
+class Attributes:
+    """Makes the texts of a device's attributes."""
+
+    def __init__(self, scope: Scope, render: Render) -> None:
+        self._scope = scope
+        self._render = render
+        self._keys = scope.lowered.template_keys
+        self._texts = TextTemplates()
+        self._limits: dict[tuple[int, int], LimitTexts] = {}
+        self._remarks: dict[int, tuple[str, list[str]]] = {}
+
+    def of(self, member: Point | dict[Variant, Point]) -> str:
+        """Return the attribute of a point, or of points that have one name in different variants."""
+        return self.of_point(member) if isinstance(member, Point) else self.by_variant(member)
+
+    def of_point(self, point: Point) -> str:
+        """Return the attribute of a point."""
+        key, scope = self._keys[id(point)], self._scope
+        limited = key, id(point.allowed)
+        limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(point, scope))
+        remarks = self._remarks.get(key) or self._remarks.setdefault(
+            key, (remarks_text(point, scope, _KEEP), _errata(point, scope))
+        )
+        fields = self._fields(point, limits, remarks)
+        if len(fields) > MOST_FIELDS:
+            return self.text(self._view(point, fields))
+        whole = key, tuple(map(len, fields[_FREE:]))
+        return self._texts.fill(whole, fields, lambda: self.text(self._view(point, placeholders(fields))))
+
+    def by_variant(self, points: Mapping[Variant, Point]) -> str:
+        """Return the attribute of points that have one name in different variants."""
+        variant, first = next(iter(points.items()))
+        doc = docstring(wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it.")))
+        made = variants_call(points, self._scope)
+        return self.text(attribute_view(attribute(first.name), made, doc, old_names_of(points)))
+
+    def text(self, view: AttributeView) -> str:
+        """Return the text of an attribute."""
+        if view.old_names:
+            self._scope.runtime("renamed")
+        return self._render("python/attribute.py.j2", {"attribute": view})
+
+    def _fields(self, point: Point, limits: LimitTexts, remarks: tuple[str, list[str]]) -> tuple[str, ...]:
+        """Return the texts that only this point has: attribute, docstring, then those of `PointFields`."""
+        return (
+            attribute_of(point, self._scope),
+            _docstring(point.title["en"], limits[0], *remarks),
+            *texts_of(point, numbers_of(point, self._scope), limits[1], (python_string, leaf)),
+        )
+
+    def _view(self, point: Point, texts: tuple[str, ...]) -> AttributeView:
+        made = call_of(point, fields_of_texts(texts[2:], point), self._scope)
+        return attribute_view(texts[0], made, texts[1], old_attributes(point, self._scope))
+
+
+def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> AttributeView:
+    """Return the view of an attribute that a call makes."""
+    return AttributeView(name, made.name, arguments(made, BODY), doc, old_names)
+
+
+def _limits_of(point: Point, scope: Scope) -> LimitTexts:
+    return limits_text(point, scope), end_texts(point, leaf)
+
+
+def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
+    """Return the lines of a docstring: title, limits, remarks, and the errata that change facts."""
+    text = f"{title}: {limits}" if limits else title
+    lines = wrapped(python_doc(f"{text}{'' if text.endswith('.') else '.'}{remarks}"))
+    return docstring(lines + errata)
+
+
+def _errata(point: Point, scope: Scope) -> list[str]:
+    changing, doubts = scope.lowered.errata_of(point)
+    lines = ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
+    return [*lines, "", *wrapped(python_doc(f"The {open_text(doubts)}."))] if doubts else lines

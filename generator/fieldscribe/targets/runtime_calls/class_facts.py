@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
-from fieldscribe.targets.runtime_calls.expressions import Call, Node, PointName, call
 from fieldscribe.targets.runtime_calls.point_call import places
 from fieldscribe.targets.runtime_calls.point_expressions import addresses_of, number, place_of_command, step_of
-from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
+from fieldscribe.targets.runtime_calls.scope import Call, Node, PointName, Scope, call, family_calls
 
 
 def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:

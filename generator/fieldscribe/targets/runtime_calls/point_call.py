@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from fieldscribe.conditions import absent
 from fieldscribe.model import Point, Variant
-from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Name, Node, PointName, call
 from fieldscribe.targets.runtime_calls.point_expressions import (
     addresses_of,
     allowed,
@@ -17,7 +16,7 @@ from fieldscribe.targets.runtime_calls.point_expressions import (
     place,
     tests_of,
 )
-from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
+from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope, call, family_calls
 
 _Facts = Iterator[tuple[str, Node]]
 

@@ -9,8 +9,7 @@ from fieldscribe.conditions import Condition
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
 from fieldscribe.model.steps import WHOLE_WORD
-from fieldscribe.targets.runtime_calls.expressions import Hex, Name, Node, PointName, call
-from fieldscribe.targets.runtime_calls.scope import Scope
+from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, PointName, Scope, call
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 _FORMS = {"enum": "Named", "float": "Floating"}

@@ -9,8 +9,7 @@ from fieldscribe import __version__
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.typescript.identifiers import Identifiers
-from fieldscribe.targets.typescript.namespaces import device_name_taken, identifiers
+from fieldscribe.targets.typescript.identifiers import Identifiers, device_name_taken, identifiers
 from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts
 
@@ -53,9 +52,8 @@ def _views(device: Device) -> Views:
 
 
 def _made(device: Device, names: Identifiers) -> Views:
-    from fieldscribe.targets.typescript.device import device_context
     from fieldscribe.targets.typescript.enums import enums_context
-    from fieldscribe.targets.typescript.points import points_context
+    from fieldscribe.targets.typescript.points import device_context, points_context
 
     head = {
         "head": head_lines(device, "typescript", js_comment),

@@ -6,7 +6,7 @@ import re
 import textwrap
 from collections.abc import Callable, Mapping
 
-from fieldscribe.targets.runtime_calls.expressions import Call, Hex, Leaf, Name, Node, PointName
+from fieldscribe.targets.runtime_calls.scope import Call, Hex, Leaf, Name, Node, PointName
 from fieldscribe.text import camel, js_string
 
 WIDTH = 120

@@ -1,4 +1,7 @@
-"""The view of the points module: a constant for each point and command, with its type."""
+"""The views of the points module and of the main one.
+
+A constant for each point and command, with its type; and the class of the device, with its constructor's options.
+"""
 
 from __future__ import annotations
 
@@ -6,19 +9,95 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.targets.runtime_calls.class_facts import commands_of
-from fieldscribe.targets.runtime_calls.expressions import Call, Name, Node
+from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, readable_groups
 from fieldscribe.targets.runtime_calls.point_call import call_of, numbers_of
-from fieldscribe.targets.runtime_calls.point_texts import end_texts, fields_of_texts, texts_of
-from fieldscribe.targets.runtime_calls.remarks import limits_text, remarks_text
-from fieldscribe.targets.runtime_calls.scope import Scope, family_calls
-from fieldscribe.targets.typescript.families import in_typescript
-from fieldscribe.targets.typescript.identifiers import Identifiers, attribute, scope_of
+from fieldscribe.targets.runtime_calls.point_texts import (
+    end_texts,
+    fields_of_texts,
+    limits_text,
+    remarks_text,
+    texts_of,
+)
+from fieldscribe.targets.runtime_calls.scope import Call, Name, Node, Scope, family_calls
+from fieldscribe.targets.typescript.identifiers import (
+    Identifiers,
+    attribute,
+    code_attribute,
+    in_typescript,
+    option,
+    scope_of,
+)
 from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
-from fieldscribe.targets.typescript.types import TYPE_NAMES, type_of
-from fieldscribe.text import camel, js_comment, js_string
+from fieldscribe.text import MOST_FIELDS, TextTemplates, camel, js_comment, js_string, placeholders
 from fieldscribe.wording import open_text
+
+TYPE_NAMES = ("ReadOnly", "ReadWrite", "Stored", "StoredWriteOnly", "WriteOnly")
+"""The types of points, which differ in their methods."""
+
+_NUMBER_BITS = 32
+"""Raw numbers of more bits are bigint."""
+
+
+def is_big(point: Point) -> bool:
+    """Return True if the raw numbers of a point are bigint."""
+    bits = 16 * point.words if point.text is not None else point.width if point.shape.narrow else point.shape.info.bits
+    return bits > _NUMBER_BITS
+
+
+def type_of(point: Point, maker: str, scope: Scope) -> str:
+    """Return the type of a point: `ReadWrite<number, { limits: "maximumFrequency" }>`."""
+    numbers = numbers_of(point, scope)
+    value, taken = _values(point, numbers)
+    codes = [js_string(special.name) for special in point.specials]
+    if codes:
+        value = f"{value} | SpecialCode<{' | '.join(codes)}>"
+    written = [js_string(special.name) for special in point.specials if special.writable]
+    if written and point.writable:
+        taken = f"{taken} | SpecialCode<{' | '.join(written)}>"
+    facts = dict(_facts(point, numbers, scope))
+    shown = value if point.readable else taken
+    if taken != shown and point.writable:
+        facts["takes"] = taken
+    listed = "; ".join(f"{key}: {fact}" for key, fact in facts.items())
+    return f"{maker}<{shown}, {{ {listed} }}>" if listed else f"{maker}<{shown}>"
+
+
+def _values(point: Point, numbers: str) -> tuple[str, str]:
+    """Return the type of what decoding gives, and of what encoding takes, both without special codes."""
+    open_numbers, big = f"{numbers} | UnknownNumber", is_big(point)
+    closed = point.enum is not None and point.enum.closed
+    forms = {
+        "bit": ("boolean", "boolean"),
+        "digits": (f"readonly ({open_numbers})[]", f"readonly {numbers}[]"),
+        "enum": (open_numbers, numbers if closed else open_numbers),
+        "flags": (numbers, f"{numbers} | {'bigint' if big else 'number'}"),
+        "integer": ("bigint", "bigint | number") if big else ("number", "number"),
+        "text": ("string", "string"),
+    }
+    return ("Date", "Date | number") if point.epoch else forms.get(point.form, ("number", "number"))
+
+
+def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]]:
+    if is_big(point):
+        yield "raw", "bigint"
+    needs = dict.fromkeys(point.shape.scale_arguments)
+    if needs:
+        yield "scale", _union(needs, scope)
+    limits = {name for name in point.arguments if name not in needs} if point.writable else set()
+    if limits:
+        yield "limits", _union(dict.fromkeys(name for name in point.arguments if name in limits), scope)
+    if point.specials:
+        single = [special for special in point.specials if special.low == special.high]
+        if single:
+            named = "; ".join(f"{code_attribute(special)}: {js_string(special.name)}" for special in single)
+            yield "special", f"{{ {named} }}"
+    if numbers:
+        yield "names", f"typeof {numbers}"
+
+
+def _union(names: dict[str, None], scope: Scope) -> str:
+    return " | ".join(js_string(camel(name)) for name in names)
+
 
 _KEEP = "`keep: true`"
 """What a program says so that a value outlives power-off."""
@@ -150,3 +229,32 @@ def _command_type(made: Call) -> str:
     if isinstance(given, Mapping):
         return f"DeviceCommand<{{ {'; '.join(f'{js_string(str(name))}: number' for name in given)} }}>"
     return "DeviceCommand" if made.name == "Command" else "DeviceCommand<Record<never, number>>"
+
+
+RUNTIME = "fieldscribe-runtime"
+
+
+def device_context(device: Device, names: Identifiers) -> dict[str, object]:
+    """Return the context of the main module: imports by module, facts of the class, and options."""
+    family, scope = in_typescript(device), scope_of(device, names)
+    layout = Layout(family.makers, camel)
+    facts = {name.lower(): node for name, node in class_facts(scope).items()}
+    facts |= {"version": device.version, "digest": device.digest}
+    imports: dict[str, list[str]] = {}
+    for name in sorted({family.device, "defineDevice", *map(layout.maker, scope.used)}):
+        module = family.modules.get(name)
+        imports.setdefault(f"{RUNTIME}/{module}" if module else RUNTIME, []).append(name)
+    options = [(option(axis), " | ".join(map(js_string, values))) for axis, values in device.variants.items()]
+    options += [(option(each.name), "number") for each in device.given]
+    return {
+        "name": names.device_class,
+        "options": names.options,
+        "base": family.device,
+        "base_module": f"{RUNTIME}/{family.modules[family.device]}",
+        "imports": sorted(imports.items()),
+        "facts": [layout.laid_out(node, 2, f"{camel(name)}: ") for name, node in facts.items()],
+        "choices": [(f"{name}?", kind) for name, kind in options],
+        "settings": list(family.options),
+        "device": js_string(device.id),
+        "groups": " | ".join(map(js_string, readable_groups(device))) or "never",
+    }

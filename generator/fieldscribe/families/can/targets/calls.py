@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
-from fieldscribe.targets.runtime_calls.expressions import Hex, Node, call
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Scope, telegrams
+from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call, telegrams
 
 
 def _profile(device: Device, scope: Scope) -> Node:

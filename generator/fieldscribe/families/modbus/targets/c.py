@@ -23,9 +23,8 @@ from fieldscribe.targets.c.frames import (
 )
 from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, has_row, is_written_by_row, member_cases
 from fieldscribe.targets.c.layout import called
-from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.point_templates import GeneratedPoint
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, unsigned
 from fieldscribe.targets.c.views import Define, PointView
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner

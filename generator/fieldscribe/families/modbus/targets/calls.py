@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of
 from fieldscribe.model import Base, Block, Device
-from fieldscribe.targets.runtime_calls.expressions import Hex, Node, call
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Scope
+from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call
 
 
 def _profile(device: Device, scope: Scope) -> Node:

@@ -10,9 +10,8 @@ from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_t
 from fieldscribe.model import Code, Device, Point
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, kind_of, lies
-from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.point_templates import GeneratedPoint
-from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.runtime_calls.expressions import Node, call
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Scope, telegrams, usual_maker
+from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Node, Scope, call, telegrams, usual_maker
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 

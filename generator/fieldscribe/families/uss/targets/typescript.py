@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.targets.typescript.families import TypeScriptFamily
+from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
 
 IN_TYPESCRIPT = TypeScriptFamily(
     device="UssDevice",
