@@ -10,7 +10,7 @@ from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names, Owner
 
 SEES_TITLES = False
-NEEDS_FAMILY = False
+FAMILY_PART = ""
 WEIGHT = 0.1
 BEFORE_POINTS = ()
 

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
         SEES_TITLES: bool
         """True if it gets titles, notes and sources too; the other targets get names only (code_view.py)."""
 
-        NEEDS_FAMILY: bool
-        """True if it is for devices only whose family has a part for it."""
+        FAMILY_PART: str
+        """The part of a family without which it cannot compile a device; empty if it needs none."""
 
         BEFORE_POINTS: tuple[str, ...]
         """Words between the device's name and the full name of a point in identifiers, so that checks need not compare
@@ -70,4 +70,5 @@ def knows(name: str, device: Device) -> bool:
     """Return True if the family of a device has the part that a target needs."""
     from fieldscribe.families import family  # a `generate` with nothing changed starts without it
 
-    return not target(name).NEEDS_FAMILY or family(device.family).part(f"targets.{name}") is not None
+    part = target(name).FAMILY_PART
+    return not part or family(device.family).part(part) is not None

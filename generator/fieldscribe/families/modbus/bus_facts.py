@@ -1,4 +1,4 @@
-"""The facts of a bus that only this family has, and what people must know about the line."""
+"""The facts of a bus that only this family has, and what people and pages must know beside them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from fieldscribe.facts.schema import STRING, null_or
 from fieldscribe.facts.table import WIRE, Fact, family_facts
-from fieldscribe.families.modbus import BROADCAST, ModbusBus, of_bus
+from fieldscribe.families.modbus import BROADCAST, FUNCTIONS, ModbusBus, of_bus
+from fieldscribe.families.modbus.remarks import EXCEPTIONS
 from fieldscribe.model import Bus, Code
 from fieldscribe.wording import address_text
 
@@ -40,3 +41,10 @@ def numbers(space: str, address: int) -> Mapping[str, int]:
 def goes_to_all(function: Code) -> bool:
     """Return True if the protocol allows to broadcast a function."""
     return function.number in BROADCAST
+
+
+PROTOCOL: dict[str, object] = {
+    "functions": {number: [each.name, each.space, each.most] for number, each in FUNCTIONS.items()},
+    "exceptions": dict(EXCEPTIONS),
+}
+"""The functions with name, space and the most items of a request, and the usual names of exceptions."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or
 from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact, family_facts
 from fieldscribe.families.uss import UssBus, UssFrame, of_bus
-from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, write_task
+from fieldscribe.families.uss.parts import EEPROM_TASKS, READ_TASK, RESPONSE_WIDTHS, TASK_WIDTHS, VARIABLE, write_task
 from fieldscribe.model import Bus, Point
 from fieldscribe.wording.exact import hex_text
 
@@ -53,3 +53,11 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in details.pkw)
     yield "Words of the parameter part (PKW)", (", ".join(lengths))
     yield "Words of process data (PZD)", "{}..{}".format(*details.pzd)
+
+
+PROTOCOL: dict[str, object] = {
+    "tasks": dict(sorted(TASK_WIDTHS.items())),
+    "eeprom": sorted(EEPROM_TASKS),
+    "responses": RESPONSE_WIDTHS,
+}
+"""The words of value that tasks and responses carry, and the tasks that write to the EEPROM, too."""

@@ -17,7 +17,7 @@ from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.c.scope import scope_of
 
 SEES_TITLES = False
-NEEDS_FAMILY = True
+FAMILY_PART = "targets.c"
 WEIGHT = 0.9
 BEFORE_POINTS = ("", "read", "write", "store")
 

@@ -106,7 +106,7 @@ def _bus(device: Device) -> dict[str, object]:
     codes = {kind: device.bus.codes(kind) for kind in ("functions", "exceptions", "responses")}
     return {
         "gaps": {line(space): gaps for space, gaps in device.bus.gaps.items()},
-        "protocol": getattr(family(device.family).part("targets.docs"), "PROTOCOL", {}),
+        "protocol": getattr(family(device.family).part("bus_facts"), "PROTOCOL", {}),
         **{
             kind: {str(code.number): [line(code.name), line(code.title["en"])] for code in each}
             for kind, each in codes.items()

@@ -93,7 +93,7 @@ def _of_point(point: Point) -> Iterator[Names]:
 SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
 
-NEEDS_FAMILY = True
+FAMILY_PART = "targets.calls"
 WEIGHT = 0.4
 BEFORE_POINTS = ("",)
 

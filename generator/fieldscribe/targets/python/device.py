@@ -52,8 +52,8 @@ class PythonFamily(NamedTuple):
 
 
 def in_python(device: Device) -> PythonFamily:
-    """Return the part `targets.python` of the device's family."""
-    part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
+    """Return what the device's family says."""
+    part: PythonFamily = family(device.family).part("targets.calls").IN_PYTHON
     return part
 
 

@@ -13,7 +13,7 @@ SEES_TITLES = False
 
 _SOURCES = ("points", "enums", "flags", "with")
 
-NEEDS_FAMILY = True
+FAMILY_PART = "targets.rust"
 WEIGHT = 0.6
 BEFORE_POINTS = ("",)
 

@@ -14,7 +14,7 @@ from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts
 
 SEES_TITLES = False
-NEEDS_FAMILY = True
+FAMILY_PART = "targets.calls"
 WEIGHT = 0.7
 BEFORE_POINTS = ("",)
 

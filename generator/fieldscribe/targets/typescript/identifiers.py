@@ -31,8 +31,8 @@ _MAKERS = {"Case": "scaleCase", "Type": "wireType"}
 
 
 def in_typescript(device: Device) -> TypeScriptFamily:
-    """Return the part `targets.typescript` of the device's family."""
-    part: TypeScriptFamily = family(device.family).part("targets.typescript").IN_TYPESCRIPT
+    """Return what the device's family says."""
+    part: TypeScriptFamily = family(device.family).part("targets.calls").IN_TYPESCRIPT
     return part._replace(makers={**_MAKERS, **part.makers})
 
 

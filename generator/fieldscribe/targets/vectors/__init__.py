@@ -12,7 +12,7 @@ from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names
 
 SEES_TITLES = False
-NEEDS_FAMILY = False
+FAMILY_PART = ""
 WEIGHT = 0.9
 BEFORE_POINTS = ("",)
 _kept: list[tuple[Device, str]] = []

@@ -1,10 +1,15 @@
-"""CAN in calls of the runtime: the profile with its messages and telegrams."""
+"""CAN in calls of the runtime: the profile with its messages and telegrams.
+
+And what generated Python and TypeScript import for it.
+"""
 
 from __future__ import annotations
 
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call, telegrams
+from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
 
 
 def _profile(device: Device, scope: Scope) -> Node:
@@ -54,3 +59,37 @@ def _role(role: Role, scope: Scope) -> Node:
 
 
 IN_CALLS = FamilyCalls(profile=_profile)
+
+
+_BUS = 'can.Bus("can0", interface="socketcan")'
+
+
+def _line(_: Device) -> Line:
+    return Line("can", f"CanLine({_BUS})", f"AsyncCanLine({_BUS})", ("import can",))
+
+
+IN_PYTHON = PythonFamily(
+    module=f"{RUNTIME}.can",
+    exports=frozenset({"Message", "Profile", "Role", "Signal", "Telegram"}),
+    device="CanDevice",
+    transport="CanTransport",
+    line=_line,
+)
+
+
+_FRAMES = "can-frames"
+
+IN_TYPESCRIPT = TypeScriptFamily(
+    device="CanDevice",
+    makers={
+        "Profile": "canProfile",
+        "Message": "canMessage",
+        "Role": "canRole",
+        "Signal": "canSignal",
+        "Telegram": "telegramLayout",
+    },
+    modules={
+        "CanDevice": "can",
+        **dict.fromkeys(("canProfile", "canMessage", "canRole", "canSignal", "telegramLayout"), _FRAMES),
+    },
+)

@@ -1,4 +1,7 @@
-"""Modbus in calls of the runtime: the profile with its functions, and the planned reads."""
+"""Modbus in calls of the runtime: the profile with its functions, and the planned reads.
+
+And what generated Python and TypeScript import for it.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,9 @@ from collections.abc import Mapping
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of
 from fieldscribe.model import Base, Block, Device
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call
+from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
 
 
 def _profile(device: Device, scope: Scope) -> Node:
@@ -62,3 +67,28 @@ def _base(base: Base, scope: Scope) -> Node:
 
 
 IN_CALLS = FamilyCalls(profile=_profile, facts=_facts)
+
+
+SERIAL = Line("serial", 'SerialLine("/dev/ttyUSB0", 9600)', 'AsyncSerialLine(SerialLine("/dev/ttyUSB0", 9600))')
+NETWORK = Line("tcp", 'TcpLine("192.168.0.20")', 'AsyncTcpLine("192.168.0.20")')
+
+IN_PYTHON = PythonFamily(
+    module=RUNTIME,  # the Modbus names come from the runtime itself
+    exports=frozenset({"Base", "Block", "Chain", "Profile"}),
+    device="Device",
+    transport="Transport",
+    line=lambda device: SERIAL if "rtu" in device.bus.framings else NETWORK,
+)
+
+
+IN_TYPESCRIPT = TypeScriptFamily(
+    device="ModbusDevice",
+    makers={"Profile": "modbusProfile", "Block": "modbusBlock", "Base": "modbusBase", "Chain": "modbusChain"},
+    modules={
+        "ModbusDevice": "modbus",
+        "modbusBlock": "modbus",
+        "modbusProfile": "modbus-frames",
+        "modbusBase": "bases",
+        "modbusChain": "bases",
+    },
+)

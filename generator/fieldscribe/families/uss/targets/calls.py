@@ -1,10 +1,15 @@
-"""USS in calls of the runtime: the profile with its tasks and telegrams, and parameters that may be kept in EEPROM."""
+"""USS in calls of the runtime: the profile with its tasks and telegrams, and parameters that may be kept in EEPROM.
+
+And what generated Python and TypeScript import for it.
+"""
 
 from __future__ import annotations
 
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Node, Scope, call, telegrams, usual_maker
+from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
@@ -37,3 +42,33 @@ def _maker(point: Point) -> str:
 
 
 IN_CALLS = FamilyCalls(profile=_profile, maker=_maker)
+
+
+def _line(device: Device) -> Line:
+    lengths, (low, high) = of_bus(device.bus).pkw, of_bus(device.bus).pzd
+    pkw = lengths[0] if lengths and 4 not in lengths else 4  # a bus with errors may have none
+    return Line(
+        "serial",
+        'UssLine("/dev/ttyUSB0", 9600)',
+        'AsyncSerialLine(UssLine("/dev/ttyUSB0", 9600))',
+        first=(f"from {RUNTIME}.uss import Link",),
+        settings=(f"Link(pkw={pkw}, pzd={min(max(2, low), high)})",),
+    )
+
+
+IN_PYTHON = PythonFamily(
+    module=f"{RUNTIME}.uss",
+    exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
+    device="UssDevice",
+    transport="UssTransport",
+    line=_line,
+    settings=(("link", "Link"),),
+)
+
+
+IN_TYPESCRIPT = TypeScriptFamily(
+    device="UssDevice",
+    makers={"Profile": "ussProfile", "Telegram": "telegramLayout"},
+    modules={"UssDevice": "uss", "ussProfile": "uss-frames", "telegramLayout": "can-frames"},
+    options=(("link", 'import("fieldscribe-runtime/uss-frames").UssLink'),),
+)
