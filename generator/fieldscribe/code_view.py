@@ -5,9 +5,10 @@ Titles and notes change often. They reach only the documentation, so that vendor
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from fieldscribe.model import (
     Code,
@@ -25,13 +26,14 @@ from fieldscribe.model import (
     Titles,
 )
 
+Made = TypeVar("Made")
 _NOWHERE = Source("", None, None, None)
 _NO_NOTE: Titles = {}
 
 
 def for_code(device: Device) -> Device:
     """Return the device without anything that is only for people."""
-    points, errata, enums = _parts(device)
+    points, errata, enums = _last.of(device, _parts)
     return replace(
         device,
         title={},
@@ -60,16 +62,33 @@ def for_code(device: Device) -> Device:
     )
 
 
-Parts = tuple[tuple[Point, ...], tuple[Erratum, ...], "_Enums"]
-_kept: list[tuple[Device, Parts]] = []
-"""The parts of the last device: what is lowered for one target serves all that ask for the same points."""
+def has_same_points(first: Device, second: Device) -> bool:
+    """Return True if two devices share their points and errata."""
+    return first.points is second.points and first.errata is second.errata
 
 
-def _parts(device: Device) -> Parts:
-    """Return the points and errata of a device as code may know them, made once, and its enums."""
-    for known, parts in _kept:
-        if known.points is device.points and known.errata is device.errata:
-            return parts
+class Last(Generic[Made]):
+    """What was made of the last devices, for all that ask for the same."""
+
+    def __init__(self, same: Callable[[Device, Device], bool], most: int = 1) -> None:
+        self.kept: list[tuple[Device, Made]] = []
+        self._same, self._most = same, most
+
+    def of(self, device: Device, make: Callable[[Device], Made]) -> Made:
+        """Return what was made of a device before, else what is made now."""
+        for known, made in tuple(self.kept):
+            if self._same(known, device):
+                return made
+        self.kept[:] = [(device, make(device)), *self.kept[: self._most - 1]]
+        return self.kept[0][1]
+
+
+_Parts = tuple[tuple[Point, ...], tuple[Erratum, ...], "_Enums"]
+_last: Last[_Parts] = Last(has_same_points)
+
+
+def _parts(device: Device) -> _Parts:
+    """Return the points and errata of a device as code may know them, and its enums."""
     enums, interner = _Enums(), Interner()  # shapes that differed in titles only become one
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
@@ -77,7 +96,6 @@ def _parts(device: Device) -> Parts:
     terms = {key: _terms(terms) for key, terms in terms.items()}
     points = tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points])
     errata = tuple([replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata])
-    _kept[:] = [(device, (points, errata, enums))]
     return points, errata, enums
 
 

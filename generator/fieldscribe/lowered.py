@@ -15,6 +15,7 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
+from fieldscribe.code_view import Last, has_same_points
 from fieldscribe.model import Allowed, Device, Enum, Erratum, Factor, Linear, Point, Shape, Terms
 
 
@@ -264,18 +265,13 @@ class Lowered:
         return {id(point): key_of(point) for point in self.device.points}
 
 
-_kept: list[Lowered] = []
-"""The devices that were lowered last: the one that is compiled, and its sample for the proof of distinct names."""
+_last: Last[Lowered] = Last(has_same_points, most=2)
+"""The device that is compiled, and its sample for the proof of distinct names."""
 
 
 def lower(device: Device) -> Lowered:
     """Return the lowered model of a device, made once for all that ask for the same points and errata."""
-    for lowered in tuple(_kept):
-        if lowered.device.points is device.points and lowered.device.errata is device.errata:
-            return lowered
-    made = Lowered(device)
-    _kept[:] = [made, *_kept[:1]]
-    return made
+    return _last.of(device, Lowered)
 
 
 def named_numbers(shape: Shape) -> Enum | None:

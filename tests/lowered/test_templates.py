@@ -110,7 +110,8 @@ DEVICES: dict[str, Callable[[], Device]] = {
 
 def texts(device: Device) -> dict[str, str]:
     """Return the generated files of a device in the compiled languages."""
-    lowered._kept.clear()
+    for module in (lowered, typescript):
+        module._last.kept.clear()
     return {path: text for language in LANGUAGES for path, text in language.outputs(for_code(device), render)}
 
 

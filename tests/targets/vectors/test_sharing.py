@@ -185,7 +185,7 @@ def test_a_shape_that_the_model_shares_wrongly_is_caught(fact: str, monkeypatch:
     device = sample_device((first, second, point("ratio", 30, allowed=allowed((1, 9)))))
     sound = text_of(device)
     monkeypatch.setattr(Interner, "shape", lambda self, shape: interned(self, shape, without=fact))
-    monkeypatch.setattr(code_view, "_kept", [])
+    monkeypatch.setattr(code_view._last, "kept", [])
     assert differs(device, sound)
 
 

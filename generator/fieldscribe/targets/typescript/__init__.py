@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from itertools import chain
+from operator import eq
 
 from fieldscribe import __version__
+from fieldscribe.code_view import Last
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import head_lines
@@ -29,32 +31,29 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     names = Identifiers(device)
     folder = f"typescript/{names.folder}"
     yield f"{folder}/package.json", json.dumps(_package(device, names), indent=2, ensure_ascii=True) + "\n"
-    views = _views(device)
+    views = _last.of(device, _views)
     for name, text in chain(_rendered(views, "js", render), _rendered(_typed(views, device, names), "d.ts", render)):
         yield f"{folder}/{name}", text
 
 
 def scripts(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """Yield the modules of the device's package by their names, without their types."""
-    return _rendered(_views(device), "js", render)
+    return _rendered(_last.of(device, _views), "js", render)
 
 
 Views = Mapping[str, dict[str, object]]
 """The context of each module by its name."""
-_kept: list[tuple[Device, Views]] = []
-"""The last device with its contexts: its package and its page have the same scripts."""
+
+
+_last: Last[Views] = Last(eq)
+"""A package and a page have the same scripts."""
 
 
 def _views(device: Device) -> Views:
-    if not (_kept and _kept[0][0] == device):
-        _kept[:] = [(device, _made(device, Identifiers(device)))]
-    return _kept[0][1]
-
-
-def _made(device: Device, names: Identifiers) -> Views:
     from fieldscribe.targets.typescript.enums import enums_context
     from fieldscribe.targets.typescript.points import device_context, points_context
 
+    names = Identifiers(device)
     head = {
         "head": head_lines(device, "typescript", js_comment),
         "product": js_comment(f"{device.vendor} {device.model}"),

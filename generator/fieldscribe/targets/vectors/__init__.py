@@ -6,7 +6,9 @@ This target shares no code with the others, so that a mistake in one of them can
 from __future__ import annotations
 
 from collections.abc import Iterable
+from operator import eq
 
+from fieldscribe.code_view import Last
 from fieldscribe.model import Device
 from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names
@@ -15,8 +17,9 @@ SEES_TITLES = False
 FAMILY_PART = ""
 WEIGHT = 0.9
 BEFORE_POINTS = ("",)
-_kept: list[tuple[Device, str]] = []
-"""The last device with its vectors."""
+
+_last: Last[str] = Last(eq)
+"""Vectors as text: a page and a file have the same."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -26,12 +29,10 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def text_of(device: Device) -> str:
-    """Return the vectors of a device as text; its page and its file have the same."""
+    """Return the vectors of a device as text."""
     from fieldscribe.targets.vectors.collection import collect
 
-    if not (_kept and _kept[0][0] == device):
-        _kept[:] = [(device, collect(device).text(device.id, device.version, device.digest))]
-    return _kept[0][1]
+    return _last.of(device, lambda device: collect(device).text(device.id, device.version, device.digest))
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
