@@ -85,6 +85,11 @@ def test_a_wrong_device_leaves_the_others_alone(tmp_path: Path, capsys: pytest.C
     assert docs(tmp_path / "wrong.yaml", "--format", "csv", "--out", tmp_path / "out") == 1
 
 
+def test_a_device_that_is_named_twice_is_written_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert docs(KITCHEN, f"{KITCHEN}/device.yaml", "--format", "markdown", "--out", tmp_path) == 0
+    assert capsys.readouterr().out.count(" written") == 1
+
+
 def test_an_empty_name_is_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As of a variable that is not set: the devices here are not written."""
     monkeypatch.chdir(ROOT / "descriptions")

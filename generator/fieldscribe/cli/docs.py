@@ -54,12 +54,16 @@ def run(arguments: Namespace) -> int:
         raise StopError("--pages is for --format html")
     if not arguments.devices and not arguments.pages:
         raise StopError("DEVICE is missing", "name devices, or say --pages for the pages of fieldscribe itself")
-    devices, code = [], FINE
+    devices: list[Device] = []
+    code = FINE
     for name in chain.from_iterable(map(_named, arguments.devices)):
         try:
-            devices.append(open_device(Namespace(device=name, descriptions=arguments.descriptions)))
+            device = open_device(Namespace(device=name, descriptions=arguments.descriptions))
         except StopError as stop:
             code = max(code, stop.tell())
+            continue
+        if device not in devices:  # it may be named by its id, and in its folder
+            devices.append(device)
     has_index = arguments.format == "html" and (arguments.pages or len(devices) > 1)
     request = DocumentRequest(arguments.format, index=f"{NAME}.html" if has_index else "")
     orders = [Order(device.id, request, arguments.out, partial(request.contents, device)) for device in devices]
