@@ -27,7 +27,7 @@ export async function opened(executablePath, modules, { draws = true, ...context
 /** The widths at which the page scrolls sideways, with how far. */
 export async function wideAt(page) {
   const wide = [];
-  for (const width of [360, 1280]) {
+  for (const width of [360, 768, 1280]) {
     await page.setViewportSize({ width, height: 800 });
     const over = await page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth");
     if (over > 0) wide.push(`${width}: ${over}`);

@@ -72,6 +72,10 @@ def test_nothing_scrolls_sideways(seen: dict[str, Any]) -> None:
     assert seen["wide"] == []
 
 
+def test_names_have_room_at_any_width(seen: dict[str, Any]) -> None:
+    assert seen["narrowest"] > 150
+
+
 def test_axe_finds_nothing(seen: dict[str, Any]) -> None:
     assert seen["axe"] == {}
 

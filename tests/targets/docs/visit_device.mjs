@@ -34,6 +34,12 @@ for (const query of queries) {
   seen.searches[query] = { points, places, at: decodeURIComponent(await page.evaluate("location.hash")) };
 }
 await open();
+seen.narrowest = Infinity;
+for (let width = 600; width <= 1300; width += 50) {
+  await page.setViewportSize({ width, height: 800 });
+  seen.narrowest = Math.min(seen.narrowest, await page.$eval("#list td.title", (cell) => cell.clientWidth));
+}
+await page.setViewportSize({ width: 1280, height: 800 });
 const all = (await titles()).length;
 await page.selectOption("label:has-text('Access') select", "r");
 seen.filtered = [all, await page.$$eval("#list tbody tr[data-point] td:nth-child(5)", (cells) => [...new Set(cells.map((cell) => cell.textContent))])];
