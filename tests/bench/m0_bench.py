@@ -1,4 +1,4 @@
-"""Measures what exchanges of generated C cost on Cortex-M0, beside what an engineer writes by hand.
+"""Measures what exchanges of generated C and Rust cost on Cortex-M0, beside what an engineer writes by hand in C.
 
 .venv/bin/python tests/bench/m0_bench.py
 
@@ -20,6 +20,23 @@ HERE = ROOT / "tests/bench/exchange"
 FLAGS = "-std=gnu99 -mcpu=cortex-m0 -mthumb -Os -ffunction-sections -fdata-sections -DFIELDSCRIBE_NO_FLOAT"
 LINK = ("-nostartfiles", "-Wl,--gc-sections", "-T", str(ROOT / "tests/firmware/microbit.ld"))
 QEMU = "qemu-system-arm -M microbit -display none -monitor none -serial stdio -icount shift=6 -kernel"
+RUST = """[package]
+name = "point"
+edition = "2021"
+[dependencies]
+hitachi_l200.path = "hitachi_l200"
+[features]
+both = []
+[[bin]]
+name = "point"
+path = "%s"
+[profile.release]
+opt-level = "s"
+lto = true
+codegen-units = 1
+panic = "abort"
+"""
+RUST_TARGET = "thumbv6m-none-eabi"
 NOTHING, BUILD, PARSE, ASK, BOTH, POINTS = range(6)
 TICK, INSTRUCTION = 62.5, 64.0
 """Nanoseconds of the timer and of an instruction."""
@@ -39,6 +56,14 @@ def _bytes(image: Path) -> int:
     return sum(map(int, done.stdout.splitlines()[1].split()[:2]))
 
 
+def _rust_bytes(folder: Path, *options: str) -> int:
+    """Return the bytes of the program in Rust over vendored crates."""
+    (folder / "Cargo.toml").write_text(RUST % (HERE / "point.rs"), "utf-8")
+    words = ["cargo", "build", "--offline", "--quiet", "--release", "--target", RUST_TARGET, *options]
+    subprocess.run(words, cwd=folder, check=True)
+    return _bytes(folder / "target" / RUST_TARGET / "release/point")
+
+
 def _instructions(image: Path) -> float:
     with subprocess.Popen([*QEMU.split(), image], stdout=subprocess.PIPE) as process:
         assert process.stdout is not None
@@ -49,15 +74,15 @@ def _instructions(image: Path) -> float:
     return ticks * TICK / INSTRUCTION
 
 
+def _vendor(target: str, folder: Path, points: str) -> None:
+    words = [FIELDSCRIBE, "vendor", target, "hitachi_l200", "--out", str(folder), "--points", points]
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+
+
 def rows(folder: Path) -> Iterator[tuple[str, float, float | None, float]]:
     """Yield what is measured, the figure of generated code, that by hand, and the mark."""
     parts = ",".join(f"fieldscribe_modbus_{name}_rtu" for name in ("build", "parse", "ask"))
-    words = f"D001,D002,D003,D013,A020,B012,{parts}"
-    subprocess.run(
-        [FIELDSCRIBE, "vendor", "c", "hitachi_l200", "--out", folder, "--points", words],
-        check=True,
-        stdout=subprocess.DEVNULL,
-    )
+    _vendor("c", folder, f"D001,D002,D003,D013,A020,B012,{parts}")
     figures: dict[str, list[float]] = {}
     for source in ("generated", "by_hand"):
         images = {part: _image(folder, source, part) for part in (NOTHING, BUILD, PARSE, ASK, BOTH)}
@@ -70,6 +95,9 @@ def rows(folder: Path) -> Iterator[tuple[str, float, float | None, float]]:
     yield from zip(names, figures["generated"], figures["by_hand"], marks, strict=True)
     one, two = (_bytes(_image(folder, "generated", POINTS, points)) for points in (1, 2))
     yield "one more point read and written, bytes", two - one, None, 60
+    _vendor("rust", folder, "A020")
+    whole, empty = _rust_bytes(folder, "--features", "both"), _rust_bytes(folder)
+    yield "Rust: a point read and written in counts, bytes", whole - empty, None, 3000
 
 
 def print_m0() -> None:

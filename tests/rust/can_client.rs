@@ -9,10 +9,9 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::can::{
-    AsyncTransport, BuildError, ClientError, Content, Frame, Hears, Listener, LocalTransport, ParseError, ReceiveError,
-    Receiver, Transport,
+    AsyncTransport, Content, Frame, Hears, Listener, LocalTransport, ParseError, Receiver, Transport,
 };
-use fieldscribe_runtime::Text;
+use fieldscribe_runtime::{About, BuildError, ClientError, ReplyError, Text};
 use odd_can::{enums, flags, messages, points, telegrams, with, AsyncClient, Client, Error, LocalClient, PROFILE};
 
 /// A device that answers from its memory, with other frames before each answer.
@@ -175,17 +174,17 @@ fn receivers_hear_what_others_are_told() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
     // Its high word came once: nobody knows whether it was the same before the low one.
-    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn(Some("hours"))));
-    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing(Some("starts"))));
+    assert_eq!(client.listener().raw::<points::Hours>(), Err(Error::Torn(Some("hours"))));
+    assert_eq!(client.listener().raw::<points::Starts>(), Err(Error::NotReceived(Some("starts"))));
     // What was heard before is not taken for what is true now.
     assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
     assert_eq!(client.listener().raw::<points::Hours>(), Ok(0x0001_0009));
     let exponent = client.receive::<points::Exponent>().unwrap();
     assert_eq!(client.receive_with::<points::Power>(with::Power { exponent }), Ok(0.9));
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came", Some("hours"))));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came", Some(About::Point("hours")))));
     let mut client = client.patient(0);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing(Some("hours")))));
-    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer(None)));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Point(Error::NotReceived(Some("hours")))));
+    assert_eq!(client.read_word(407), Err(ClientError::Reply(ReplyError::NoAnswer, None)));
 }
 
 fn numbers_of_two_frames_are_waited_for() {
@@ -197,7 +196,7 @@ fn numbers_of_two_frames_are_waited_for() {
     assert_eq!(bus.later.len(), 1);
     let bus = Bus::default().then(&[low, high, part(2, [9, 0, 0]), part(1, [0, 0, 2])]);
     let mut client = Client::new(bus, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn(Some("hours")))));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Point(Error::Torn(Some("hours")))));
 }
 
 /// A device that takes the nearest number it likes.
@@ -205,7 +204,7 @@ fn other_numbers_are_told() {
     let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
     let bus = Bus::new(&[(507, 1)], vec![nearest]);
     let mut client = Client::new(bus, 5);
-    let told = ClientError::EchoMismatch { expected: 400, received: 399, point: Some("ratio") };
+    let told = ClientError::Reply(ReplyError::OtherNumber { written: 400, answered: Some(399) }, Some(About::Point("ratio")));
     assert_eq!(client.write::<points::Ratio>(400), Err(told));
 }
 
@@ -217,8 +216,8 @@ fn listeners_are_lent_and_paired() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(receiver.raw::<points::Starts>(), Ok(0x0001_0002));
     assert_eq!(receiver.word(9), Ok(1));
-    assert_eq!(receiver.word(19), Err(ReceiveError::Missing(None)));
-    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing(None)));
+    assert_eq!(receiver.word(19), Err(Error::NotReceived(None)));
+    assert_eq!(receiver.word(u16::MAX), Err(Error::NotReceived(None)));
 }
 
 /// The receivers of two telegrams, for both of which a client can wait.
@@ -248,7 +247,7 @@ fn a_listener_of_several_telegrams_waits_for_each() {
 
 fn units_are_checked() {
     let mut client = Client::new(Bus::default(), 31);
-    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit, Some("ratio"))));
+    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit, Some(About::Point("ratio")))));
     assert!(client.into_transport().sent.is_empty());
 }
 

@@ -8,8 +8,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::client::{AsyncTransport, ClientError, LocalTransport, Transport};
-use fieldscribe_runtime::modbus::{crc, reply_length, About, BuildError, Framing, Profile, ReplyError, Request};
+use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
+use fieldscribe_runtime::modbus::{crc, reply_length, Framing, Profile, Request};
+use fieldscribe_runtime::{About, BuildError, ClientError, ReplyError};
 use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, AsyncClient, Client, Error, LocalClient};
 use sample_drive::{Readable, POINTS, PROFILE};
 

@@ -7,7 +7,8 @@ use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, Transport};
-use fieldscribe_runtime::uss::{check_byte, ClientError, Link, ParseError, Request, Value};
+use fieldscribe_runtime::uss::{check_byte, Link, Request, Value};
+use fieldscribe_runtime::{About, ClientError, ReplyError};
 use siemens_mm4::flags::{ControlWord, StatusWord};
 use siemens_mm4::{enums, exceptions, points, with, AsyncClient, Client, Error, Point};
 
@@ -168,7 +169,7 @@ fn runs_and_stops() {
     drive.lock().unwrap().faulty = true;
     let refused = client.read::<points::UserAccessLevel>().unwrap_err();
     let (error, name) = (exceptions::PARAMETER_NUMBER_NOT_ALLOWED, Some("parameter_number_not_allowed"));
-    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }, Some("user_access_level")));
+    assert_eq!(refused, ClientError::Reply(ReplyError::Refused { error, name }, Some(About::Point("user_access_level"))));
     assert!(client.heard::<points::StatusWord>().unwrap().fault());
     assert!(drive.lock().unwrap().control & 1 == 1);
 }
@@ -201,11 +202,8 @@ fn wrong_links_are_noticed() {
     drive.lock().unwrap().single_first = true;
     let mut client = Client::new(Port(drive.clone()), Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
-    let wrong = ClientError::EchoMismatch {
-        expected: Value::Word(5),
-        received: Value::Word(0),
-        point: Some("command_source"),
-    };
+    let other = ReplyError::OtherNumber { written: 5, answered: Some(0) };
+    let wrong = ClientError::Reply(other, Some(About::Point("command_source")));
     assert_eq!(client.write::<points::CommandSource>(usual), Err(wrong));
     let mut client = Client::new(Port(drive), Link::new(4, 2).single_first(), 3);
     assert_eq!(client.write::<points::CommandSource>(usual), Ok(()));

@@ -6,7 +6,8 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::can::{AsyncTransport, ClientError, Frame, ReceiveError, Receiver, Transport};
+use fieldscribe_runtime::can::{AsyncTransport, Frame, Receiver, Transport};
+use fieldscribe_runtime::{About, ClientError};
 use woodward_mpu2s::telegrams::Visualisation;
 use woodward_mpu2s::{enums, points, with, AsyncClient, Client, Error, Readable};
 
@@ -138,7 +139,7 @@ fn measured_values_are_published() {
     let shown = "generator_active_power: the factor generator_power_exponent is 100, outside 0 to 5";
     assert_eq!(broken.to_string(), shown);
     let empty = Receiver::<Visualisation>::new(UNIT).value::<points::GeneratorFrequency>();
-    assert_eq!(empty, Err(ReceiveError::Missing(Some("generator_frequency"))));
+    assert_eq!(empty, Err(Error::NotReceived(Some("generator_frequency"))));
 }
 
 fn parameters_are_changed() {
@@ -163,7 +164,7 @@ fn a_late_answer_answers_nothing() {
     let mut client = Client::new(Device::new(), UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.transport().slow = 1;
     let late = client.read::<points::GeneratorFrequencySetpoint>();
-    assert_eq!(late, Err(ClientError::Transport("nothing came", Some("generator_frequency_setpoint"))));
+    assert_eq!(late, Err(ClientError::Transport("nothing came", Some(About::Point("generator_frequency_setpoint")))));
     client.transport().parameters.insert(11, 15360);
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
     assert_eq!(client.listener().taken(), 2);

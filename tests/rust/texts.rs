@@ -2,8 +2,9 @@
 
 extern crate kitchen_sink;
 
-use fieldscribe_runtime::client::{Client, Transport};
-use fieldscribe_runtime::modbus::{crc, BuildError, Framing, Function, Profile, Request};
+use fieldscribe_runtime::client::Transport;
+use fieldscribe_runtime::modbus::{crc, Client, Framing, Function, Profile, Request};
+use fieldscribe_runtime::BuildError;
 use fieldscribe_runtime::{Error, Text};
 use rare::{points, Encodable, Point, Whole};
 

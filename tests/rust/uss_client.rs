@@ -9,7 +9,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
-use fieldscribe_runtime::uss::{check_byte, BuildError, ClientError, Link, ParseError, Request, Value};
+use fieldscribe_runtime::uss::{check_byte, Link, Request, Value};
+use fieldscribe_runtime::{About, BuildError, ClientError, ReplyError};
 use odd_uss::{exceptions, flags, points, tasks, with, AsyncClient, Client, Error, LocalClient};
 
 /// A drive with one or two words for each element, which sends its process data and refuses what it does not have.
@@ -141,7 +142,7 @@ fn parameters_are_read_and_written() {
     assert_eq!(client.read::<points::WideIndex255>(), Ok(5));
     assert_eq!(client.write::<points::WideIndex255>(0x0001_0002), Ok(()));
     // The drive has no task that keeps double words of arrays.
-    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask, Some("wide_index_255"))));
+    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask, Some(About::Point("wide_index_255")))));
     assert_eq!(client.read::<points::LowBits>(), Ok(15));
     assert_eq!(client.update::<points::LowBits>(3), Ok(()));
     assert_eq!(client.store_update::<points::LowBits>(4), Ok(()));
@@ -157,13 +158,13 @@ fn parameters_are_read_and_written() {
 
 fn refusals_and_wrong_answers_are_told() {
     let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), LINK, 3);
-    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some("source"));
+    let refused = ClientError::Reply(ReplyError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some(About::Point("source")));
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(Some("reference")))));
     let mut drive = client.into_transport();
     drive.longer = true;
     let mut client = Client::new(&mut drive, Link::new(3, 4), 3);
-    assert_eq!(client.cycle(), Err(ClientError::Reply(ParseError::WrongLength, None)));
+    assert_eq!(client.cycle(), Err(ClientError::Reply(ReplyError::WrongLength, None)));
     let mut client = Client::new(&mut drive, LINK, 32);
     assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadUnit, None)));
     let mut client = Client::new(&mut drive, LINK, 3);
@@ -223,7 +224,7 @@ fn neither_old_nor_new_words_are_repeated_after_a_failure() {
     let mut line = drive();
     let mut client = started(&mut line);
     client.transport().lost = 1;
-    let lost = |point| Err(ClientError::Transport("nothing came", Some(point)));
+    let lost = |point| Err(ClientError::Transport("nothing came", Some(About::Point(point))));
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), lost("control_word"));
     assert_eq!(client.words(), [0; 4]);
     assert_eq!(client.read::<points::Source>(), Ok(2));
@@ -257,7 +258,7 @@ fn a_refused_task_brings_process_data() {
     line.memory.clear();
     let mut client = started(&mut line);
     client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
-    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some("source"));
+    let refused = ClientError::Reply(ReplyError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some(About::Point("source")));
     client.transport().actual[0] = 0x0008;
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(8)));
@@ -282,15 +283,15 @@ fn answers_are_held_against_what_was_written() {
     let mut line = drive();
     line.changes = Some(0);
     let mut client = Client::new(&mut line, LINK, 3);
-    let mismatch = |word, name| {
-        let [expected, received] = [word, 0].map(Value::Word);
-        Err(ClientError::EchoMismatch { expected, received, point: Some(name) })
+    let mismatch = |written, name| {
+        let other = ReplyError::OtherNumber { written, answered: Some(0) };
+        Err(ClientError::Reply(other, Some(About::Point(name))))
     };
     assert_eq!(client.write::<points::Source>(4), mismatch(4, "source"));
     assert_eq!(client.store::<points::Source>(4), mismatch(4, "source"));
     assert_eq!(client.update::<points::LowBits>(3), mismatch(0x80F3, "low_bits"));
     let far = client.write::<points::Reference>(60.0).unwrap_err();
-    assert_eq!(far.to_string(), "reference: 1114636288 was written, the drive answered 0");
+    assert_eq!(far.to_string(), "reference: 1114636288 was written, the device answered 0");
     // 33.33 is 0x420551EC; a drive may round: 0x4205_47AE is 33.32, 0x4204_0000 is 33.
     client.transport().changes = Some(0x4205);
     assert_eq!(client.write::<points::Reference>(33.33), Ok(()));

@@ -5,7 +5,8 @@ mod cases;
 use std::io::BufWriter;
 
 use cases::{say, Cases};
-use fieldscribe_runtime::can::{Frame, ParseError, ReceiveError, Receiver, Telegram};
+use fieldscribe_runtime::can::{Frame, ParseError, Receiver, Telegram};
+use fieldscribe_runtime::Error;
 use kitchen_can::telegrams::{Heartbeat, Measurements};
 
 const UNIT: u8 = 5;
@@ -14,7 +15,7 @@ const UNIT: u8 = 5;
 fn hear<T: Telegram>(receiver: &mut Receiver<T>, frame: &Frame, position: u16) -> [String; 3] {
     let taken = u8::from(receiver.take(frame)).to_string();
     let word = receiver.word(position);
-    let status = word.map_or_else(ReceiveError::name, |_| "ok");
+    let status = word.map_or_else(Error::name, |_| "ok");
     [taken, status.to_owned(), word.unwrap_or_default().to_string()]
 }
 

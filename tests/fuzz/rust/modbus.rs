@@ -5,7 +5,8 @@ mod cases;
 use std::io::BufWriter;
 
 use cases::{say, Cases};
-use fieldscribe_runtime::modbus::{ReplyError, Request};
+use fieldscribe_runtime::modbus::Request;
+use fieldscribe_runtime::ReplyError;
 
 fn main() {
     let mut cases = Cases::read();

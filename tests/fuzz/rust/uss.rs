@@ -5,7 +5,8 @@ mod cases;
 use std::io::BufWriter;
 
 use cases::{say, Cases};
-use fieldscribe_runtime::uss::{Link, ParseError, Request, Value};
+use fieldscribe_runtime::uss::{Link, Request, Value};
+use fieldscribe_runtime::ReplyError;
 
 fn main() {
     let mut cases = Cases::read();
@@ -18,7 +19,7 @@ fn main() {
         let found = request.parse(&kitchen_uss::PROFILE, link, &frame);
         let (status, response, error) = match found {
             Ok(reply) => ("ok", reply.response(), 0),
-            Err(ParseError::Refused { error, .. }) => ("refused", 7, error),
+            Err(ReplyError::Refused { error, .. }) => ("refused", 7, error),
             Err(error) => (error.name(), 0, 0),
         };
         let (width, value) = match found.map_or(Value::Nothing, |reply| reply.value()) {
@@ -28,7 +29,7 @@ fn main() {
         };
         let mut words = vec![status.to_owned()];
         words.extend([u32::from(response), width, value, u32::from(error)].map(|one| one.to_string()));
-        if !matches!(found, Err(ParseError::WrongLength)) {
+        if !matches!(found, Err(ReplyError::WrongLength)) {
             if let Ok(process) = request.process_words(link, &frame) {
                 words.extend(process.map(|word| word.to_string()));
             }

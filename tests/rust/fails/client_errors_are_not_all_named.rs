@@ -1,7 +1,7 @@
 // error: E0004
 // Errors may come to be told apart further, in every family.
 
-use fieldscribe_runtime::client::ClientError;
+use fieldscribe_runtime::ClientError;
 
 pub fn wrong<E>(error: ClientError<E>) -> bool {
     match error {

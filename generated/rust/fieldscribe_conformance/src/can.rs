@@ -4,46 +4,15 @@
 use std::collections::VecDeque;
 
 use fieldscribe_runtime::can::{
-    self, AsyncClient, Carried, Client, ClientError, Frame, Message, Numbers, Parameter,
-    ParseError, Profile, ReceiveError, Received, Receiver, Signals, Telegram,
+    self, AsyncClient, Carried, Client, Frame, Message, Numbers, Parameter, ParseError, Profile,
+    Received, Receiver, Signals, Telegram,
 };
 use fieldscribe_runtime::{
-    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+    BitGroup, ClientError, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
 };
 
 pub use super::can_clients::check;
-use super::{
-    bytes, data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector,
-};
-
-/// What a client found.
-type Found<T> = Result<T, ClientError<()>>;
-
-/// What the client that blocks does with the script of the vector.
-///
-/// Each point is tried with it; `can_clients` shows that the client that does not block has the same methods.
-fn blocked<T>(
-    vector: &Vector,
-    profile: &'static Profile,
-    call: &dyn Fn(&mut Client<Bus>) -> Found<T>,
-) -> Result<Option<T>, String> {
-    let mut client = Client::for_profile(Bus::new(vector), profile, vector.raw("unit"));
-    let found = call(&mut client);
-    exchanged(vector, found, name, &client.into_transport().script)
-}
-
-/// The same operation with the client that blocks and the one that does not, each over a script of its own.
-macro_rules! both {
-    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
-        let found = blocked($vector, $profile, &|$client| $call)?;
-        let mut client = AsyncClient::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
-        let $client = &mut client;
-        let again = now($call);
-        let again = exchanged($vector, again, name, &client.into_transport().script)?;
-        same(true, found == again)?;
-        found
-    }};
-}
+use super::{bytes, data_of, same, Number, Outcome, Script, Vector};
 
 /// Frames in bytes: the identifier in four and the data.
 struct Bus {
@@ -102,102 +71,21 @@ impl can::AsyncTransport for Bus {
     }
 }
 
-fn name(error: ClientError<()>) -> &'static str {
-    match error {
-        ClientError::Point(error) => error.name(),
-        ClientError::Build(error, _) => error.name(),
-        ClientError::EchoMismatch { .. } => "echo_mismatch",
-        ClientError::Telegram(error) => error.name(),
-        _ => "timeout",
+impl AsRef<Script> for Bus {
+    fn as_ref(&self) -> &Script {
+        &self.script
     }
 }
 
-/// A point's raw number.
-pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number> + Parameter,
-{
-    let found = blocked(vector, profile, &|client| {
-        client.read_raw::<P>().map(Number::to_number)
-    })?;
-    same(vector.number("raw"), found)?;
-    read_data(vector, profile, P::INFO.any())
+fn blocking(vector: &Vector, profile: &'static Profile, _base: &str) -> Client<Bus> {
+    Client::for_profile(Bus::new(vector), profile, vector.raw("unit"))
 }
 
-/// A text's words.
-pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable + Whole + Parameter,
-{
-    let found = blocked(vector, profile, &|client| {
-        client
-            .read_raw::<P>()
-            .map(|raw| P::to_words(raw).as_ref().to_vec())
-    })?;
-    same(vector.numbers("words"), found.unwrap_or_default())
+fn waiting(vector: &Vector, profile: &'static Profile, _base: &str) -> AsyncClient<Bus> {
+    AsyncClient::for_profile(Bus::new(vector), profile, vector.raw("unit"))
 }
 
-/// The same by the data of a point that needs no others.
-fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = data_of(vector, point) {
-        let found = both!(vector, profile, |client| client.read_point(point));
-        same(Some(value), found)?;
-    }
-    Ok(())
-}
-
-fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = written_data_of(vector, point) {
-        both!(vector, profile, |client| client.write_point(point, value));
-    }
-    Ok(())
-}
-
-/// The value of a raw number is written.
-pub fn write<P>(
-    vector: &Vector,
-    profile: &'static Profile,
-    factors: P::Factors,
-    with: P::With,
-) -> Outcome
-where
-    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
-{
-    let value = P::decode_with(vector.raw("raw"), factors)
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, &|client| {
-        client.write_with::<P>(value, with)
-    })?;
-    write_data(vector, profile, P::INFO.any())
-}
-
-/// A text is written.
-pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole + Parameter,
-{
-    let words: Vec<u16> = vector.numbers("words");
-    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
-    let value = P::decode(raw).into_result().map_err(Error::name)?;
-    blocked(vector, profile, &|client| client.write::<P>(value))?;
-    Ok(())
-}
-
-/// A group of bits is written into its word.
-pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number, Factors = (), Value: Copy>
-        + Encodable<With = ()>
-        + BitGroup
-        + Parameter,
-{
-    let value = P::decode(vector.raw("raw"))
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, &|client| client.update::<P>(value))?;
-    write_data(vector, profile, P::INFO.any())
-}
+with_clients!(Bus, Parameter);
 
 /// A parameter that cannot be read is written as it is.
 pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
@@ -206,7 +94,7 @@ where
 {
     let words = P::to_words(vector.raw("raw"));
     let word = words.as_ref().first().copied().unwrap_or_default();
-    both!(vector, profile, |client| client
+    both!(vector, profile, P::BASE, |client| client
         .write_word(P::ADDRESS, word));
     Ok(())
 }
@@ -306,7 +194,7 @@ where
     let taken = Numbers::<P::Message>::take(unit(vector), vector.raw("id"), &data);
     let status = vector.text("status");
     let found = match taken {
-        Ok(numbers) => numbers.raw::<P>().map_err(ReceiveError::name),
+        Ok(numbers) => numbers.raw::<P>().map_err(Error::name),
         Err(error) => Err(error.name()),
     };
     match found {

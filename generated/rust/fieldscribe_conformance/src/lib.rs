@@ -12,10 +12,13 @@
 )]
 
 #[macro_use]
+mod clients;
+#[macro_use]
 mod runtime;
 
 pub mod can;
 mod can_clients;
+mod client_errors;
 pub mod modbus;
 mod modbus_clients;
 pub mod uss;
@@ -1142,6 +1145,12 @@ impl Script {
     }
 }
 
+impl AsRef<Self> for Script {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
 impl fieldscribe_runtime::client::Transport for Script {
     type Error = ();
 
@@ -1176,22 +1185,6 @@ fn polled<T>(future: Pin<&mut dyn Future<Output = T>>) -> T {
         Poll::Ready(result) => result,
         Poll::Pending => panic!("it waits for something else than its transport"),
     }
-}
-
-/// That an exchange came out as the vector says, and sent what it should.
-pub fn exchanged<T, E>(
-    vector: &Vector,
-    found: Result<T, E>,
-    name: impl Fn(E) -> &'static str,
-    script: &Script,
-) -> Result<Option<T>, String> {
-    let (status, found) = match found {
-        Ok(found) => ("ok", Some(found)),
-        Err(error) => (name(error), None),
-    };
-    same(vector.text("status").as_str(), status)?;
-    script.done()?;
-    Ok(found)
 }
 
 /// Runs all vectors of the file and reports one line per kind.
@@ -1245,6 +1238,7 @@ pub fn main(
     }
     let result = report(&kinds);
     runtime::check();
+    client_errors::check();
     check();
     result
 }

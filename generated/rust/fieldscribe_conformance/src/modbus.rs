@@ -2,47 +2,16 @@
 //! Vectors of Modbus frames and of batched reads.
 
 use fieldscribe_runtime::modbus::{
-    AsyncClient, Base, Block, BuildError, Client, ClientError, Command, Framing, Profile,
-    ReplyError, Request, SteppedCommand, LONGEST,
+    AsyncClient, Base, Block, Client, Command, Framing, Profile, Request, SteppedCommand, LONGEST,
 };
 use fieldscribe_runtime::{
-    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+    BitGroup, BuildError, ClientError, Decoded, Encodable, Error, PointInfo, Readable, ReplyError,
+    Whole, Writable,
 };
 
+use super::clients::exchanged;
 pub use super::modbus_clients::check;
-use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
-
-/// What a client found.
-type Found<T> = Result<T, ClientError<()>>;
-
-/// What the client that blocks does with the script of the vector.
-///
-/// Each point is tried with it; `modbus_clients` shows that the client that does not block has the same methods.
-fn blocked<T>(
-    vector: &Vector,
-    profile: &'static Profile,
-    base_name: &'static str,
-    call: &dyn Fn(&mut Client<Script>) -> Found<T>,
-) -> Result<Option<T>, String> {
-    let mut client = blocking(vector, profile);
-    client.set_base(base(vector, base_name));
-    let found = call(&mut client);
-    exchanged(vector, found, name, &client.into_transport())
-}
-
-/// The same operation with the client that blocks and the one that does not, each over a script of its own.
-macro_rules! both {
-    ($vector:ident, $profile:ident, $base:expr, |$client:ident| $call:expr) => {{
-        let found = blocked($vector, $profile, $base, &|$client| $call)?;
-        let mut client = waiting($vector, $profile);
-        client.set_base(base($vector, $base));
-        let $client = &mut client;
-        let again = now($call);
-        let again = exchanged($vector, again, name, &client.into_transport())?;
-        same(true, found == again)?;
-        found
-    }};
-}
+use super::{same, Number, Outcome, Script, Vector};
 
 /// Where the base of that name is, by the vector.
 fn base(vector: &Vector, name: &'static str) -> Base {
@@ -56,23 +25,21 @@ fn base(vector: &Vector, name: &'static str) -> Base {
     }
 }
 
-fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
-    Client::for_profile(
-        Script::new(vector),
-        profile,
-        framing(vector),
-        vector.raw("unit"),
-    )
+fn blocking(vector: &Vector, profile: &'static Profile, name: &'static str) -> Client<Script> {
+    let (script, unit) = (Script::new(vector), vector.raw("unit"));
+    let mut client = Client::for_profile(script, profile, framing(vector), unit);
+    client.set_base(base(vector, name));
+    client
 }
 
-fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
-    AsyncClient::for_profile(
-        Script::new(vector),
-        profile,
-        framing(vector),
-        vector.raw("unit"),
-    )
+fn waiting(vector: &Vector, profile: &'static Profile, name: &'static str) -> AsyncClient<Script> {
+    let (script, unit) = (Script::new(vector), vector.raw("unit"));
+    let mut client = AsyncClient::for_profile(script, profile, framing(vector), unit);
+    client.set_base(base(vector, name));
+    client
 }
+
+with_clients!(Script, fieldscribe_runtime::Point);
 
 /// A request into bytes.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -124,103 +91,6 @@ fn framing(vector: &Vector) -> Framing {
     }
 }
 
-fn name(error: ClientError<()>) -> &'static str {
-    match error {
-        ClientError::Point(error) => error.name(),
-        ClientError::Build(error, _) => error.name(),
-        ClientError::Reply(error, _) => error.name(),
-        _ => "timeout",
-    }
-}
-
-/// A point's raw number.
-pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number>,
-{
-    let found = blocked(vector, profile, P::BASE, &|client| {
-        client.read_raw::<P>().map(Number::to_number)
-    })?;
-    same(vector.number("raw"), found)?;
-    read_data(vector, profile, P::INFO.any())
-}
-
-/// A text's words.
-pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable + Whole,
-{
-    let found = blocked(vector, profile, P::BASE, &|client| {
-        client
-            .read_raw::<P>()
-            .map(|raw| P::to_words(raw).as_ref().to_vec())
-    })?;
-    same(vector.numbers("words"), found.unwrap_or_default())
-}
-
-/// The same by the data of a point that needs no others.
-fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = data_of(vector, point) {
-        let found = both!(vector, profile, point.base, |client| client
-            .read_point(point));
-        same(Some(value), found)?;
-    }
-    Ok(())
-}
-
-fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = written_data_of(vector, point) {
-        both!(vector, profile, point.base, |client| client
-            .write_point(point, value));
-    }
-    Ok(())
-}
-
-/// The value of a raw number is written.
-pub fn write<P>(
-    vector: &Vector,
-    profile: &'static Profile,
-    factors: P::Factors,
-    with: P::With,
-) -> Outcome
-where
-    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole,
-{
-    let value = P::decode_with(vector.raw("raw"), factors)
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, P::BASE, &|client| {
-        client.write_with::<P>(value, with)
-    })?;
-    write_data(vector, profile, P::INFO.any())
-}
-
-/// A text is written.
-pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole,
-{
-    let words: Vec<u16> = vector.numbers("words");
-    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
-    let value = P::decode(raw).into_result().map_err(Error::name)?;
-    blocked(vector, profile, P::BASE, &|client| client.write::<P>(value))?;
-    Ok(())
-}
-
-/// A group of bits is written into its word.
-pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number, Factors = (), Value: Copy> + Encodable<With = ()> + BitGroup,
-{
-    let value = P::decode(vector.raw("raw"))
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, P::BASE, &|client| {
-        client.update::<P>(value)
-    })?;
-    write_data(vector, profile, P::INFO.any())
-}
-
 /// A point that cannot be read is written as it is.
 pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
@@ -230,7 +100,7 @@ where
     let request = Request::write::<P>(unit, vector.raw("raw")).at(&base(vector, P::BASE));
     let mut client = Client::for_profile(Script::new(vector), profile, framing(vector), unit);
     let found = client.exchange(request).map(|_| ());
-    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+    exchanged(vector, found, &client.into_transport()).map(|_| ())
 }
 
 /// A command.

@@ -2,62 +2,28 @@
 //! Vectors of USS telegrams.
 
 use fieldscribe_runtime::uss::{
-    self, AsyncClient, BuildError, Client, ClientError, Link, Parameter, ParseError, Profile,
-    Received, Request, Sent, Value, LONGEST,
+    self, AsyncClient, Client, Link, Parameter, Profile, Received, Request, Sent, Value, LONGEST,
 };
 use fieldscribe_runtime::{
-    BitGroup, Decoded, Encodable, Error, PointInfo, Readable, Whole, Writable,
+    BitGroup, BuildError, ClientError, Decoded, Encodable, Error, PointInfo, Readable, ReplyError,
+    Whole, Writable,
 };
 
+use super::clients::exchanged;
 pub use super::uss_clients::check;
-use super::{data_of, exchanged, now, same, written_data_of, Number, Outcome, Script, Vector};
+use super::{same, Number, Outcome, Script, Vector};
 
-/// What a client found.
-type Found<T> = Result<T, ClientError<()>>;
-
-/// What the client that blocks does with the script of the vector.
-///
-/// Each point is tried with it; `uss_clients` shows that the client that does not block has the same methods.
-fn blocked<T>(
-    vector: &Vector,
-    profile: &'static Profile,
-    call: &dyn Fn(&mut Client<Script>) -> Found<T>,
-) -> Result<Option<T>, String> {
-    let mut client = blocking(vector, profile);
-    let found = call(&mut client);
-    exchanged(vector, found, name, &client.into_transport())
+fn blocking(vector: &Vector, profile: &'static Profile, _base: &str) -> Client<Script> {
+    let (script, unit) = (Script::new(vector), vector.raw("unit"));
+    Client::for_profile(script, profile, link(vector), unit)
 }
 
-/// The same operation with the client that blocks and the one that does not, each over a script of its own.
-macro_rules! both {
-    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
-        let found = blocked($vector, $profile, &|$client| $call)?;
-        let mut client = waiting($vector, $profile);
-        let $client = &mut client;
-        let again = now($call);
-        let again = exchanged($vector, again, name, &client.into_transport())?;
-        same(true, found == again)?;
-        found
-    }};
+fn waiting(vector: &Vector, profile: &'static Profile, _base: &str) -> AsyncClient<Script> {
+    let (script, unit) = (Script::new(vector), vector.raw("unit"));
+    AsyncClient::for_profile(script, profile, link(vector), unit)
 }
 
-fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
-    Client::for_profile(
-        Script::new(vector),
-        profile,
-        link(vector),
-        vector.raw("unit"),
-    )
-}
-
-fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
-    AsyncClient::for_profile(
-        Script::new(vector),
-        profile,
-        link(vector),
-        vector.raw("unit"),
-    )
-}
+with_clients!(Script, Parameter);
 
 /// A request into bytes. What a value cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -73,7 +39,7 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
     let mut buffer = [0; LONGEST];
     let (status, length) = match request.build(profile, link, &words, &mut buffer) {
         Err(error) => (error.name(), 0),
-        Ok(_) if value.is_none() => (BuildError::BadValue.name(), 0),
+        Ok(_) if value.is_none() => (BuildError::NoRoom.name(), 0),
         Ok(length) => ("ok", length),
     };
     same(vector.text("status").as_str(), status)?;
@@ -88,7 +54,7 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
 /// That the profile names an error value as the drive does.
 pub fn named(vector: &Vector, profile: &Profile) -> Outcome {
     let found = match profile.refusal(vector.raw("number")) {
-        ParseError::Refused { name, .. } => name,
+        ReplyError::Refused { name, .. } => name,
         _ => None,
     };
     same(vector.said("name").as_deref(), found)
@@ -115,7 +81,7 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
     let found = request(vector).parse(profile, link(vector), &received);
     let (status, response, error) = match found {
         Ok(reply) => ("ok", reply.response(), 0),
-        Err(ParseError::Refused { error, .. }) => ("refused", 7, error),
+        Err(ReplyError::Refused { error, .. }) => ("refused", 7, error),
         Err(error) => (error.name(), 0, 0),
     };
     let value = found.map_or(Value::Nothing, |reply| reply.value());
@@ -133,78 +99,6 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
     same(vector.numbers("words"), words)
 }
 
-fn name(error: ClientError<()>) -> &'static str {
-    match error {
-        ClientError::Point(error) => error.name(),
-        ClientError::Build(error, _) => error.name(),
-        ClientError::Reply(error, _) => error.name(),
-        ClientError::EchoMismatch { .. } => "echo_mismatch",
-        _ => "timeout",
-    }
-}
-
-/// A point's raw number.
-pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number> + Parameter,
-{
-    let found = blocked(vector, profile, &|client| {
-        client.read_raw::<P>().map(Number::to_number)
-    })?;
-    same(vector.number("raw"), found)?;
-    read_data(vector, profile, P::INFO.any())
-}
-
-/// The same by the data of a point that needs no others.
-fn read_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = data_of(vector, point) {
-        let found = both!(vector, profile, |client| client.read_point(point));
-        same(Some(value), found)?;
-    }
-    Ok(())
-}
-
-fn write_data(vector: &Vector, profile: &'static Profile, point: PointInfo) -> Outcome {
-    if let Some(value) = written_data_of(vector, point) {
-        both!(vector, profile, |client| client.write_point(point, value));
-    }
-    Ok(())
-}
-
-/// The value of a raw number is written.
-pub fn write<P>(
-    vector: &Vector,
-    profile: &'static Profile,
-    factors: P::Factors,
-    with: P::With,
-) -> Outcome
-where
-    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
-{
-    let value = P::decode_with(vector.raw("raw"), factors)
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, &|client| {
-        client.write_with::<P>(value, with)
-    })?;
-    write_data(vector, profile, P::INFO.any())
-}
-
-/// A group of bits is written into its word.
-pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
-where
-    P: Readable<Raw: Number, Factors = (), Value: Copy>
-        + Encodable<With = ()>
-        + BitGroup
-        + Parameter,
-{
-    let value = P::decode(vector.raw("raw"))
-        .into_result()
-        .map_err(Error::name)?;
-    blocked(vector, profile, &|client| client.update::<P>(value))?;
-    write_data(vector, profile, P::INFO.any())
-}
-
 /// The value of a raw number is stored.
 pub fn store<P>(
     vector: &Vector,
@@ -218,7 +112,7 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    blocked(vector, profile, &|client| {
+    blocked(vector, profile, P::BASE, &|client| {
         client.store_with::<P>(value, with)
     })?;
     Ok(())
@@ -235,7 +129,9 @@ where
     let value = P::decode(vector.raw("raw"))
         .into_result()
         .map_err(Error::name)?;
-    blocked(vector, profile, &|client| client.store_update::<P>(value))?;
+    blocked(vector, profile, P::BASE, &|client| {
+        client.store_update::<P>(value)
+    })?;
     Ok(())
 }
 
@@ -264,14 +160,9 @@ where
 }
 
 fn given(vector: &Vector, profile: &'static Profile, request: Request) -> Outcome {
-    let mut client = Client::for_profile(
-        Script::new(vector),
-        profile,
-        link(vector),
-        vector.raw("unit"),
-    );
+    let mut client = blocking(vector, profile, "");
     let found = client.exchange(request).map(|_| ());
-    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+    exchanged(vector, found, &client.into_transport()).map(|_| ())
 }
 
 /// Words of the process data that are sent as they are.
@@ -280,17 +171,12 @@ where
     P: Writable<Raw: Number> + Whole + Sent,
 {
     let words = crate::words_of::<P>(vector.raw("raw"));
-    let mut client = Client::for_profile(
-        Script::new(vector),
-        profile,
-        link(vector),
-        vector.raw("unit"),
-    );
+    let mut client = blocking(vector, profile, "");
     for (position, word) in (P::ADDRESS..).zip(&words) {
         client.set_word(position, *word).map_err(Error::name)?;
     }
     let found = client.cycle();
-    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+    exchanged(vector, found, &client.into_transport()).map(|_| ())
 }
 
 /// A point of the process data that comes back.
@@ -298,7 +184,9 @@ pub fn receive<P>(vector: &Vector, profile: &'static Profile, factors: P::Factor
 where
     P: Readable<Raw: Number, Factors: Copy, Value: PartialEq + std::fmt::Debug> + Received,
 {
-    let found = blocked(vector, profile, &|client| client.receive_with::<P>(factors))?;
+    let found = blocked(vector, profile, P::BASE, &|client| {
+        client.receive_with::<P>(factors)
+    })?;
     let expected = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
@@ -319,7 +207,7 @@ where
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
-    blocked(vector, profile, &|client| {
+    blocked(vector, profile, P::BASE, &|client| {
         client.send_with::<P>(value, with)
     })?;
     write_data(vector, profile, P::INFO.any())

@@ -2,11 +2,9 @@
 //! Transports of families that ask and answer, which the caller brings. Nothing here does input or output itself;
 //! [`crate::transports`] has some that do.
 //!
-//! The clients of the other families are in [`crate::uss`] and [`crate::can`].
+//! The clients are in [`crate::modbus`], [`crate::uss`] and [`crate::can`].
 
 use core::future::Future;
-
-pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 
 /// Sends a request and waits for its reply.
 ///
@@ -138,14 +136,31 @@ pub trait LocalTransport {
     ) -> impl Future<Output = Result<usize, Self::Error>>;
 }
 
-/// Methods that read points by a method that gets raw numbers: values and counts, with and without other points.
+/// Methods that read points by a method that puts their raw numbers into place: raw numbers, values and counts, with
+/// and without other points.
 ///
-/// They take points of the trait `$reach`, for which the rest of the conditions holds.
+/// They take points of the trait `$reach`, for which the rest of the conditions holds. A raw number in place costs less
+/// code than one in a `Result`, whose error would be copied once more.
 macro_rules! read_methods {
     (
-        [$($async:ident)?], [$($wait:tt)*], $about:literal, $raw:ident for $reach:path $(, [$($condition:tt)+])?;
-        $value:ident $value_with:ident $count:ident $count_with:ident
+        [$($async:ident)?], [$($wait:tt)*], $about:literal, $get:ident for $reach:path $(, [$($condition:tt)+])?;
+        $value:ident $value_with:ident $count:ident $count_with:ident $raw:ident
     ) => {
+        #[doc = concat!($about, ", as its raw number.")]
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn $raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+        where
+            P: Readable + $reach,
+            D: Accepts<P::Device>,
+            $($($condition)+)?
+        {
+            let mut raw = P::Raw::MIN;
+            self.$get::<P>(&mut raw)$($wait)*?;
+            Ok(raw)
+        }
+
         #[doc = concat!($about, ", as its value.")]
         ///
         /// # Errors
@@ -172,7 +187,8 @@ macro_rules! read_methods {
             D: Accepts<P::Device>,
             $($($condition)+)?
         {
-            let raw = self.$raw::<P>()$($wait)*?;
+            let mut raw = P::Raw::MIN;
+            self.$get::<P>(&mut raw)$($wait)*?;
             Ok(P::decode_with(raw, with).into_result()?)
         }
 
@@ -202,7 +218,8 @@ macro_rules! read_methods {
             D: Accepts<P::Device>,
             $($($condition)+)?
         {
-            let raw = self.$raw::<P>()$($wait)*?;
+            let mut raw = P::Raw::MIN;
+            self.$get::<P>(&mut raw)$($wait)*?;
             Ok(P::decode_count_with(raw, with).into_result()?)
         }
     };

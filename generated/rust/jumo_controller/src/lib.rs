@@ -75,11 +75,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{ClientError, Framing};
-pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::modbus::Framing;
+pub use fieldscribe_runtime::{Access, BitGroup, ClientError, Coded, CountReadable, CountWritable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
-pub use fieldscribe_runtime::{Whole, Writable};
+pub use fieldscribe_runtime::{Encodable, Error, Point, Readable, Reading, ReplyError, Scaled};
+pub use fieldscribe_runtime::{Space, Special, Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Function, Profile};
 
@@ -168,11 +168,10 @@ const FUNCTIONS: &[Function] = &[
     Function::new(16, 32),
 ];
 
-/// Exception codes: why the device refuses a request, as [`runtime::modbus::ReplyError::Exception`] has them.
+/// Exception codes: why the device refuses a request, as [`ReplyError::Exception`] has them.
 ///
 /// ```
-/// use jumo_controller::runtime::modbus::ReplyError;
-/// use jumo_controller::{exceptions, ClientError};
+/// use jumo_controller::{exceptions, ClientError, ReplyError};
 ///
 /// fn is_refused<E>(error: &ClientError<E>) -> bool {
 ///     use exceptions::INVALID_FUNCTION as REFUSED;

@@ -77,11 +77,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{ClientError, Framing};
-pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::modbus::Framing;
+pub use fieldscribe_runtime::{Access, BitGroup, ClientError, Coded, CountReadable, CountWritable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
-pub use fieldscribe_runtime::{Whole, Writable};
+pub use fieldscribe_runtime::{Encodable, Error, Point, Readable, Reading, ReplyError, Scaled};
+pub use fieldscribe_runtime::{Space, Special, Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Function, Profile};
 

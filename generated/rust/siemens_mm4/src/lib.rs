@@ -81,11 +81,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::uss::{ClientError, Link};
-pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::uss::Link;
+pub use fieldscribe_runtime::{Access, BitGroup, ClientError, Coded, CountReadable, CountWritable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
-pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
-pub use fieldscribe_runtime::{Whole, Writable};
+pub use fieldscribe_runtime::{Encodable, Error, Point, Readable, Reading, ReplyError, Scaled};
+pub use fieldscribe_runtime::{Space, Special, Whole, Writable};
 
 use fieldscribe_runtime::uss::{FixedBits, Profile, Task};
 
@@ -305,7 +305,7 @@ pub mod responses {
     pub const TEXT_ANSWER: u8 = 15;
 }
 
-/// Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.
+/// Error values: why the drive refuses a task, as [`ReplyError::Refused`] has them.
 pub mod exceptions {
     /// Parameter number not allowed: error 0.
     pub const PARAMETER_NUMBER_NOT_ALLOWED: u16 = 0;

@@ -95,11 +95,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::can::{AsyncTransport, ClientError, Frame, Listener};
-pub use fieldscribe_runtime::can::{LocalTransport, Receiver, Transport};
-pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
-pub use fieldscribe_runtime::{Error, Point, Readable, Reading, Scaled, Space, Special};
-pub use fieldscribe_runtime::{Whole, Writable};
+pub use fieldscribe_runtime::can::Transport;
+pub use fieldscribe_runtime::can::{AsyncTransport, Frame, Listener, LocalTransport, Receiver};
+pub use fieldscribe_runtime::{Access, BitGroup, ClientError, Coded, CountReadable, CountWritable};
+pub use fieldscribe_runtime::{Encodable, Error, Point, Readable, Reading, ReplyError, Scaled};
+pub use fieldscribe_runtime::{Space, Special, Whole, Writable};
 
 use fieldscribe_runtime::can::{Dialogue, Message, Profile};
 

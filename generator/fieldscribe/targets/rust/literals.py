@@ -58,7 +58,7 @@ _OF_CRATE = frozenset(
         "Listener",
     }
     | {"LocalClient", "LocalTransport", "Message", "Point", "PointInfo", "Profile", "Readable", "Reading", "Receiver"}
-    | {"Scaled", "Space", "Special", "Task", "Transport", "Whole", "Writable"}
+    | {"ReplyError", "Scaled", "Space", "Special", "Task", "Transport", "Whole", "Writable"}
 )
 """Names at the root of every crate, or of those of a family."""
 

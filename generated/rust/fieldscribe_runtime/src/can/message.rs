@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! Messages: layouts of eight bytes, as constants of the generated code.
 
-use super::{BuildError, Frame, ParseError, LENGTH};
+use super::{Frame, ParseError, LENGTH};
+use crate::BuildError;
 
 /// What one byte of a message carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

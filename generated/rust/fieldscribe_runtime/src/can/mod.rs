@@ -19,9 +19,9 @@ mod message;
 mod receiver;
 mod signals;
 
-pub use client::{AsyncClient, AsyncTransport, Client, ClientError};
+pub use client::{AsyncClient, AsyncTransport, Client};
 pub use client::{Hears, Listener, LocalClient, LocalTransport, Transport};
-pub use error::{BuildError, ParseError, ReceiveError};
+pub use error::ParseError;
 pub use message::{Content, Dialogue, Message, Profile, Role};
 pub use receiver::{Received, Receiver, Slot, Telegram};
 pub use signals::{Carried, Numbers, Signal, Signals};

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: 0BSD
 //! Reading and writing points of a Modbus device over a transport that the caller brings.
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use super::base::MOST_BLOCKS;
 use super::function::read_function;
 use super::reply::wrong_length;
-use super::{
-    About, Base, Block, BuildError, Command, FoundBlock, Framing, Profile, Reply, ReplyError,
-    Request, LONGEST,
-};
+use super::{Base, Block, Command, FoundBlock, Framing, Profile, Reply, Request, LONGEST};
 use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
     MOST_NEEDS,
@@ -18,114 +14,12 @@ use crate::client::{
 use crate::point::{counted, counted_mut, in_reading_order};
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
-    Encodable,
+    Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
+    Decoded, Device, Encodable,
 };
 use crate::{
-    Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole, Writable,
+    NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError, Whole, Writable,
 };
-
-/// Why a point could not be read or written.
-///
-/// Its text is the point's name, or which request that was, and all that the error in it says; its source is what
-/// caused that one, so a chain says nothing twice.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ClientError<E> {
-    /// The number could not be encoded or decoded.
-    Point(Error),
-    /// The request could not be built.
-    Build(BuildError, Option<About>),
-    /// The reply was none, or the device refused.
-    Reply(ReplyError, Option<About>),
-    /// The transport failed.
-    Transport(E, Option<About>),
-}
-
-impl<E> ClientError<E> {
-    /// The name of the point that it is about, if it is about one.
-    #[must_use]
-    pub const fn point(&self) -> Option<&'static str> {
-        match self {
-            Self::Point(error) => error.point(),
-            Self::Build(_, about) | Self::Reply(_, about) | Self::Transport(_, about) => {
-                match about {
-                    Some(About::Point(name)) => Some(*name),
-                    _ => None,
-                }
-            }
-        }
-    }
-
-    /// The same about this point, where it does not say yet which it is about.
-    #[must_use]
-    pub fn of<P: Point>(self) -> Self {
-        self.named(P::NAME)
-    }
-
-    /// The same about the point of that name.
-    fn named(mut self, name: &'static str) -> Self {
-        match &mut self {
-            Self::Point(error) => *error = error.named(name),
-            Self::Build(_, about) | Self::Reply(_, about) | Self::Transport(_, about) => {
-                if !matches!(about, Some(About::Point(_))) {
-                    *about = Some(About::Point(name));
-                }
-            }
-        }
-        self
-    }
-}
-
-impl<E> From<Error> for ClientError<E> {
-    fn from(error: Error) -> Self {
-        Self::Point(error)
-    }
-}
-
-impl<E> From<BuildError> for ClientError<E> {
-    fn from(error: BuildError) -> Self {
-        Self::Build(error, None)
-    }
-}
-
-impl<E> From<ReplyError> for ClientError<E> {
-    fn from(error: ReplyError) -> Self {
-        Self::Reply(error, None)
-    }
-}
-
-impl<E: fmt::Display> fmt::Display for ClientError<E> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Point(error) => error.fmt(formatter),
-            Self::Build(error, about) => told(*about, error, formatter),
-            Self::Reply(error, about) => told(*about, error, formatter),
-            Self::Transport(error, about) => told(*about, error, formatter),
-        }
-    }
-}
-
-/// An error after what it is about.
-fn told(
-    about: Option<About>,
-    error: &impl fmt::Display,
-    formatter: &mut fmt::Formatter<'_>,
-) -> fmt::Result {
-    if let Some(about) = about {
-        write!(formatter, "{about}: ")?;
-    }
-    error.fmt(formatter)
-}
-
-impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Transport(error, _) => error.source(),
-            _ => None,
-        }
-    }
-}
 
 /// One unit of a bus: numbers the requests and keeps the frames.
 #[derive(Debug)]
@@ -344,17 +238,12 @@ macro_rules! client {
                 Ok((!is_for_all).then(|| self.unit.reply(&request)))
             }
 
-            /// A point's raw number.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
-            where
-                D: Accepts<P::Device>,
-            {
+            /// Puts a point's raw number into place.
+            $($async)? fn get_raw<P: Readable>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>> {
                 let mut words = P::Raw::MIN.into_words();
                 self.get::<P>(counted_mut::<P>(words.as_mut()))$($wait)*?;
-                Ok(P::from_words(words))
+                *raw = P::from_words(words);
+                Ok(())
             }
 
             /// The words of a point, or its bit.
@@ -376,8 +265,8 @@ macro_rules! client {
             }
 
             read_methods! {
-                [$($async)?], [$($wait)*], "A point", read_raw for Point;
-                read read_with read_count read_count_with
+                [$($async)?], [$($wait)*], "A point", get_raw for Point;
+                read read_with read_count read_count_with read_raw
             }
 
             write_methods! {

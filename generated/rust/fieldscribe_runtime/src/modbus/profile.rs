@@ -4,8 +4,8 @@
 use core::marker::PhantomData;
 
 use super::function::{longest_count, read_function, writes};
-use super::{Framing, ReplyError};
-use crate::{Accepts, AnyDevice, PointInfo, Readable, Space};
+use super::Framing;
+use crate::{Accepts, AnyDevice, PointInfo, Readable, ReplyError, Space};
 
 /// A function that a device knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

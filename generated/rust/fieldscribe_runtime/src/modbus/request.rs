@@ -2,9 +2,9 @@
 //! Requests and their frames.
 
 use super::function::{is_read, read_function, write_function};
-use super::{crc, About, Base, Block, BuildError, Command, Framing, Profile};
+use super::{crc, Base, Block, Command, Framing, Profile};
 use crate::point::counted;
-use crate::{BitGroup, Point, Readable, Whole, Writable};
+use crate::{About, BitGroup, BuildError, Point, Readable, Whole, Writable};
 
 /// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
 ///
@@ -278,7 +278,7 @@ impl<'a> Request<'a> {
         }
         let bits = matches!(self.function, 5 | 15);
         if bits && values.iter().any(|value| *value > 1) {
-            return Err(BuildError::BadValue);
+            return Err(BuildError::BadBit);
         }
         Ok(())
     }

@@ -1,136 +1,25 @@
 // SPDX-License-Identifier: 0BSD
 //! Reading and writing points of a USS drive over a transport that the caller brings.
 
-use core::fmt;
 use core::marker::PhantomData;
 
-use super::{
-    broadcast, BuildError, Link, Parameter, ParseError, Profile, Received, Reply, Request, Sent,
-    Value, LONGEST,
-};
+use super::{broadcast, Link, Parameter, Profile, Received, Reply, Request, Sent, Value, LONGEST};
 use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
     MOST_NEEDS,
 };
-use crate::error::lead;
 use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
-    Encodable, Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole,
-    Writable,
+    Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
+    Decoded, Device, Encodable, Error, NeedsNothing, PointFacts, PointInfo, Points, Raw, Readable,
+    ReplyError, Whole, Writable,
 };
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
 /// The longest telegram that a client sends: four words of the parameter part, and the process data.
 const SENT: usize = 4 + 2 * (4 + WORDS);
-
-/// Why a point could not be read or written.
-///
-/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
-/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ClientError<E> {
-    /// The number could not be encoded or decoded, or is not in the telegram.
-    Point(Error),
-    /// The telegram could not be built.
-    Build(BuildError, Option<&'static str>),
-    /// The answer was none, or the drive refused.
-    Reply(ParseError, Option<&'static str>),
-    /// The drive answered a write with another value.
-    EchoMismatch {
-        /// What was written.
-        expected: Value,
-        /// What the drive answered.
-        received: Value,
-        /// The point's name.
-        point: Option<&'static str>,
-    },
-    /// The transport failed.
-    Transport(E, Option<&'static str>),
-}
-
-impl<E> ClientError<E> {
-    /// The name of the point that it is about, if it is about one.
-    #[must_use]
-    pub const fn point(&self) -> Option<&'static str> {
-        match self {
-            Self::Point(error) => error.point(),
-            Self::Build(_, point)
-            | Self::Reply(_, point)
-            | Self::EchoMismatch { point, .. }
-            | Self::Transport(_, point) => *point,
-        }
-    }
-
-    /// The same about this point, where it does not say yet which it is about.
-    #[must_use]
-    pub fn of<P: Point>(self) -> Self {
-        self.named(P::NAME)
-    }
-
-    /// The same about the point of that name.
-    fn named(mut self, name: &'static str) -> Self {
-        match &mut self {
-            Self::Point(error) => *error = error.named(name),
-            Self::Build(_, point)
-            | Self::Reply(_, point)
-            | Self::EchoMismatch { point, .. }
-            | Self::Transport(_, point) => *point = point.or(Some(name)),
-        }
-        self
-    }
-}
-
-impl<E> From<Error> for ClientError<E> {
-    fn from(error: Error) -> Self {
-        Self::Point(error)
-    }
-}
-
-impl<E> From<BuildError> for ClientError<E> {
-    fn from(error: BuildError) -> Self {
-        Self::Build(error, None)
-    }
-}
-
-impl<E> From<ParseError> for ClientError<E> {
-    fn from(error: ParseError) -> Self {
-        Self::Reply(error, None)
-    }
-}
-
-impl<E: fmt::Display> fmt::Display for ClientError<E> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Self::Point(error) = self {
-            return error.fmt(formatter);
-        }
-        lead(self.point(), formatter)?;
-        match self {
-            Self::Point(_) => Ok(()),
-            Self::Build(error, _) => error.fmt(formatter),
-            Self::Reply(error, _) => error.fmt(formatter),
-            Self::EchoMismatch {
-                expected, received, ..
-            } => write!(
-                formatter,
-                "{expected} was written, the drive answered {received}"
-            ),
-            Self::Transport(error, _) => error.fmt(formatter),
-        }
-    }
-}
-
-impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Transport(error, _) => error.source(),
-            _ => None,
-        }
-    }
-}
 
 /// The words that are sent again and again, and whether the drive may not have them yet.
 #[derive(Clone, Copy, Debug)]
@@ -220,15 +109,15 @@ impl Drive {
         request: &Request,
         process: &Process,
         length: usize,
-    ) -> Result<Reply<'_>, ParseError> {
+    ) -> Result<Reply<'_>, ReplyError> {
         let received = self.received.get(..length);
-        let received = received.ok_or(ParseError::WrongLength)?;
+        let received = received.ok_or(ReplyError::WrongLength)?;
         trace::frame(self.unit, Way::Came, None, received);
         let reply = request.parse(self.profile, self.link, received);
         // A drive that does not do the task has taken the process data of the telegram all the same.
         let is_about_this = matches!(
             reply,
-            Ok(_) | Err(ParseError::Refused { .. } | ParseError::NoRights | ParseError::NoAnswer)
+            Ok(_) | Err(ReplyError::Refused { .. } | ReplyError::NoRights | ReplyError::NoAnswer)
         );
         if is_about_this {
             self.process = Process {
@@ -568,40 +457,31 @@ macro_rules! client {
 
             read_methods! {
                 [$($async)?], [$($wait)*], "A point of the process data, which the drive is asked for",
-                receive_raw for Received;
-                receive receive_with receive_count receive_count_with
+                get_received for Received;
+                receive receive_with receive_count receive_count_with receive_raw
             }
 
-            /// As `receive`, as the raw number.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
-            where
-                P: Received,
-                D: Accepts<P::Device>,
-            {
+            /// Puts the raw number of a point of the process data into place.
+            $($async)? fn get_received<P: Received>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>> {
                 self.cycle()$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(self.drive.heard::<P>()?)
+                *raw = self.drive.heard::<P>()?;
+                Ok(())
             }
 
-            /// A parameter's raw number.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            /// Puts a parameter's raw number into place.
+            $($async)? fn get_raw<P>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Parameter,
-                D: Accepts<P::Device>,
             {
                 let request = Request::read::<P>(self.drive.unit);
                 let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(reply.raw::<P>()?)
+                *raw = reply.raw::<P>()?;
+                Ok(())
             }
 
             read_methods! {
-                [$($async)?], [$($wait)*], "A parameter", read_raw for Parameter;
-                read read_with read_count read_count_with
+                [$($async)?], [$($wait)*], "A parameter", get_raw for Parameter;
+                read read_with read_count read_count_with read_raw
             }
 
             write_methods! {
@@ -673,8 +553,7 @@ macro_rules! client {
                 if request.is_confirmed::<P>(&reply) {
                     Ok(())
                 } else {
-                    let (expected, received) = (request.value(), reply.value());
-                    Err(ClientError::EchoMismatch { expected, received, point: Some(P::NAME) })
+                    Err(ClientError::from(request.other_number(reply.value())).of::<P>())
                 }
             }
 
@@ -726,8 +605,7 @@ macro_rules! client {
                 if request.is_answered(answer, point.is_floating()) {
                     Ok(())
                 } else {
-                    let (expected, received) = (request.value(), answer);
-                    Err(ClientError::EchoMismatch { expected, received, point: None })
+                    Err(request.other_number(answer).into())
                 }
             }
 

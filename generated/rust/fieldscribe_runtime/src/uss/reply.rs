@@ -2,8 +2,8 @@
 //! Answers out of telegrams.
 
 use super::request::is_sound;
-use super::{element, Link, ParseError, Profile, Request, Value, START};
-use crate::{Error, Point, Raw};
+use super::{element, Link, Profile, Request, Value, START};
+use crate::{Error, Point, Raw, ReplyError};
 
 /// What a drive answered: a response with a value, and words of process data.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl Request {
         profile: &Profile,
         link: Link,
         bytes: &'b [u8],
-    ) -> Result<Reply<'b>, ParseError> {
+    ) -> Result<Reply<'b>, ReplyError> {
         let (part, process) = self.unwrap(link, bytes)?;
         let mut reply = Reply {
             response: 0,
@@ -75,7 +75,7 @@ impl Request {
             return Ok(reply);
         }
         let mut part = words(part);
-        let mut next = || part.next().ok_or(ParseError::WrongLength);
+        let mut next = || part.next().ok_or(ReplyError::WrongLength);
         let (number, index, first, second) = (next()?, next()?, next()?, next());
         let [high, _] = number.to_be_bytes();
         reply.response = high >> 4;
@@ -83,16 +83,16 @@ impl Request {
             return Ok(reply);
         }
         if reply.response == 0 {
-            return Err(ParseError::NoAnswer);
+            return Err(ReplyError::NoAnswer);
         }
         if [number & 0x0FFF, index] != element(self.parameter, self.index) {
-            return Err(ParseError::WrongParameter);
+            return Err(ReplyError::WrongParameter);
         }
         match reply.response {
             7 => return Err(profile.refusal(first)),
-            8 => return Err(ParseError::NoRights),
+            8 => return Err(ReplyError::NoRights),
             response if !profile.answers(self.task, response) => {
-                return Err(ParseError::WrongResponse);
+                return Err(ReplyError::WrongResponse);
             }
             2 | 5 => reply.value = Value::Double(u32::from(first) << 16 | u32::from(second?)),
             _ if link.single_last() => reply.value = Value::Word(second?),
@@ -109,32 +109,33 @@ impl Request {
         &self,
         link: Link,
         bytes: &'b [u8],
-    ) -> Result<impl Iterator<Item = u16> + 'b, ParseError> {
+    ) -> Result<impl Iterator<Item = u16> + 'b, ReplyError> {
         let (_, process) = self.unwrap(link, bytes)?;
         Ok(words(process))
     }
 
     /// The parameter part and the process data of a telegram that fits the link.
-    fn unwrap<'b>(&self, link: Link, bytes: &'b [u8]) -> Result<(&'b [u8], &'b [u8]), ParseError> {
+    fn unwrap<'b>(&self, link: Link, bytes: &'b [u8]) -> Result<(&'b [u8], &'b [u8]), ReplyError> {
         if bytes.first() != Some(&START) {
-            return Err(ParseError::WrongStart);
+            return Err(ReplyError::WrongStart);
         }
         let &[_, length, unit, ref data @ .., _] = bytes else {
-            return Err(ParseError::WrongLength);
+            return Err(ReplyError::WrongLength);
         };
         let whole = usize::from(length).checked_add(2) == Some(bytes.len()) && data.len() % 2 == 0;
         let process = usize::from(link.pzd) * 2;
         let split = data.len().checked_sub(process).filter(|_| whole);
         let parts = split.and_then(|split| data.split_at_checked(split));
-        let (part, process) = parts.ok_or(ParseError::WrongLength)?;
+        let (part, process) = parts.ok_or(ReplyError::WrongLength)?;
         if !link.takes(part.len() / 2) {
-            return Err(ParseError::WrongLength);
+            return Err(ReplyError::WrongLength);
         }
         if !is_sound(bytes) {
-            return Err(ParseError::WrongCheck);
+            return Err(ReplyError::WrongCheck);
         }
         if unit != self.unit {
-            return Err(ParseError::WrongUnit);
+            let (expected, received) = (self.unit, unit);
+            return Err(ReplyError::WrongUnit { expected, received });
         }
         Ok((part, process))
     }

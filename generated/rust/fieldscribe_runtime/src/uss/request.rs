@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: 0BSD
 //! Requests and their telegrams.
 
-use core::fmt;
-
-use super::{
-    check_byte, element, BuildError, Link, Parameter, Profile, Reply, LAST_PARAMETER, START,
-};
+use super::{check_byte, element, Link, Parameter, Profile, Reply, LAST_PARAMETER, START};
 use crate::point::split;
-use crate::{BitGroup, Error, Point, Readable, Whole, Writable};
+use crate::{BitGroup, BuildError, Error, Point, Readable, ReplyError, Whole, Writable};
 
 /// What a parameter part carries as a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,17 +16,16 @@ pub enum Value {
     Double(u32),
 }
 
-impl fmt::Display for Value {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Value {
+    /// The number, if there is one.
+    fn number(self) -> Option<u32> {
         match self {
-            Self::Nothing => formatter.write_str("nothing"),
-            Self::Word(word) => word.fmt(formatter),
-            Self::Double(value) => value.fmt(formatter),
+            Self::Nothing => None,
+            Self::Word(word) => Some(word.into()),
+            Self::Double(value) => Some(value),
         }
     }
-}
 
-impl Value {
     /// Fills in a point's words, which are one or two.
     ///
     /// # Errors
@@ -174,9 +169,12 @@ impl Request {
         }
     }
 
-    /// What it writes.
-    pub(super) const fn value(&self) -> Value {
-        self.value
+    /// The error that an answer with another value is.
+    pub(super) fn other_number(&self, answer: Value) -> ReplyError {
+        ReplyError::OtherNumber {
+            written: self.value.number().unwrap_or_default(),
+            answered: answer.number(),
+        }
     }
 
     /// Writes the telegram with these words of process data into `buffer` and gives its length in bytes.
@@ -219,7 +217,7 @@ impl Request {
         } else if self.index > 255 {
             Err(BuildError::BadIndex)
         } else if matches!(self.value, Value::Double(_)) && link.sent() < 4 {
-            Err(BuildError::BadValue)
+            Err(BuildError::NoRoom)
         } else {
             Ok(())
         }

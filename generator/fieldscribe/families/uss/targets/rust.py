@@ -13,7 +13,7 @@ from fieldscribe.targets.rust.layout import Item, array, binding
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_ERRORS_DOC = "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them."
+_ERRORS_DOC = "Error values: why the drive refuses a task, as [`ReplyError::Refused`] has them."
 
 
 def context(device: Device) -> dict[str, object]:

@@ -6,14 +6,16 @@
 use std::collections::VecDeque;
 
 use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Dialogue, Frame,
-    Listener, LocalClient, LocalTransport, Message, Parameter, ParseError, Profile, ReceiveError,
-    Received, Receiver, Role, Slot, Telegram, Transport,
+    AsyncClient, AsyncTransport, Client, Content, Dialogue, Frame, Listener, LocalClient,
+    LocalTransport, Message, Parameter, ParseError, Profile, Received, Receiver, Role, Slot,
+    Telegram, Transport,
 };
-use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Whole};
+use fieldscribe_runtime::{
+    About, AnyDevice, BitGroup, BuildError, ClientError, Error, ReplyError, Whole,
+};
 
 use super::now;
-use super::runtime::{at_once, chain, tells, Lost, FAILED, FAILURE, REFUSED};
+use super::runtime::{at_once, chain, tells, Lost, REFUSED};
 
 made_up!(Word u16, Parameter 0x0102, &[0x0102], 1);
 made_up!(Long u32, Parameter 0x0201, &[0x0202, 0x0201], 2);
@@ -172,21 +174,6 @@ pub fn check() {
 
 fn errors() {
     tells(
-        BuildError::name,
-        &[
-            (
-                BuildError::BadUnit,
-                "bad_unit",
-                "the device has no such unit number",
-            ),
-            (
-                BuildError::NoMessage,
-                "no_message",
-                "the device has no message for this",
-            ),
-        ],
-    );
-    tells(
         ParseError::name,
         &[
             (
@@ -216,58 +203,6 @@ fn errors() {
             ),
         ],
     );
-    tells(
-        ReceiveError::name,
-        &[
-            (
-                ReceiveError::Missing(None),
-                "missing",
-                "the frame with the word never came",
-            ),
-            (
-                ReceiveError::Torn(None),
-                "torn",
-                "the words may belong to different moments",
-            ),
-            (
-                ReceiveError::Point(Error::Overflow(None)),
-                "overflow",
-                "the result does not fit its type",
-            ),
-        ],
-    );
-    let errors: [(ClientError<Lost>, &str); 6] = [
-        (
-            Error::Overflow(None).into(),
-            "the result does not fit its type",
-        ),
-        (
-            BuildError::BadUnit.into(),
-            "the device has no such unit number",
-        ),
-        (
-            ClientError::Telegram(ReceiveError::Missing(None)),
-            "the frame with the word never came",
-        ),
-        (ClientError::Transport(Lost, None), "nothing came"),
-        (ClientError::NoAnswer(None), "the device does not answer"),
-        (
-            ClientError::EchoMismatch {
-                expected: 8,
-                received: 7,
-                point: None,
-            },
-            "8 was written, the device answered 7",
-        ),
-    ];
-    for (error, shown) in errors {
-        assert_eq!(chain(&error), [shown]);
-        let error = error.of::<Word>();
-        assert_eq!(error.point(), Some("Word"));
-        assert_eq!(chain(&error), [format!("Word: {shown}")]);
-    }
-    assert_eq!(chain(&ReceiveError::Point(REFUSED)).len(), 1);
-    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
 }
 
 fn frames() {
@@ -351,9 +286,9 @@ fn receivers() {
     let mut receiver = Receiver::<Measured>::new(5);
     assert_eq!(
         (receiver.taken(), receiver.word(0)),
-        (0, Err(ReceiveError::Missing(None)))
+        (0, Err(Error::NotReceived(None)))
     );
-    let missing = ReceiveError::Missing(Some("Speed"));
+    let missing = Error::NotReceived(Some("Speed"));
     assert_eq!(receiver.raw::<Speed>(), Err(missing));
     assert_eq!(missing.point(), Some("Speed"));
     assert_eq!(
@@ -371,7 +306,7 @@ fn receivers() {
     );
     assert_eq!(
         [3, 6, 7].map(|one| receiver.word(one)),
-        [Err(ReceiveError::Missing(None)); 3]
+        [Err(Error::NotReceived(None)); 3]
     );
     assert_eq!(
         (receiver.raw::<Speed>(), receiver.value::<Speed>()),
@@ -398,7 +333,7 @@ fn receivers() {
     assert_eq!(receiver.raw::<Whole3>(), Ok(0x0008_0007));
     assert_eq!(receiver.raw::<Date>(), Ok(0x0506_0007_0008_0009));
     assert!(receiver.take(&part(0, [0, 0xFFFF, 0])));
-    let wrong = ReceiveError::Point(REFUSED);
+    let wrong = REFUSED;
     assert_eq!(
         (receiver.value::<Speed>(), receiver.value_with::<Speed>(())),
         (Err(wrong), Err(wrong))
@@ -410,7 +345,7 @@ fn receivers() {
 /// The high word is in the frame 1, the low one in the frame 0.
 fn torn_words() {
     let (low, high) = (|word| part(0, [0, 0, word]), |word| part(1, [word, 0, 0]));
-    let torn = Err(ReceiveError::Torn(Some("Hours")));
+    let torn = Err(Error::Torn(Some("Hours")));
     for (frames, found) in [
         (vec![low(7), high(1)], torn),
         (vec![high(1), low(7)], torn),
@@ -567,11 +502,13 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
             assert_eq!(
                 $wait(client.write::<Word>(9)),
-                Err(ClientError::EchoMismatch {
-                    expected: 9,
-                    received: 8,
-                    point: Some("Word")
-                })
+                Err(ClientError::Reply(
+                    ReplyError::OtherNumber {
+                        written: 9,
+                        answered: Some(8)
+                    },
+                    Some(About::Point("Word"))
+                ))
             );
             assert_eq!($wait(client.write_with::<Long>(0x0003_0004, ())), Ok(()));
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
@@ -584,7 +521,7 @@ macro_rules! conversations {
             client.transport().came.clear();
             assert_eq!(
                 $wait(client.read_word(0x0102)),
-                Err(ClientError::NoAnswer(None))
+                Err(ClientError::Reply(ReplyError::NoAnswer, None))
             );
             client.transport().stale = [noise; 2].into();
             assert_eq!($wait(client.read_raw::<Word>()), Ok(7));
@@ -594,13 +531,13 @@ macro_rules! conversations {
             let bus = Bus::new(&[(change(0x0102, 9), vec![frame(&DONE, 0, 0)])]);
             let mut client = $client::for_profile(bus, &BRIEF, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
-            let none = ClientError::Build(BuildError::NoMessage, Some("Word"));
+            let none = ClientError::Build(BuildError::NoMessage, Some(About::Point("Word")));
             assert_eq!($wait(client.read::<Word>()), Err(none));
             let bus = Bus::new(&[(change(0x0102, 9), vec![])]);
             let mut client = $client::for_profile(bus, &SILENT, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
             let mut client = $client::for_profile(Bus::default(), &PROFILE, 10);
-            let bad = ClientError::Build(BuildError::BadUnit, Some("Word"));
+            let bad = ClientError::Build(BuildError::BadUnit, Some(About::Point("Word")));
             assert_eq!($wait(client.read::<Word>()), Err(bad));
             let lost = ClientError::Transport(Lost, None);
             assert_eq!($wait(client.listen()), Err(lost));
@@ -623,7 +560,7 @@ macro_rules! conversations {
             assert!(client.into_transport().steps.is_empty());
             let bus = Bus::new(&[(asked(0x0102), vec![noise; 10_000])]);
             let mut client = $client::for_profile(bus, &PROFILE, 5);
-            let none = ClientError::NoAnswer(Some("Word"));
+            let none = ClientError::Reply(ReplyError::NoAnswer, Some(About::Point("Word")));
             assert_eq!($wait(client.read::<Word>()), Err(none));
         }
 
@@ -655,13 +592,13 @@ macro_rules! conversations {
             let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive::<Speed>()), Err(wrong));
             assert_eq!($wait(client.receive::<Hours>()), Ok(0x0001_FFFF));
-            let torn = ClientError::Telegram(ReceiveError::Missing(Some("Speed")));
+            let torn = ClientError::Point(Error::NotReceived(Some("Speed")));
             assert_eq!($wait(client.patient(2).receive::<Speed>()), Err(torn));
             let bus = Bus::hears(&[low(5), low(7)]);
             let mut client = $client::for_profile(bus, &PROFILE, 5).listening(receiver.clone());
             assert_eq!($wait(client.receive_count::<Speed>()), Ok([5]));
             assert_eq!($wait(client.receive_raw::<Speed>()), Ok(7));
-            let lost = Err(ClientError::Transport(Lost, Some("Speed")));
+            let lost = Err(ClientError::Transport(Lost, Some(About::Point("Speed"))));
             assert_eq!($wait(client.receive_count_with::<Speed>(())), lost);
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
             let client =
@@ -676,7 +613,7 @@ macro_rules! conversations {
             let mut client = $client::for_profile(bus, &PROFILE, 5)
                 .listening(receiver)
                 .patient(3);
-            let torn = ClientError::Telegram(ReceiveError::Torn(Some("Hours")));
+            let torn = ClientError::Point(Error::Torn(Some("Hours")));
             assert_eq!($wait(client.receive::<Hours>()), Err(torn));
         }
     };

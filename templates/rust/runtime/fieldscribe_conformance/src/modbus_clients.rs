@@ -4,14 +4,15 @@
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
 use fieldscribe_runtime::modbus::{
-    crc, read_function, reply_length, write_function, About, AsyncClient, Base, Block, BuildError,
-    Chain, Client, ClientError, Command, FoundBlock, Framing, Function, Given, GivenBase,
-    LocalClient, Profile, ReplyError, Request,
+    crc, read_function, reply_length, write_function, AsyncClient, Base, Block, Chain, Client,
+    Command, FoundBlock, Framing, Function, Given, GivenBase, LocalClient, Profile, Request,
 };
-use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Point, Space, Whole};
+use fieldscribe_runtime::{
+    About, AnyDevice, BitGroup, BuildError, ClientError, Error, Point, ReplyError, Space, Whole,
+};
 
 use super::now;
-use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
+use super::runtime::{at_once, Line, Lost, REFUSED};
 
 made_up!(Word u16, Holding 0x10, &[0x10], 1);
 made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
@@ -65,7 +66,6 @@ fn named(code: u8) -> Option<&'static str> {
 
 /// Panics where the runtime is not as it should be.
 pub fn check() {
-    errors();
     functions();
     requests();
     replies();
@@ -111,161 +111,6 @@ fn bases() {
     assert!(!block.brings::<Placed>() && block.counted_from("blocks_7").brings::<Placed>());
     assert!(!block.counted_from("blocks_7").brings::<Word>());
     assert_eq!(Any::of(<Placed as Point>::INFO).base, "blocks_7");
-}
-
-fn errors() {
-    tells(
-        BuildError::name,
-        &[
-            (
-                BuildError::BadFraming,
-                "bad_framing",
-                "the device does not speak this framing; behind a gateway that does, use `with_framings`",
-            ),
-            (
-                BuildError::NotForAll,
-                "bad_unit",
-                "this cannot be sent to all units",
-            ),
-            (
-                BuildError::BadUnit,
-                "bad_unit",
-                "the device has no such unit number",
-            ),
-            (
-                BuildError::BadFunction,
-                "bad_function",
-                "the device does not know the function",
-            ),
-            (
-                BuildError::BadCount,
-                "bad_count",
-                "the device does not take that many items",
-            ),
-            (
-                BuildError::BadAddress,
-                "bad_address",
-                "the items end beyond the last address",
-            ),
-            (
-                BuildError::NoBase,
-                "bad_base",
-                "nobody said where the base is that the address counts from: use `set_base` or `find`",
-            ),
-            (
-                BuildError::BadValue,
-                "bad_value",
-                "a bit is neither 0 nor 1",
-            ),
-            (
-                BuildError::BufferTooSmall,
-                "buffer_too_small",
-                "the buffer is too small",
-            ),
-        ],
-    );
-    tells(
-        ReplyError::name,
-        &[
-            (
-                ReplyError::BadFunction,
-                "bad_function",
-                "the function is none of Modbus",
-            ),
-            (too_short(7, 3), "short_frame", "3 bytes came instead of 7"),
-            (too_long(7, 9), "long_frame", "9 bytes came instead of 7"),
-            (ReplyError::BadCrc, "bad_crc", "the checksum is wrong"),
-            (
-                ReplyError::BadProtocol,
-                "bad_protocol",
-                "the protocol number is not 0",
-            ),
-            (
-                other_transaction(8),
-                "wrong_transaction",
-                "the reply is to transaction 8 instead of 7",
-            ),
-            (
-                ReplyError::WrongUnit {
-                    expected: 5,
-                    received: 4,
-                },
-                "wrong_unit",
-                "unit 4 replied instead of 5",
-            ),
-            (
-                ReplyError::WrongFunction {
-                    expected: 3,
-                    received: 16,
-                },
-                "wrong_function",
-                "the reply is to function 10h instead of 03h",
-            ),
-            (
-                ReplyError::Exception {
-                    code: 0x21,
-                    name: Some("value_out_of_range"),
-                },
-                "exception",
-                "the device refused with exception 21h (value_out_of_range)",
-            ),
-            (
-                ReplyError::Exception {
-                    code: 2,
-                    name: None,
-                },
-                "exception",
-                "the device refused with exception 02h (illegal_data_address)",
-            ),
-            (
-                ReplyError::Exception {
-                    code: 0x0B,
-                    name: None,
-                },
-                "exception",
-                "the device refused with exception 0Bh (gateway_target_device_failed_to_respond)",
-            ),
-            (
-                ReplyError::BadByteCount {
-                    expected: 6,
-                    received: 4,
-                },
-                "bad_byte_count",
-                "the reply has 4 data bytes instead of 6",
-            ),
-            (
-                ReplyError::EchoMismatch {
-                    expected: (0x1028, 500),
-                    received: (0x1029, 10),
-                },
-                "echo_mismatch",
-                "01F4h was written to 1028h, the reply repeats 000Ah at 1029h",
-            ),
-        ],
-    );
-    let errors: [(ClientError<Lost>, &str); 4] = [
-        (
-            Error::Overflow(None).into(),
-            "the result does not fit its type",
-        ),
-        (
-            BuildError::BadUnit.into(),
-            "the device has no such unit number",
-        ),
-        (ReplyError::BadCrc.into(), "the checksum is wrong"),
-        (ClientError::Transport(Lost, None), "nothing came"),
-    ];
-    let about = |error: ClientError<Lost>| (error.point(), chain(&error.of::<Word>()));
-    for (error, shown) in errors {
-        assert_eq!(about(error), (None, vec![format!("Word: {shown}")]));
-    }
-    let other: ClientError<Lost> = ClientError::Point(REFUSED);
-    assert_eq!(other.of::<Long>(), other);
-    assert_eq!(other.point(), REFUSED.point());
-    for (error, shown) in errors {
-        assert_eq!(chain(&error), [shown]);
-    }
-    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
 }
 
 /// A read of any device.
@@ -412,8 +257,8 @@ fn requests() {
             Ok("0600100009"),
         ),
         (write(5, 1, &[0]), &PROFILE, Ok("0500010000")),
-        (write(5, 1, &[2]), &PROFILE, Err(BuildError::BadValue)),
-        (write(15, 1, &[1, 2]), &PROFILE, Err(BuildError::BadValue)),
+        (write(5, 1, &[2]), &PROFILE, Err(BuildError::BadBit)),
+        (write(15, 1, &[1, 2]), &PROFILE, Err(BuildError::BadBit)),
         (write(16, 1, &[1, 2]), &PROFILE, Ok("10000100020400010002")),
         (write(8, 0, &[0xA537]), &PROFILE, Ok("080000a537")),
         (

@@ -259,6 +259,8 @@ fn errors() {
         Error::WrongLength,
         Error::WrongSpace,
         Error::NotHeard,
+        Error::NotReceived,
+        Error::Torn,
     ];
     for error in nameless {
         assert_eq!((error(None).point(), error(None).refused()), (None, None));
@@ -321,7 +323,7 @@ fn errors() {
                  the least is 65 Hz, the greatest 60 Hz (raw 650 to 600)",
             ),
             (
-                Error::UnknownValue(Refused::Raw(COUNT)),
+                Error::UnknownValue(COUNT),
                 "unknown_value",
                 "speed: nothing has the number -5",
             ),
@@ -360,11 +362,6 @@ fn errors() {
                 Error::NotANumber("level"),
                 "not_a_number",
                 "level: the value is not a number",
-            ),
-            (
-                Error::UnknownValue(Refused::Count(COUNT)),
-                "unknown_value",
-                "speed: the enum has no such number",
             ),
             (
                 Error::ZeroFactor(None),
@@ -420,6 +417,16 @@ fn errors() {
                 Error::NotHeard(None),
                 "not_heard",
                 "the last telegram was not answered",
+            ),
+            (
+                Error::NotReceived(None),
+                "missing",
+                "the frame with the word never came",
+            ),
+            (
+                Error::Torn(None),
+                "torn",
+                "the words may belong to different moments",
             ),
         ],
     );
@@ -822,12 +829,12 @@ fn words_of_digits() {
     assert_eq!(digits::split::<0>(40_567), []);
     assert_eq!(digits::join::<Number>(&[5_u16, 0, 6]), Ok(506));
     let unknown = |given| {
-        Err(Error::UnknownValue(Refused::Raw(Outside {
+        Err(Error::UnknownValue(Outside {
             point: "Number",
             given,
             low: 0,
             high: 65_535,
-        })))
+        }))
     };
     assert_eq!(digits::join::<Number>(&[5_u16, 3]), unknown(3));
     assert_eq!(digits::join::<Number>(&[6_u16, 5, 5, 1, 6]), Ok(65_516));

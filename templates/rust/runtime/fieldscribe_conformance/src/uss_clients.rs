@@ -4,13 +4,15 @@
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
 use fieldscribe_runtime::uss::{
-    broadcast, check_byte, AsyncClient, BuildError, Client, ClientError, FixedBits, Link,
-    LocalClient, Parameter, ParseError, Profile, Received, Request, Sent, Task, Value,
+    broadcast, check_byte, AsyncClient, Client, FixedBits, Link, LocalClient, Parameter, Profile,
+    Received, Request, Sent, Task, Value,
 };
-use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Point, Space, Whole};
+use fieldscribe_runtime::{
+    About, AnyDevice, BitGroup, BuildError, ClientError, Error, Point, ReplyError, Space, Whole,
+};
 
 use super::now;
-use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
+use super::runtime::{at_once, Line, Lost, REFUSED};
 
 made_up!(Word u16, Parameter 700, &[700], 1);
 made_up!(Long u32, Parameter 2001, &[2001], 2);
@@ -107,7 +109,7 @@ static PROFILE: Profile =
 static FEW: Profile = Profile::new(TASKS, (0, 31), &[4], (2, 2), None, &[]);
 
 /// What the drive says that cannot do it now.
-const NOT_NOW: ParseError = ParseError::Refused {
+const NOT_NOW: ReplyError = ReplyError::Refused {
     error: 17,
     name: Some("not_now"),
 };
@@ -119,7 +121,6 @@ fn named(error: u16) -> Option<&'static str> {
 
 /// Panics where the runtime is not as it should be.
 pub fn check() {
-    errors();
     requests();
     broadcasts();
     confirmations();
@@ -132,150 +133,10 @@ pub fn check() {
     process_staying();
 }
 
-fn errors() {
-    tells(
-        BuildError::name,
-        &[
-            (
-                BuildError::NoBroadcast,
-                "bad_link",
-                "the device takes nothing that is sent to all units",
-            ),
-            (
-                BuildError::OtherUnit,
-                "bad_unit",
-                "the request is to another unit than the client's",
-            ),
-            (
-                BuildError::BadLink,
-                "bad_link",
-                "the telegram does not fit the link",
-            ),
-            (
-                BuildError::BadUnit,
-                "bad_unit",
-                "the device has no such unit number",
-            ),
-            (
-                BuildError::BadTask,
-                "bad_task",
-                "the device does not know the task, or the link carries none",
-            ),
-            (
-                BuildError::BadParameter,
-                "bad_parameter",
-                "the parameter number is above 31999",
-            ),
-            (BuildError::BadIndex, "bad_index", "the index is above 255"),
-            (
-                BuildError::BadValue,
-                "bad_value",
-                "the parameter part has no room for a double word",
-            ),
-            (
-                BuildError::BadMask,
-                "bad_mask",
-                "the first word is meant without the bits that make it valid",
-            ),
-            (
-                BuildError::BufferTooSmall,
-                "buffer_too_small",
-                "the buffer is too small",
-            ),
-        ],
-    );
-    tells(
-        ParseError::name,
-        &[
-            (
-                ParseError::WrongStart,
-                "wrong_start",
-                "the telegram does not start as one",
-            ),
-            (
-                ParseError::WrongLength,
-                "wrong_length",
-                "the telegram has another length",
-            ),
-            (
-                ParseError::WrongCheck,
-                "wrong_check",
-                "the check byte is wrong",
-            ),
-            (ParseError::WrongUnit, "wrong_unit", "another unit answered"),
-            (
-                ParseError::WrongParameter,
-                "wrong_parameter",
-                "the answer is about another parameter",
-            ),
-            (
-                ParseError::NoAnswer,
-                "no_answer",
-                "the drive did not answer the task",
-            ),
-            (
-                NOT_NOW,
-                "refused",
-                "the drive refused with error 17 (not_now)",
-            ),
-            (
-                ParseError::Refused {
-                    error: 3,
-                    name: None,
-                },
-                "refused",
-                "the drive refused with error 3",
-            ),
-            (
-                ParseError::NoRights,
-                "no_rights",
-                "the drive gives no right to change parameters",
-            ),
-            (
-                ParseError::WrongResponse,
-                "wrong_response",
-                "the response is not to the task",
-            ),
-        ],
-    );
-    let errors: [(ClientError<Lost>, &str); 4] = [
-        (
-            Error::Overflow(None).into(),
-            "the result does not fit its type",
-        ),
-        (
-            BuildError::BadUnit.into(),
-            "the device has no such unit number",
-        ),
-        (
-            ParseError::NoRights.into(),
-            "the drive gives no right to change parameters",
-        ),
-        (ClientError::Transport(Lost, None), "nothing came"),
-    ];
-    for (error, shown) in errors {
-        assert_eq!(chain(&error), [shown]);
-    }
-    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
-    for (value, shown) in [
-        (Value::Nothing, "8 was written, the drive answered nothing"),
-        (Value::Word(7), "8 was written, the drive answered 7"),
-        (
-            Value::Double(0x10007),
-            "8 was written, the drive answered 65543",
-        ),
-    ] {
-        let error = other::<Lost>(8, value, None);
-        assert_eq!(chain(&error), [shown]);
-    }
-}
-
-const fn other<E>(word: u16, received: Value, point: Option<&'static str>) -> ClientError<E> {
-    ClientError::EchoMismatch {
-        expected: Value::Word(word),
-        received,
-        point,
-    }
+const fn other<E>(written: u32, answered: u32, point: &'static str) -> ClientError<E> {
+    let answered = Some(answered);
+    let error = ReplyError::OtherNumber { written, answered };
+    ClientError::Reply(error, Some(About::Point(point)))
 }
 
 /// A telegram of these words to or from unit 3.
@@ -388,7 +249,7 @@ fn requests() {
             BuildError::BadParameter,
         ),
         (Request::new(3, 1, 1, 256), four, 0, BuildError::BadIndex),
-        (double, Link::new(3, 0), 0, BuildError::BadValue),
+        (double, Link::new(3, 0), 0, BuildError::NoRoom),
     ] {
         assert_eq!(built(request, link, &[0; 21][..words]), Err(error));
     }
@@ -497,19 +358,19 @@ fn answers() {
         .expect("an answer");
     assert_eq!((reply.response(), reply.words().count()), (0, 2));
     for (words, error) in [
-        ("02bc 0000 0000 0007 a1b2 0003", ParseError::NoAnswer),
+        ("02bc 0000 0000 0007 a1b2 0003", ReplyError::NoAnswer),
         ("72bc 0000 0011 0007 a1b2 0003", NOT_NOW),
-        ("82bc 0000 0000 0007 a1b2 0003", ParseError::NoRights),
-        ("32bc 0000 0000 0007 a1b2 0003", ParseError::WrongResponse),
-        ("12bd 0000 0000 0007 a1b2 0003", ParseError::WrongParameter),
-        ("12bc 0001 0000 0007 a1b2 0003", ParseError::WrongParameter),
-        ("12bc 0000 0000 0007 a1b2", ParseError::WrongLength),
+        ("82bc 0000 0000 0007 a1b2 0003", ReplyError::NoRights),
+        ("32bc 0000 0000 0007 a1b2 0003", ReplyError::WrongResponse),
+        ("12bd 0000 0000 0007 a1b2 0003", ReplyError::WrongParameter),
+        ("12bc 0001 0000 0007 a1b2 0003", ReplyError::WrongParameter),
+        ("12bc 0000 0000 0007 a1b2", ReplyError::WrongLength),
         (
             "12bc 0000 0000 0007 a1b2 0003 0000",
-            ParseError::WrongLength,
+            ReplyError::WrongLength,
         ),
-        ("12bc 0000 0000 0007 a1b2 00", ParseError::WrongLength),
-        ("a1b2", ParseError::WrongLength),
+        ("12bc 0000 0000 0007 a1b2 00", ReplyError::WrongLength),
+        ("a1b2", ReplyError::WrongLength),
     ] {
         assert_eq!(parsed(&telegram(words)), Err(error));
     }
@@ -518,21 +379,27 @@ fn answers() {
         bytes[place] ^= byte;
         parsed(&bytes)
     };
-    assert_eq!(changed(0, 1), Err(ParseError::WrongStart));
+    assert_eq!(changed(0, 1), Err(ReplyError::WrongStart));
     assert_eq!(
         [1, 3].map(|byte| changed(1, byte)),
-        [Err(ParseError::WrongLength); 2]
+        [Err(ReplyError::WrongLength); 2]
     );
     assert_eq!(
         (changed(2, 1), changed(15, 1)),
-        (Err(ParseError::WrongCheck), Err(ParseError::WrongCheck))
+        (Err(ReplyError::WrongCheck), Err(ReplyError::WrongCheck))
     );
     assert_eq!(
         (parsed(&[]), parsed(&[2, 0, 3])),
-        (Err(ParseError::WrongStart), Err(ParseError::WrongLength))
+        (Err(ReplyError::WrongStart), Err(ReplyError::WrongLength))
     );
     let other = Request::read::<Word>(4).parse(&PROFILE, link, &received);
-    assert_eq!(other.map(|_| ()), Err(ParseError::WrongUnit));
+    assert_eq!(
+        other.map(|_| ()),
+        Err(ReplyError::WrongUnit {
+            expected: 4,
+            received: 3
+        })
+    );
     for (pkw, sizes) in [
         (3, [false, true, false, false]),
         (127, [false, true, true, true]),
@@ -587,14 +454,14 @@ macro_rules! conversations {
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
-            let mismatch = other(9, Value::Word(8), Some("Word"));
+            let mismatch = other(9, 8, "Word");
             assert_eq!($wait(client.store::<Word>(9)), Err(mismatch));
-            let refused = ClientError::Reply(NOT_NOW, Some("Long"));
+            let refused = ClientError::Reply(NOT_NOW, Some(About::Point("Long")));
             assert_eq!(
                 $wait(client.write_with::<Long>(0x0001_0203, ())),
                 Err(refused)
             );
-            let lost = ClientError::Transport(Lost, Some("Long"));
+            let lost = ClientError::Transport(Lost, Some(About::Point("Long")));
             assert_eq!($wait(client.store_with::<Long>(0x0001_0203, ())), Err(lost));
             for found in [
                 $wait(client.write::<Word>(0xFFFF)),
@@ -605,11 +472,11 @@ macro_rules! conversations {
                 assert_eq!(found, Err(wrong));
             }
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
-            let mismatch = other(0xAB6D, Value::Word(0xAB7D), Some("Group"));
+            let mismatch = other(0xAB6D, 0xAB7D, "Group");
             assert_eq!($wait(client.store_update::<Group>(6)), Err(mismatch));
             let long = ClientError::Point(Error::WrongLength(Some("Group")));
             assert_eq!($wait(client.update::<Group>(7)), Err(long));
-            let long = ClientError::Reply(ParseError::WrongLength, Some("Word"));
+            let long = ClientError::Reply(ReplyError::WrongLength, Some(About::Point("Word")));
             assert_eq!($wait(client.read_raw::<Word>()), Err(long));
             let other = $wait(client.exchange(Request::cyclic(4))).map(|_| ());
             assert_eq!(other, Err(ClientError::Build(BuildError::OtherUnit, None)));
@@ -694,7 +561,7 @@ macro_rules! conversations {
             let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive_with::<Speed>(())), Err(wrong));
             assert_eq!(client.set_word(2, 1), Ok(()));
-            let short = ClientError::Reply(ParseError::WrongLength, None);
+            let short = ClientError::Reply(ReplyError::WrongLength, None);
             assert_eq!($wait(client.cycle()), Err(short));
             assert_eq!(client.words(), [0; 3]);
             let long = ClientError::Point(far);
@@ -715,13 +582,13 @@ macro_rules! conversations {
             assert_eq!(client.set_bits::<Jog>(2), Ok(()));
             for (speed, error) in [
                 (7, NOT_NOW),
-                (6, ParseError::NoRights),
-                (5, ParseError::NoAnswer),
+                (6, ReplyError::NoRights),
+                (5, ReplyError::NoAnswer),
             ] {
                 assert_eq!(client.set_with::<Speed>(speed, ()), Ok(()));
                 assert_eq!(
                     $wait(client.write::<Word>(8)),
-                    Err(ClientError::Reply(error, Some("Word")))
+                    Err(ClientError::Reply(error, Some(About::Point("Word"))))
                 );
                 assert_eq!(
                     (client.words(), client.heard_word(1)),
@@ -729,7 +596,7 @@ macro_rules! conversations {
                 );
             }
             assert_eq!(client.set::<Speed>(4), Ok(()));
-            let other = ClientError::Reply(ParseError::WrongParameter, Some("Word"));
+            let other = ClientError::Reply(ReplyError::WrongParameter, Some(About::Point("Word")));
             assert_eq!($wait(client.write::<Word>(8)), Err(other));
             assert_eq!(
                 (client.words(), client.heard_word(1)),
@@ -754,7 +621,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.receive_count::<Speed>()), Ok([0xB2]));
             assert_eq!($wait(client.send_count::<Speed>([5])), Ok(()));
             assert_eq!($wait(client.send_count::<Speed>([0xFFFF])), Err(wrong));
-            let lost = Err(ClientError::Transport(Lost, Some("Position")));
+            let lost = Err(ClientError::Transport(Lost, Some(About::Point("Position"))));
             assert_eq!($wait(client.receive_count_with::<Position>(())), lost);
             client.into_transport().done();
             // A client keeps sixteen words and no more.

@@ -101,12 +101,12 @@ pub(crate) fn outside<P: Point>(raw: P::Raw, low: i64, high: i64) -> Error {
 #[must_use]
 pub(crate) fn unknown<P: Point>(given: i64) -> Error {
     let (point, low, high) = (P::NAME, P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64());
-    Error::UnknownValue(Refused::Raw(Outside {
+    Error::UnknownValue(Outside {
         point,
         given,
         low,
         high,
-    }))
+    })
 }
 
 /// What is said of a number that the raw type does not hold.

@@ -43,7 +43,7 @@ pub enum Error {
         needs: &'static [&'static PointFacts],
     },
     /// The closed enum has no such number, or the point no such code.
-    UnknownValue(Refused),
+    UnknownValue(Outside<i64>),
     /// The text is too long, or has a character that is none of its encoding.
     BadText(Option<&'static str>),
     /// A factor that is read at run time is zero, or no quantity.
@@ -80,6 +80,10 @@ pub enum Error {
     WrongSpace(Option<&'static str>),
     /// The last telegram was not answered, so nothing was heard of the point.
     NotHeard(Option<&'static str>),
+    /// A frame with a word of the point never came.
+    NotReceived(Option<&'static str>),
+    /// The words are of two frames, and the high one may have changed between them.
+    Torn(Option<&'static str>),
     /// The point is not read, or not written; all that can be done with it.
     Access(&'static str, Access),
 }
@@ -156,6 +160,8 @@ impl Error {
             | Self::Missing { .. } => "wrong_length",
             Self::WrongSpace(_) => "wrong_space",
             Self::NotHeard(_) => "not_heard",
+            Self::NotReceived(_) => "missing",
+            Self::Torn(_) => "torn",
             Self::Access(..) => "access",
         }
     }
@@ -164,7 +170,8 @@ impl Error {
     #[must_use]
     pub const fn refused(self) -> Option<Refused> {
         match self {
-            Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused),
+            Self::OutOfRange(refused) => Some(refused),
+            Self::UnknownValue(outside) => Some(Refused::Raw(outside)),
             _ => None,
         }
     }
@@ -173,7 +180,8 @@ impl Error {
     #[must_use]
     pub const fn point(self) -> Option<&'static str> {
         match self {
-            Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused.point()),
+            Self::OutOfRange(refused) => Some(refused.point()),
+            Self::UnknownValue(outside) => Some(outside.point),
             Self::NotANumber(point)
             | Self::UnknownName { point, .. }
             | Self::Missing { point, .. }
@@ -189,7 +197,9 @@ impl Error {
             | Self::NotBrought(point)
             | Self::BeyondLink(point)
             | Self::WrongSpace(point)
-            | Self::NotHeard(point) => point,
+            | Self::NotHeard(point)
+            | Self::NotReceived(point)
+            | Self::Torn(point) => point,
         }
     }
 
@@ -212,7 +222,9 @@ impl Error {
             | Self::NotBrought(point)
             | Self::BeyondLink(point)
             | Self::WrongSpace(point)
-            | Self::NotHeard(point) => *point = point.or(Some(name)),
+            | Self::NotHeard(point)
+            | Self::NotReceived(point)
+            | Self::Torn(point) => *point = point.or(Some(name)),
             _ => {}
         }
         self
@@ -220,9 +232,7 @@ impl Error {
 
     /// The same about the number that was given, of which the refused raw number was made.
     pub(crate) fn about(mut self, number: i64) -> Self {
-        if let Self::OutOfRange(Refused::Raw(outside)) | Self::UnknownValue(Refused::Raw(outside)) =
-            &mut self
-        {
+        if let Self::OutOfRange(Refused::Raw(outside)) | Self::UnknownValue(outside) = &mut self {
             outside.given = number;
         }
         self
@@ -251,7 +261,7 @@ impl fmt::Display for Error {
         lead(self.point(), formatter)?;
         formatter.write_str(match self {
             Self::OutOfRange(refused) => return refused.show(formatter),
-            Self::UnknownValue(Refused::Raw(outside)) => {
+            Self::UnknownValue(outside) => {
                 return write!(formatter, "nothing has the number {}", outside.given);
             }
             Self::BrokenFactor { factor, .. } => {
@@ -282,7 +292,6 @@ impl fmt::Display for Error {
             Self::UnknownName { given, names, .. } => return unknown(*given, names, formatter),
             Self::Missing { needs, .. } => return missing(needs, formatter),
             Self::NotANumber(_) => "the value is not a number",
-            Self::UnknownValue(_) => "the enum has no such number",
             Self::BadText(_) => {
                 "the text is too long, or has a character that is none of its encoding"
             }
@@ -295,6 +304,8 @@ impl fmt::Display for Error {
             Self::BeyondLink(_) => "the link has not so many words of process data",
             Self::WrongSpace(_) => "the reply is of another space than the point's",
             Self::NotHeard(_) => "the last telegram was not answered",
+            Self::NotReceived(_) => "the frame with the word never came",
+            Self::Torn(_) => "the words may belong to different moments",
             Self::Access(_, Access::Read) => "the point is only read",
             Self::Access(_, Access::Write) => "the point is only written",
             Self::Access(..) => "the point is neither read nor written by itself",

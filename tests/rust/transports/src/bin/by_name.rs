@@ -5,7 +5,8 @@ use std::future::{ready, Ready};
 use std::sync::{Arc, Mutex};
 use std::thread::spawn;
 
-use fieldscribe_runtime::modbus::{Client, ClientError, Profile};
+use fieldscribe_runtime::modbus::{Client, Profile};
+use fieldscribe_runtime::ClientError;
 use fieldscribe_runtime::transports::tcp::TcpLine;
 use fieldscribe_runtime::{AnyValue, Device, PointFacts, Points};
 use hitachi_l200::Framing;

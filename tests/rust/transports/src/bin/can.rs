@@ -3,6 +3,7 @@
 use embedded_can::{ErrorKind, Frame, StandardId};
 use programs::bus::{Controller, OnBus, UNIT};
 use woodward_mpu2s::runtime::transports::embedded_can::{Blocking, BusError, NonBlocking};
+use woodward_mpu2s::runtime::About;
 use woodward_mpu2s::{points as p, telegrams::Visualisation, Client, ClientError, Receiver, PROFILE};
 
 fn waits() {
@@ -12,7 +13,7 @@ fn waits() {
     assert_eq!(client.read::<p::GeneratorFrequencySetpoint>().unwrap(), 60.0);
     assert_eq!(client.listener().value::<p::GeneratorFrequency>(), Ok(49.98));
     let lost = client.receive::<p::OperatingHours>().unwrap_err();
-    assert_eq!(lost, ClientError::Transport(BusError::Bus(ErrorKind::Overrun), Some("operating_hours")));
+    assert_eq!(lost, ClientError::Transport(BusError::Bus(ErrorKind::Overrun), Some(About::Point("operating_hours"))));
     assert_eq!(lost.to_string(), format!("operating_hours: {}", ErrorKind::Overrun));
 }
 
@@ -29,7 +30,7 @@ fn does_not_wait() {
     assert_eq!((late, client.transport().controller().came.len()), (0, 0));
     client.transport().controller().busy = 4;
     let busy = client.read::<p::GeneratorFrequencySetpoint>().unwrap_err();
-    assert_eq!(busy, ClientError::Transport(BusError::TimedOut, Some("generator_frequency_setpoint")));
+    assert_eq!(busy, ClientError::Transport(BusError::TimedOut, Some(About::Point("generator_frequency_setpoint"))));
 }
 
 fn main() {

@@ -5,8 +5,9 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::modbus::{About, Request};
+use fieldscribe_runtime::modbus::Request;
 use fieldscribe_runtime::transports::{embedded_io, embedded_io_async, LineError, Protocol};
+use fieldscribe_runtime::About;
 use hitachi_l200::{points as p, Client, ClientError, Framing, LocalClient};
 use programs::uart::{word, Uart};
 

@@ -164,35 +164,29 @@ impl<E> Named for LineError<E> {
 
 type Read1 = Box<dyn FnMut() -> Result<u8, &'static str> + Send>;
 
-fn of_modbus<E: Named>(read: Result<u16, ClientError<E>>) -> Result<u8, &'static str> {
-    read.map(|word| word as u8).map_err(|error| match error {
-        ClientError::Reply(error, _) => error.name(),
+/// The low byte of what was read, or why nothing was.
+fn told<R: Into<u64>, E: Named>(read: Result<R, ClientError<E>>) -> Result<u8, &'static str> {
+    read.map(|raw| raw.into() as u8).map_err(|error| match error {
         ClientError::Transport(error, _) => error.named(),
-        _ => "other",
+        error => error.name(),
     })
 }
 
 fn modbus<T: Transport<Error: Named> + Send + 'static>(line: T, framing: Framing) -> Read1 {
     let mut client = Client::new(line, framing, 1).with_profile(&GATEWAY);
-    Box::new(move || of_modbus(client.read_raw::<p::BaseFrequency>()))
+    Box::new(move || told(client.read_raw::<p::BaseFrequency>()))
 }
 
 fn tokio(line: tokio_modbus::Line, framing: Framing) -> Read1 {
     let runtime = Builder::new_current_thread().enable_all().build().unwrap();
     let mut client = AsyncClient::new(line.timeout(TIMEOUT), framing, 1).with_profile(&GATEWAY);
-    Box::new(move || of_modbus(runtime.block_on(client.read_raw::<p::BaseFrequency>())))
+    Box::new(move || told(runtime.block_on(client.read_raw::<p::BaseFrequency>())))
 }
 
 fn uss<T: Transport<Error: Named> + Send + 'static>(line: T) -> Read1 {
-    use siemens_mm4::{points as p, Client, ClientError, Link};
+    use siemens_mm4::{points as p, Client, Link};
     let mut client = Client::new(line, Link::new(4, 0), 1);
-    Box::new(move || {
-        client.read_raw::<p::MaximumFrequency>().map(|raw| raw as u8).map_err(|error| match error {
-            ClientError::Reply(error, _) => error.name(),
-            ClientError::Transport(error, _) => error.named(),
-            _ => "other",
-        })
-    })
+    Box::new(move || told(client.read_raw::<p::MaximumFrequency>()))
 }
 
 fn stream(address: &str) -> TcpStream {

@@ -3,7 +3,8 @@
 use std::env::args;
 use std::time::Duration;
 
-use fieldscribe_runtime::modbus::{Client, ClientError, FoundBlock, Profile};
+use fieldscribe_runtime::modbus::{Client, FoundBlock, Profile};
+use fieldscribe_runtime::ClientError;
 use fieldscribe_runtime::transports::{stream::StreamLine, tcp::TcpLine};
 use fieldscribe_runtime::{AnyValue, Device, Points, Transport};
 use fronius_datamanager::bases;

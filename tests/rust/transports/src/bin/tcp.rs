@@ -6,9 +6,10 @@ use std::thread::{sleep, spawn};
 use std::time::{Duration, Instant};
 
 use hitachi_l200::enums::RunCommand;
-use hitachi_l200::runtime::modbus::{framing_of, About, Function, Profile, ReplyError, Request};
+use hitachi_l200::runtime::modbus::{framing_of, Function, Profile, Request};
+use hitachi_l200::runtime::About;
 use hitachi_l200::runtime::transports::tcp::TcpLine;
-use hitachi_l200::{blocks, points as p, Client, ClientError, Framing, PROFILE};
+use hitachi_l200::{blocks, points as p, Client, ClientError, Framing, ReplyError, PROFILE};
 
 static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
 const QUICK: Duration = Duration::from_millis(250);

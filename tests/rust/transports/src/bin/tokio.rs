@@ -5,9 +5,9 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 use hitachi_l200::enums::RunCommand;
-use hitachi_l200::runtime::modbus::{Profile, ReplyError, Request};
+use hitachi_l200::runtime::modbus::{Profile, Request};
 use hitachi_l200::runtime::transports::tokio_modbus::Line;
-use hitachi_l200::{blocks, points as p, AsyncClient, ClientError, Framing, PROFILE};
+use hitachi_l200::{blocks, points as p, AsyncClient, ClientError, Framing, ReplyError, PROFILE};
 use tokio::io::AsyncReadExt;
 use tokio::net::{TcpListener, TcpStream};
 use tokio_modbus::client::{rtu, tcp, Context};

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: 0BSD
 //! Reading and writing points of a CAN device over a transport that the caller brings.
 
-use core::fmt;
 use core::future::Future;
 use core::marker::PhantomData;
 
-use super::{
-    BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
-    Telegram,
-};
+use super::{Dialogue, Frame, Message, Parameter, Profile, Received, Receiver, Telegram};
 use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
-use crate::error::lead;
 use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
-    Accepts, AnyDevice, AnyValue, BitGroup, CountReadable, CountWritable, Decoded, Device,
-    Encodable, Error, NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, Whole,
-    Writable,
+    Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
+    Decoded, Device, Encodable, Error, NeedsNothing, PointFacts, PointInfo, Points, Raw, Readable,
+    ReplyError, Whole, Writable,
 };
 
 /// Sends frames and waits for frames.
@@ -242,117 +237,6 @@ impl<L: Listener + ?Sized> Listener for &mut L {
     }
 }
 
-/// Why a point could not be read or written.
-///
-/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
-/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ClientError<E> {
-    /// The number could not be encoded or decoded.
-    Point(Error),
-    /// The request could not be built.
-    Build(BuildError, Option<&'static str>),
-    /// Many frames came, and not the one that was waited for.
-    NoAnswer(Option<&'static str>),
-    /// The device answered a write with another raw number.
-    EchoMismatch {
-        /// What was written.
-        expected: u16,
-        /// What the device answered.
-        received: u16,
-        /// The point's name.
-        point: Option<&'static str>,
-    },
-    /// Many frames came, and the telegram's words did not come together.
-    Telegram(ReceiveError),
-    /// The transport failed.
-    Transport(E, Option<&'static str>),
-}
-
-impl<E> ClientError<E> {
-    /// The name of the point that it is about, if it is about one.
-    #[must_use]
-    pub const fn point(&self) -> Option<&'static str> {
-        match self {
-            Self::Point(error) => error.point(),
-            Self::Telegram(error) => error.point(),
-            Self::Build(_, point)
-            | Self::NoAnswer(point)
-            | Self::EchoMismatch { point, .. }
-            | Self::Transport(_, point) => *point,
-        }
-    }
-
-    /// The same about this point, where it does not say yet which it is about.
-    #[must_use]
-    pub fn of<P: Point>(self) -> Self {
-        self.named(P::NAME)
-    }
-
-    /// The same about the point of that name.
-    fn named(mut self, name: &'static str) -> Self {
-        match &mut self {
-            Self::Point(error) => *error = error.named(name),
-            Self::Telegram(error) => *error = error.named(name),
-            Self::Build(_, point)
-            | Self::NoAnswer(point)
-            | Self::EchoMismatch { point, .. }
-            | Self::Transport(_, point) => *point = point.or(Some(name)),
-        }
-        self
-    }
-}
-
-impl<E> From<Error> for ClientError<E> {
-    fn from(error: Error) -> Self {
-        Self::Point(error)
-    }
-}
-
-impl<E> From<BuildError> for ClientError<E> {
-    fn from(error: BuildError) -> Self {
-        Self::Build(error, None)
-    }
-}
-
-impl<E> From<ReceiveError> for ClientError<E> {
-    fn from(error: ReceiveError) -> Self {
-        Self::Telegram(error)
-    }
-}
-
-impl<E: fmt::Display> fmt::Display for ClientError<E> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Point(error) => return error.fmt(formatter),
-            Self::Telegram(error) => return error.fmt(formatter),
-            _ => lead(self.point(), formatter)?,
-        }
-        match self {
-            Self::Point(_) | Self::Telegram(_) => Ok(()),
-            Self::Build(error, _) => error.fmt(formatter),
-            Self::NoAnswer(_) => formatter.write_str("the device does not answer"),
-            Self::EchoMismatch {
-                expected, received, ..
-            } => write!(
-                formatter,
-                "{expected} was written, the device answered {received}"
-            ),
-            Self::Transport(error, _) => error.fmt(formatter),
-        }
-    }
-}
-
-impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Transport(error, _) => error.source(),
-            _ => None,
-        }
-    }
-}
-
 /// What is said of a bus that fails; who asked for a point names it.
 const fn lost<E>(error: E) -> ClientError<E> {
     ClientError::Transport(error, None)
@@ -403,10 +287,14 @@ impl Unit {
         fits.then_some(content.raw)
     }
 
-    /// What the device answered to a write, if that is another raw number.
-    fn other(&self, written: u16, answered: u16) -> Option<u16> {
-        let answer = self.profile.write?.answer?;
-        (answer.carries_raw() && answered != written).then_some(answered)
+    /// Holds what the device answered to a write against what was written, if its answer carries that.
+    fn confirm(&self, written: u16, answered: u16) -> Result<(), ReplyError> {
+        let answer = self.profile.write.and_then(|dialogue| dialogue.answer);
+        if answered == written || !answer.is_some_and(Message::carries_raw) {
+            return Ok(());
+        }
+        let (written, answered) = (written.into(), Some(answered.into()));
+        Err(ReplyError::OtherNumber { written, answered })
     }
 }
 
@@ -450,7 +338,7 @@ macro_rules! client {
                 Self { unit: Unit { patience: frames, ..self.unit }, ..self }
             }
 
-            /// The listener, with what it has heard.
+            /// The listener, with what it has heard: `client.listener().raw::<P>()` of a [`Receiver`].
             pub const fn listener(&self) -> &L {
                 &self.listener
             }
@@ -489,7 +377,7 @@ macro_rules! client {
                     }
                     self.listener.hear(&frame);
                 }
-                Err(ClientError::NoAnswer(None))
+                Err(ReplyError::NoAnswer.into())
             }
 
             /// Gives the frames that have come already to the listener: they answer nothing that is asked from now on.
@@ -523,33 +411,26 @@ macro_rules! client {
                 word: u16,
             ) -> Result<(), ClientError<T::Error>> {
                 let answered = self.exchange(self.unit.profile.write, address, word)$($wait)*?;
-                match self.unit.other(word, answered) {
-                    Some(received) => {
-                        Err(ClientError::EchoMismatch { expected: word, received, point: None })
-                    }
-                    None => Ok(()),
-                }
+                self.unit.confirm(word, answered)?;
+                Ok(())
             }
 
-            /// A parameter's raw number: word by word if it has several.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            /// Puts a parameter's raw number into place, word by word if it has several.
+            $($async)? fn get_raw<P>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Parameter,
-                D: Accepts<P::Device>,
             {
                 let mut words = P::Raw::MIN.into_words();
                 for (place, address) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
                     *place = self.read_word(*address)$($wait)*.map_err(ClientError::of::<P>)?;
                 }
-                Ok(joined::<P>(words))
+                *raw = joined::<P>(words);
+                Ok(())
             }
 
             read_methods! {
-                [$($async)?], [$($wait)*], "A parameter", read_raw for Parameter;
-                read read_with read_count read_count_with
+                [$($async)?], [$($wait)*], "A parameter", get_raw for Parameter;
+                read read_with read_count read_count_with read_raw
             }
 
             write_methods! {
@@ -623,23 +504,18 @@ macro_rules! client {
             read_methods! {
                 [$($async)?], [$($wait)*],
                 "A point of a telegram when all its words came again and belong together",
-                receive_raw for Received, [L: Hears<P::Telegram>];
-                receive receive_with receive_count receive_count_with
+                get_received for Received, [L: Hears<P::Telegram>];
+                receive receive_with receive_count receive_count_with receive_raw
             }
 
-            /// As `receive`, as the raw number. What was heard before is at the listener:
-            /// `client.listener().raw::<P>()`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            /// Puts the raw number of a point of a telegram into place.
+            $($async)? fn get_received<P>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Received,
                 L: Hears<P::Telegram>,
-                D: Accepts<P::Device>,
             {
                 let taken = self.listener.receiver().taken();
-                let mut found = Err(ReceiveError::Missing(Some(P::NAME)));
+                let mut found = Err(Error::NotReceived(Some(P::NAME)));
                 for _ in 0..self.unit.patience {
                     self.listen()$($wait)*.map_err(ClientError::of::<P>)?;
                     let receiver = self.listener.receiver();
@@ -650,7 +526,8 @@ macro_rules! client {
                         break;
                     }
                 }
-                found.map_err(ClientError::Telegram)
+                *raw = found?;
+                Ok(())
             }
         }
     };

@@ -3,10 +3,12 @@
 
 use core::fmt;
 
-use super::{Frame, Message, Profile, ReceiveError, LENGTH};
+use super::{Frame, Message, Profile, LENGTH};
 use crate::client::MOST_NEEDS;
 use crate::point::{counted_mut, joined};
-use crate::{AnyValue, CountReadable, Decoded, NeedsNothing, PointFacts, PointInfo, Raw, Readable};
+use crate::{
+    AnyValue, CountReadable, Decoded, Error, NeedsNothing, PointFacts, PointInfo, Raw, Readable,
+};
 
 /// A cyclic layout of words that the frames of a message carry.
 pub trait Telegram {
@@ -125,8 +127,8 @@ impl<T: Telegram> Receiver<T> {
     /// The word at a position of the telegram, from 0.
     ///
     /// # Errors
-    /// [`ReceiveError::Missing`].
-    pub fn word(&self, position: u16) -> Result<u16, ReceiveError> {
+    /// [`Error::NotReceived`].
+    pub fn word(&self, position: u16) -> Result<u16, Error> {
         let (slot, place) = self.place(position)?;
         Ok(slot.now.word(place))
     }
@@ -134,20 +136,20 @@ impl<T: Telegram> Receiver<T> {
     /// A point's raw number.
     ///
     /// # Errors
-    /// [`ReceiveError::Missing`]; [`ReceiveError::Torn`] if the number is in two frames and its high word did not stay
+    /// [`Error::NotReceived`]; [`Error::Torn`] if the number is in two frames and its high word did not stay
     /// the same from before to after the low one.
-    pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, ReceiveError> {
+    pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, Error> {
         let mut words = P::Raw::MIN.into_words();
         let found = self.words(P::ADDRESSES, counted_mut::<P>(words.as_mut()));
-        found.map_err(ReceiveError::of::<P>)?;
+        found.map_err(Error::of::<P>)?;
         Ok(joined::<P>(words))
     }
 
     /// A point's value.
     ///
     /// # Errors
-    /// As for `raw`; [`ReceiveError::Point`] if the raw number has no value.
-    pub fn value<P>(&self) -> Result<P::Value, ReceiveError>
+    /// As for `raw`; what decoding says.
+    pub fn value<P>(&self) -> Result<P::Value, Error>
     where
         P: Received<Telegram = T, Factors: NeedsNothing>,
     {
@@ -161,16 +163,15 @@ impl<T: Telegram> Receiver<T> {
     pub fn value_with<P: Received<Telegram = T>>(
         &self,
         with: P::Factors,
-    ) -> Result<P::Value, ReceiveError> {
-        let value = P::decode_with(self.raw::<P>()?, with).into_result();
-        value.map_err(ReceiveError::Point)
+    ) -> Result<P::Value, Error> {
+        P::decode_with(self.raw::<P>()?, with).into_result()
     }
 
     /// A point's count: its value in units of `10^-DECIMALS`, without floating point.
     ///
     /// # Errors
     /// As for `value`.
-    pub fn count<P>(&self) -> Result<P::Count, ReceiveError>
+    pub fn count<P>(&self) -> Result<P::Count, Error>
     where
         P: Received<Telegram = T> + CountReadable<Factors: NeedsNothing>,
     {
@@ -181,32 +182,30 @@ impl<T: Telegram> Receiver<T> {
     ///
     /// # Errors
     /// The same.
-    pub fn count_with<P>(&self, with: P::Factors) -> Result<P::Count, ReceiveError>
+    pub fn count_with<P>(&self, with: P::Factors) -> Result<P::Count, Error>
     where
         P: Received<Telegram = T> + CountReadable,
     {
-        let count = P::decode_count_with(self.raw::<P>()?, with).into_result();
-        count.map_err(ReceiveError::Point)
+        P::decode_count_with(self.raw::<P>()?, with).into_result()
     }
 
     /// The value of a point as data; what its scale needs of other points comes in the same telegram.
     ///
     /// # Errors
-    /// As for `value`; [`ReceiveError::Missing`] for a point of another telegram.
-    pub fn value_of(&self, point: PointInfo<T::Device>) -> Result<AnyValue<'static>, ReceiveError> {
+    /// As for `value`; [`Error::NotReceived`] for a point of another telegram.
+    pub fn value_of(&self, point: PointInfo<T::Device>) -> Result<AnyValue<'static>, Error> {
         let (needs, mut raws) = (point.needs(), [0; MOST_NEEDS]);
         for (place, other) in raws.iter_mut().zip(needs.iter()) {
             *place = self.raw_of(other.facts)?;
         }
         let raw = self.raw_of(point.facts)?;
-        let value = point.decode(raw, raws.get(..needs.len()).unwrap_or(&raws));
-        value.map_err(ReceiveError::Point)
+        point.decode(raw, raws.get(..needs.len()).unwrap_or(&raws))
     }
 
     /// The raw number of a point as data.
-    fn raw_of(&self, point: &PointFacts) -> Result<i128, ReceiveError> {
+    fn raw_of(&self, point: &PointFacts) -> Result<i128, Error> {
         if point.telegram != Some(T::NAME) {
-            return Err(ReceiveError::Missing(Some(point.name)));
+            return Err(Error::NotReceived(Some(point.name)));
         }
         let mut words = [0; 4];
         let places = words.get_mut(..point.addresses.len()).unwrap_or_default();
@@ -216,7 +215,7 @@ impl<T: Telegram> Receiver<T> {
     }
 
     /// Fills in the words at these positions; two of them belong together.
-    fn words(&self, positions: &[u16], places: &mut [u16]) -> Result<(), ReceiveError> {
+    fn words(&self, positions: &[u16], places: &mut [u16]) -> Result<(), Error> {
         if let ([high, low], [first, second]) = (positions, &mut *places) {
             [*first, *second] = self.pair(*high, *low)?;
             return Ok(());
@@ -228,7 +227,7 @@ impl<T: Telegram> Receiver<T> {
     }
 
     /// Two words that belong together.
-    fn pair(&self, high: u16, low: u16) -> Result<[u16; 2], ReceiveError> {
+    fn pair(&self, high: u16, low: u16) -> Result<[u16; 2], Error> {
         let (above, high) = self.place(high)?;
         let (below, low) = self.place(low)?;
         let word = above.now.word(high);
@@ -239,25 +238,25 @@ impl<T: Telegram> Receiver<T> {
         let (from, to) = (above.before.at, above.now.at);
         let between = |part: &Part| from != 0 && from < part.at && part.at < to;
         if word != above.before.word(high) {
-            Err(ReceiveError::Torn(None))
+            Err(Error::Torn(None))
         } else if between(&below.now) {
             Ok([word, below.now.word(low)])
         } else if between(&below.before) {
             Ok([word, below.before.word(low)])
         } else {
-            Err(ReceiveError::Torn(None))
+            Err(Error::Torn(None))
         }
     }
 
     /// The slot of a position, into which something came, and the place of the word in it.
-    fn place(&self, position: u16) -> Result<(&Slot, usize), ReceiveError> {
+    fn place(&self, position: u16) -> Result<(&Slot, usize), Error> {
         let (position, words) = (usize::from(position), T::MESSAGE.words());
         let slot = position.checked_div(words);
         let place = position.checked_rem(words);
         let slot = slot.and_then(|slot| self.slots.as_ref().get(slot));
         match (slot, place) {
             (Some(slot), Some(place)) if slot.now.at != 0 => Ok((slot, place)),
-            _ => Err(ReceiveError::Missing(None)),
+            _ => Err(Error::NotReceived(None)),
         }
     }
 }

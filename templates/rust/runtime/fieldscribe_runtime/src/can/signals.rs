@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Messages of signals: numbers in some bits of a frame, which may be one of CAN FD.
 
-use super::{ParseError, Profile, ReceiveError};
+use super::{ParseError, Profile};
 use crate::point::{counted, counted_mut, joined, split};
 use crate::{Decoded, Encodable, Error, NeedsNothing, Point, Raw, Readable};
 
@@ -121,12 +121,12 @@ impl<M: Signals> Numbers<M> {
     /// A signal's raw number.
     ///
     /// # Errors
-    /// [`ReceiveError::Missing`] if other signals select another one.
-    pub fn raw<P: Carried<Message = M>>(&self) -> Result<P::Raw, ReceiveError> {
+    /// [`Error::NotReceived`] if other signals select another one.
+    pub fn raw<P: Carried<Message = M>>(&self) -> Result<P::Raw, Error> {
         let mut words = P::Raw::MIN.into_words();
         let held = self.words.as_ref();
         if !comes::<M>(P::ADDRESSES, held) {
-            return Err(ReceiveError::Missing(Some(P::NAME)));
+            return Err(Error::NotReceived(Some(P::NAME)));
         }
         for (place, address) in counted_mut::<P>(words.as_mut())
             .iter_mut()
@@ -140,13 +140,12 @@ impl<M: Signals> Numbers<M> {
     /// A signal's value.
     ///
     /// # Errors
-    /// As for `raw`; [`ReceiveError::Point`] if the raw number has no value.
-    pub fn value<P>(&self) -> Result<P::Value, ReceiveError>
+    /// As for `raw`; what decoding says.
+    pub fn value<P>(&self) -> Result<P::Value, Error>
     where
         P: Carried<Message = M> + Readable<Factors: NeedsNothing>,
     {
-        let value = P::decode_with(self.raw::<P>()?, NeedsNothing::nothing()).into_result();
-        value.map_err(ReceiveError::Point)
+        P::decode_with(self.raw::<P>()?, NeedsNothing::nothing()).into_result()
     }
 
     /// Puts a raw number, of which nothing is checked, into the message.

@@ -212,16 +212,16 @@ impl PointFacts {
     pub(super) fn refused(&self, raw: i128) -> Error {
         let (low, high) = self.raw_limits();
         let [given, low, high] = [raw, low, high].map(saturated);
-        let refused = Refused::Raw(Outside {
+        let outside = Outside {
             point: self.name,
             given,
             low,
             high,
-        });
+        };
         if self.writing.is_some_and(|writing| writing.is_closed) {
-            Error::UnknownValue(refused)
+            Error::UnknownValue(outside)
         } else {
-            Error::OutOfRange(refused)
+            Error::OutOfRange(Refused::Raw(outside))
         }
     }
 

@@ -13,7 +13,6 @@
 
 mod base;
 mod client;
-mod error;
 mod function;
 mod profile;
 mod reply;
@@ -21,8 +20,7 @@ mod request;
 mod steps;
 
 pub use base::{Base, Chain, FoundBlock, Given, GivenBase};
-pub use client::{AsyncClient, Client, ClientError, LocalClient};
-pub use error::{About, BuildError, ReplyError};
+pub use client::{AsyncClient, Client, LocalClient};
 pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};
 pub use reply::{reply_length, Reply};

@@ -4,8 +4,8 @@
 use core::marker::PhantomData;
 
 use super::function::{is_of_bits, is_ours, is_read, read_function, write_function};
-use super::{crc, Framing, ReplyError, Request};
-use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, PointInfo, Readable};
+use super::{crc, Framing, Request};
+use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, PointInfo, Readable, ReplyError};
 
 /// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
 #[derive(Clone, Copy, Debug)]

@@ -11,13 +11,11 @@
 //! ```
 
 mod client;
-mod error;
 mod profile;
 mod reply;
 mod request;
 
-pub use client::{AsyncClient, Client, ClientError, LocalClient};
-pub use error::{BuildError, ParseError};
+pub use client::{AsyncClient, Client, LocalClient};
 pub use profile::{FixedBits, Link, Profile, Task};
 pub use reply::Reply;
 pub use request::{broadcast, Request, Value};

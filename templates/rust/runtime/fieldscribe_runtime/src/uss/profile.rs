@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! What the telegrams need to know of a device, as constants of the generated code, and how a link is set.
 
-use super::{ParseError, Sent, VARIABLE};
+use super::{Sent, VARIABLE};
+use crate::ReplyError;
 
 /// How a link is set: its words of the parameter part (0, 3, 4 or 127 for variable) and of process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,9 +133,9 @@ impl Profile {
 
     /// The refusal that an error value is, with the name that the drive has for it.
     #[must_use]
-    pub fn refusal(&self, error: u16) -> ParseError {
+    pub fn refusal(&self, error: u16) -> ReplyError {
         let name = (self.name)(error);
-        ParseError::Refused { error, name }
+        ReplyError::Refused { error, name }
     }
 
     pub(super) fn knows(&self, task: u8) -> bool {

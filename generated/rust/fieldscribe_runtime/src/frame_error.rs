@@ -1,51 +1,9 @@
 // SPDX-License-Identifier: 0BSD
-//! Why a request cannot be built, and why bytes are no reply.
+//! Why a request cannot be built, and why bytes are no reply, for all families: a mistake is the same on every bus.
 
 use core::fmt;
 
-/// What an error of a client is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum About {
-    /// A point, by its name.
-    Point(&'static str),
-    /// A request that is none of a point, as that of a block or a command.
-    Request {
-        /// The unit that was asked.
-        unit: u8,
-        /// The function.
-        function: u8,
-        /// The first address.
-        address: u16,
-        /// How many items.
-        count: u16,
-    },
-}
-
-impl fmt::Display for About {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Point(name) => formatter.write_str(name),
-            Self::Request {
-                unit,
-                function,
-                address,
-                count,
-            } => {
-                write!(
-                    formatter,
-                    "unit {unit}, function {function} at {address:04X}h"
-                )?;
-                match count {
-                    0 | 1 => Ok(()),
-                    _ => write!(formatter, ", {count} items"),
-                }
-            }
-        }
-    }
-}
-
-/// Why a request cannot be built.
+/// Why a request cannot be built: a mistake of the program, whatever the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildError {
@@ -53,8 +11,12 @@ pub enum BuildError {
     BadFraming,
     /// The unit is outside the device's range.
     BadUnit,
+    /// The request is to another unit than the client's, whose process data are not for it.
+    OtherUnit,
     /// The unit is that of all units, and the function does not go to all: nobody could answer.
     NotForAll,
+    /// The device takes nothing that is sent to all units.
+    NoBroadcast,
     /// The device does not know the function.
     BadFunction,
     /// There are no items, more than the device takes, or values are missing.
@@ -64,7 +26,21 @@ pub enum BuildError {
     /// Nobody said where the base is that the address counts from.
     NoBase,
     /// A bit is neither 0 nor 1.
-    BadValue,
+    BadBit,
+    /// The device does not know the length of the parameter part, or there are other words of process data.
+    BadLink,
+    /// The device does not know the task, or the link has no parameter part.
+    BadTask,
+    /// There is no parameter of this number.
+    BadParameter,
+    /// The index is above 255.
+    BadIndex,
+    /// The parameter part has no room for a double word.
+    NoRoom,
+    /// All units are sent the first word without the bits that make it valid.
+    BadMask,
+    /// The device has no message for this.
+    NoMessage,
     /// The caller's buffer is too small.
     BufferTooSmall,
 }
@@ -75,12 +51,18 @@ impl BuildError {
     pub const fn name(self) -> &'static str {
         match self {
             Self::BadFraming => "bad_framing",
-            Self::BadUnit | Self::NotForAll => "bad_unit",
+            Self::BadUnit | Self::OtherUnit | Self::NotForAll => "bad_unit",
             Self::BadFunction => "bad_function",
             Self::BadCount => "bad_count",
             Self::BadAddress => "bad_address",
             Self::NoBase => "bad_base",
-            Self::BadValue => "bad_value",
+            Self::BadBit | Self::NoRoom => "bad_value",
+            Self::BadLink | Self::NoBroadcast => "bad_link",
+            Self::BadTask => "bad_task",
+            Self::BadParameter => "bad_parameter",
+            Self::BadIndex => "bad_index",
+            Self::BadMask => "bad_mask",
+            Self::NoMessage => "no_message",
             Self::BufferTooSmall => "buffer_too_small",
         }
     }
@@ -93,12 +75,21 @@ impl fmt::Display for BuildError {
                 "the device does not speak this framing; behind a gateway that does, use `with_framings`"
             }
             Self::BadUnit => "the device has no such unit number",
+            Self::OtherUnit => "the request is to another unit than the client's",
             Self::NotForAll => "this cannot be sent to all units",
+            Self::NoBroadcast => "the device takes nothing that is sent to all units",
             Self::BadFunction => "the device does not know the function",
             Self::BadCount => "the device does not take that many items",
             Self::BadAddress => "the items end beyond the last address",
             Self::NoBase => "nobody said where the base is that the address counts from: use `set_base` or `find`",
-            Self::BadValue => "a bit is neither 0 nor 1",
+            Self::BadBit => "a bit is neither 0 nor 1",
+            Self::BadLink => "the telegram does not fit the link",
+            Self::BadTask => "the device does not know the task, or the link carries none",
+            Self::BadParameter => "the parameter number is above 31999",
+            Self::BadIndex => "the index is above 255",
+            Self::NoRoom => "the parameter part has no room for a double word",
+            Self::BadMask => "the first word is meant without the bits that make it valid",
+            Self::NoMessage => "the device has no message for this",
             Self::BufferTooSmall => "the buffer is too small",
         })
     }
@@ -106,7 +97,7 @@ impl fmt::Display for BuildError {
 
 impl core::error::Error for BuildError {}
 
-/// Why bytes are no reply to a request.
+/// Why bytes are no good reply to a request, whatever the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ReplyError {
@@ -155,8 +146,8 @@ pub enum ReplyError {
     Exception {
         /// The code that says why.
         code: u8,
-        /// Its name in the description, which the [`Profile`](super::Profile) knows. Where there is none, the error
-        /// shows the name of the standard.
+        /// Its name in the description, which the [`Profile`](crate::modbus::Profile) knows. Where there is none, the
+        /// error shows the name of the standard.
         name: Option<&'static str>,
     },
     /// The byte count is not what the request asked for.
@@ -173,6 +164,34 @@ pub enum ReplyError {
         /// Those of the reply.
         received: (u16, u16),
     },
+    /// The device answered a write with another number, or with none.
+    OtherNumber {
+        /// What was written.
+        written: u32,
+        /// What the device answered.
+        answered: Option<u32>,
+    },
+    /// The device did not answer what was asked, or not yet: the same request may be sent again.
+    NoAnswer,
+    /// There are no bytes, or the first is not the start of a telegram.
+    WrongStart,
+    /// The length is not the one that the telegram says or that the link has.
+    WrongLength,
+    /// The check byte is wrong.
+    WrongCheck,
+    /// The answer is about another parameter or index.
+    WrongParameter,
+    /// The drive refused.
+    Refused {
+        /// The error value that says why.
+        error: u16,
+        /// Its name in the description.
+        name: Option<&'static str>,
+    },
+    /// The drive does not let this master change parameters.
+    NoRights,
+    /// The response does not belong to the task.
+    WrongResponse,
 }
 
 impl ReplyError {
@@ -190,7 +209,30 @@ impl ReplyError {
             Self::WrongFunction { .. } => "wrong_function",
             Self::Exception { .. } => "exception",
             Self::BadByteCount { .. } => "bad_byte_count",
-            Self::EchoMismatch { .. } => "echo_mismatch",
+            Self::EchoMismatch { .. } | Self::OtherNumber { .. } => "echo_mismatch",
+            Self::NoAnswer => "no_answer",
+            Self::WrongStart => "wrong_start",
+            Self::WrongLength => "wrong_length",
+            Self::WrongCheck => "wrong_check",
+            Self::WrongParameter => "wrong_parameter",
+            Self::Refused { .. } => "refused",
+            Self::NoRights => "no_rights",
+            Self::WrongResponse => "wrong_response",
+        }
+    }
+
+    /// Whether the line lost a frame or spoiled it, so that trying again may help: the device did not refuse, nor take
+    /// another number. A gateway may say so, too: by an exception 0Ah or 0Bh that the device does not name.
+    #[must_use]
+    pub const fn is_lost(self) -> bool {
+        match self {
+            Self::Exception { code, name } => matches!((code, name), (0x0A | 0x0B, None)),
+            Self::BadFunction
+            | Self::EchoMismatch { .. }
+            | Self::OtherNumber { .. }
+            | Self::Refused { .. }
+            | Self::NoRights => false,
+            _ => true,
         }
     }
 }
@@ -237,6 +279,24 @@ impl fmt::Display for ReplyError {
                     "{written:04X}h was written to {to:04X}h, the reply repeats {repeated:04X}h at {at:04X}h"
                 )
             }
+            Self::OtherNumber { written, answered } => {
+                write!(formatter, "{written} was written, the device answered ")?;
+                match answered {
+                    Some(number) => number.fmt(formatter),
+                    None => formatter.write_str("nothing"),
+                }
+            }
+            Self::NoAnswer => formatter.write_str("the device did not answer what was asked"),
+            Self::WrongStart => formatter.write_str("the telegram does not start as one"),
+            Self::WrongLength => formatter.write_str("the telegram has another length"),
+            Self::WrongCheck => formatter.write_str("the check byte is wrong"),
+            Self::WrongParameter => formatter.write_str("the answer is about another parameter"),
+            Self::Refused { error, name } => {
+                write!(formatter, "the drive refused with error {error}")?;
+                name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
+            }
+            Self::NoRights => formatter.write_str("the drive gives no right to change parameters"),
+            Self::WrongResponse => formatter.write_str("the response is not to the task"),
         }
     }
 }
