@@ -135,12 +135,8 @@ COMMAND: FactTable = (
     SOURCE,
 )
 IDENTIFICATION: FactTable = (
-    Fact(
-        "variant",
-        "The variant that it tells: `axis=value`; null: the device.",
-        TEXT_OR_NULL,
-        BEHAVIOUR,
-        value=lambda identification, _: None if identification.variant is None else str(identification.variant),
+    Fact("variant", "The variant that it tells: `axis=value`; null: the device.", TEXT_OR_NULL, BEHAVIOUR).of(
+        lambda identification, _: None if identification.variant is None else str(identification.variant)
     ),
     Fact("point", "The point to read.", STRING, BEHAVIOUR, refers="point"),
     Fact("raws", "The raw numbers of which it holds one.", list_of(INTEGER), BEHAVIOUR),
@@ -166,12 +162,8 @@ BASE: FactTable = (
     Fact("offset", "What is added to the multiples, or to the start of the block.", INTEGER, WIRE),
     Fact("terms", "The factors of given numbers.", map_of(INTEGER), WIRE, value=lambda base, _: dict(base.terms)),
     Fact("block", "The id of the found block; null: no block.", INTEGER_OR_NULL, WIRE),
-    Fact(
-        "counts",
-        "The factors of what points of the block hold.",
-        map_of(INTEGER),
-        WIRE,
-        value=lambda base, _: {name: factor for name, _, factor in base.counts},
+    Fact("counts", "The factors of what points of the block hold.", map_of(INTEGER), WIRE).of(
+        lambda base, _: {name: factor for name, _, factor in base.counts}
     ),
 )
 _SENDER = Fact(
@@ -192,19 +184,11 @@ MESSAGE: FactTable = (
         BOOLEAN,
         views=(View("adds the unit", WIRE, itemgetter("adds_unit")),),
     ),
-    Fact(
-        "layout",
-        "What each byte holds.",
-        list_of(ref("role"), 0, 8),
-        WIRE,
-        value=lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles],
+    Fact("layout", "What each byte holds.", list_of(ref("role"), 0, 8), WIRE).of(
+        lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles]
     ),
-    Fact(
-        "length",
-        "With signals: the number of bytes; null for a layout of 8.",
-        INTEGER_OR_NULL,
-        WIRE,
-        value=lambda message, _: None if message.roles else message.length,
+    Fact("length", "With signals: the number of bytes; null for a layout of 8.", INTEGER_OR_NULL, WIRE).of(
+        lambda message, _: None if message.roles else message.length
     ),
     Fact("bits", "The bits of its identifier, if they are not those of the bus.", INTEGER_OR_NULL, WIRE),
     Fact("every", "How often it is sent, in milliseconds.", INTEGER_OR_NULL, BEHAVIOUR),
@@ -222,19 +206,11 @@ _FRAME: FactTable = (
     NAME,
     Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, DOCS),
     TITLE,
-    Fact(
-        "bytes",
-        "The bytes as printed, in hexadecimal with spaces.",
-        _HEX,
-        DOCS,
-        value=lambda frame, _: frame.printed.hex(" ").upper(),
+    Fact("bytes", "The bytes as printed, in hexadecimal with spaces.", _HEX, DOCS).of(
+        lambda frame, _: frame.printed.hex(" ").upper()
     ),
-    Fact(
-        "corrected",
-        "The bytes as they should read; those that are printed unless it is misprinted.",
-        _HEX,
-        DOCS,
-        value=lambda frame, _: frame.corrected.hex(" ").upper(),
+    Fact("corrected", "The bytes as they should read; those that are printed unless it is misprinted.", _HEX, DOCS).of(
+        lambda frame, _: frame.corrected.hex(" ").upper()
     ),
     Fact("direction", "`request`, `response` or `cyclic`.", STRING, DOCS),
     Fact("answers", "The request that a response answers.", TEXT_OR_NULL, DOCS, refers="frame"),
@@ -269,9 +245,8 @@ ERRATUM: FactTable = (
         "point",
         "The point it is about; a list for several; null for none.",
         {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]},
-        value=lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
         views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")),),
-    ),
+    ).of(lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None),
     Fact("where", "The place, in words.", STRING, DOCS, value=lambda erratum, _: str(erratum.where)),
     SOURCE,
     Fact("printed", "What is printed.", STRING, _sentence),
@@ -285,19 +260,15 @@ _LIMITS: FactTable = (
     Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, grown),
     Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), BEHAVIOUR),
     Fact("broadcast", "The unit number of a broadcast; null when there is none.", INTEGER_OR_NULL, WIRE),
-    Fact(
-        "most",
-        "The most items in one request, by function number as decimal text.",
-        by_number(COUNT),
-        value=lambda bus, _: {str(code.number): code.most for code in bus.functions if code.most is not None},
+    Fact("most", "The most items in one request, by function number as decimal text.", by_number(COUNT)).of(
+        lambda bus, _: {str(code.number): code.most for code in bus.functions if code.most is not None}
     ),
     Fact(
         "gaps",
         "Address ranges that no request may cross, by space: the first and the last address of each.",
         map_of(list_of(list_of(INTEGER, 2, 2))),
         BEHAVIOUR,
-        value=lambda bus, _: {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
-    ),
+    ).of(lambda bus, _: {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()}),
     Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), BEHAVIOUR),
     Fact("note", "A remark for people; empty without one.", TITLES, DOCS, for_people=True),
 )
@@ -346,22 +317,16 @@ def codes_table(own_family: str) -> FactTable:
         if section not in emitted:
             parts = replace(parts, added=BEHAVIOUR, removed=BEHAVIOUR, renamed=DOCS)
         sections.append(
-            Fact(
-                section,
-                f"{what}, by number as decimal text.",
-                by_number(ref("code")),
-                value=partial(_codes_of, section),
-                table=CODE,
-                views=(parts,),
+            Fact(section, f"{what}, by number as decimal text.", by_number(ref("code")), table=CODE, views=(parts,)).of(
+                partial(_codes_of, section)
             )
         )
     serial = Fact(
         "serial",
         "Codes of serial settings, by setting: what each code means.",
         map_of(map_of(STRING)),
-        value=lambda bus, _: {setting: dict(codes) for setting, codes in bus.serial.items()},
         views=(View("serial", BEHAVIOUR, lambda device: device["codes"]["serial"]),),
-    )
+    ).of(lambda bus, _: {setting: dict(codes) for setting, codes in bus.serial.items()})
     return (*sections, serial)
 
 
@@ -379,9 +344,8 @@ def device_table(own_family: str) -> FactTable:
             "format",
             "The number of this contract.",
             {**INTEGER, "const": FORMAT},
-            value=lambda _device, _: FORMAT,
             derived="it is the number of the contract",
-        ),
+        ).of(lambda _device, _: FORMAT),
         Fact("device", "The id of the device.", STRING, attribute="id"),
         Fact("version", "The version of its description.", STRING),
         Fact("family", "The rules of addressing and framing.", STRING, WIRE),
@@ -398,9 +362,8 @@ def device_table(own_family: str) -> FactTable:
             "variants",
             "The values of each variant axis.",
             map_of(TEXTS),
-            value=lambda device, _: {axis: list(values) for axis, values in device.variants.items()},
             views=(Parts("variant", "variant", _axes, (), (View("values", grown, itemgetter("values")),), added=API),),
-        ),
+        ).of(lambda device, _: {axis: list(values) for axis, values in device.variants.items()}),
         Fact(
             "limits",
             "What the line allows.",

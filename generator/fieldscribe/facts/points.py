@@ -54,10 +54,9 @@ SOURCE = Fact(
     "Where the manual says so.",
     ref("source"),
     DOCS,
-    value=values.source_value,
     for_people=True,
     yaml=("line", "lines", "page", "section"),
-)
+).of(values.source_value)
 
 ERRATA = Fact("errata", "The errata that touch it.", TEXTS, derived="the errata name it")
 
@@ -78,19 +77,14 @@ FLAG: FactTable = (
         "makes it true.",
         by_number(ref("flag_value")),
         table=FLAG_VALUE,
-        value=values.flag_values,
         views=(_by_raw("value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,)),),
-    ),
+    ).of(values.flag_values),
     Fact("enum", "The shared enum that has these names.", TEXT_OR_NULL, API, value=lambda flag, _: flag.enum or None),
 )
 
 SPECIAL: FactTable = (
-    Fact(
-        "raw",
-        "The first and the last raw number; of f32 and f64 the pattern.",
-        list_of(INTEGER, 2, 2),
-        BEHAVIOUR,
-        value=lambda special, _: [special.low, special.high],
+    Fact("raw", "The first and the last raw number; of f32 and f64 the pattern.", list_of(INTEGER, 2, 2), BEHAVIOUR).of(
+        lambda special, _: [special.low, special.high]
     ),
     *FLAG_VALUE,
     Fact("no_value", "Whether it says that there is no value.", BOOLEAN, BEHAVIOUR),
@@ -106,8 +100,7 @@ DIGITS: FactTable = (
         "Names of the numbers that a digit may be, by number as decimal text.",
         by_number(ref("entry")),
         table=ENTRY,
-        value=lambda digits, _: values.entries_of(digits.enum),
-    ),
+    ).of(lambda digits, _: values.entries_of(digits.enum)),
 )
 
 LAYOUT: FactTable = (
@@ -128,14 +121,9 @@ POINT: FactTable = (
     Fact("group", "The group in which the manual presents it.", STRING, API, refers="group").says(
         "Group", text=texts.group_text, column="the group in the description"
     ),
-    Fact(
-        "variant",
-        "The variant in which it is so: `axis=value`.",
-        TEXT_OR_NULL,
-        API,
-        attribute="variant",
-        value=lambda point, _: None if point.variant is None else str(point.variant),
-    ).says("Variant", remark="only {}", column="for which devices the row holds, where they differ"),
+    Fact("variant", "The variant in which it is so: `axis=value`.", TEXT_OR_NULL, API, attribute="variant")
+    .of(lambda point, _: None if point.variant is None else str(point.variant))
+    .says("Variant", remark="only {}", column="for which devices the row holds, where they differ"),
     Fact("record", "The record it belongs to.", TEXT_OR_NULL, DOCS, for_people=True).says(
         "Record", remark="record {}", column="the record that it belongs to"
     ),
@@ -146,9 +134,8 @@ POINT: FactTable = (
         "repeat",
         "The name of the row of the manual that stands for this point and others: one for each set, index or both.",
         TEXT_OR_NULL,
-        value=values.repeat,
         derived="it is a part of the name",
-    ),
+    ).of(values.repeat),
     _always_null("format", "The named format it follows."),
     Fact("space", "The space in which its addresses count: `coil`, `holding`, ...", STRING, WIRE).says(
         column="where the address counts: `coil`, `holding`, `parameter`, `telegram`, ..."
@@ -156,13 +143,8 @@ POINT: FactTable = (
     Fact("telegram", "The telegram that carries it.", TEXT_OR_NULL, WIRE, refers="telegram").says(
         remark="telegram {}", column="in which telegram a word is"
     ),
-    Fact(
-        "direction",
-        "The direction of that telegram.",
-        null_or(DIRECTION),
-        shared="terms",
-        value=lambda point, context: context.directions.get(point.telegram),
-        derived="it is a fact of the telegram",
+    Fact("direction", "The direction of that telegram.", null_or(DIRECTION), derived="it is a fact of the telegram").of(
+        lambda point, context: context.directions.get(point.telegram), shared="terms"
     ),
     Fact(
         "address",
@@ -190,18 +172,18 @@ POINT: FactTable = (
         "The order of the two bytes in each word, if it is not the usual one: `low first`.",
         null_or(one_of("low first")),
         WIRE,
-        shared="shape",
-        value=lambda point, _: "low first" if point.swapped else None,
         yaml=("bytes",),
-    ).says("Order of bytes", text=lambda point, _: "low byte first" if point.swapped else "", remark="{}"),
+    )
+    .of(lambda point, _: "low first" if point.swapped else None, shared="shape")
+    .says("Order of bytes", text=lambda point, _: "low byte first" if point.swapped else "", remark="{}"),
     Fact(
         "coding",
         "How the bits hold the raw number, if not plainly or in two's complement.",
         null_or(one_of("bcd", "sign and magnitude")),
         WIRE,
-        shared="shape",
-        value=lambda point, _: point.coding or None,
-    ).says(
+    )
+    .of(lambda point, _: point.coding or None, shared="shape")
+    .says(
         "Coding",
         text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
         remark="{}",
@@ -222,9 +204,10 @@ POINT: FactTable = (
         "Of a signal of a message: its first bit, as CAN databases count them, and whether the low byte comes first; "
         "its addresses are words of the telegram of the message.",
         null_or(record(("bit", "The bit.", ADDRESS), ("low_first", "Whether the low byte comes first.", BOOLEAN))),
-        value=values.signal,
         views=(View("order of bytes", WIRE, values.byte_order_view, yaml=("bytes",)),),
-    ).says("Bits", text=texts.signal_text, column="the bits of a signal in its message"),
+    )
+    .of(values.signal)
+    .says("Bits", text=texts.signal_text, column="the bits of a signal in its message"),
     Fact(
         "references",
         *_REFERENCES,
@@ -235,17 +218,17 @@ POINT: FactTable = (
         "places",
         "Where it is, by purpose; the first repeats `space` and `address`.",
         list_of(ref("place")),
-        value=values.places,
         derived="it repeats the address; the functions follow from type and access",
-    ),
+    ).of(values.places),
     Fact(
         "written",
         "Where it is written, if that is not where it is read.",
         null_or(record(("addresses", "As the point's own.", list_of(ADDRESS)), ("references", *_REFERENCES))),
         attribute="write_place",
-        value=lambda point, _: None if point.write_place is None else values.place(point.write_place),
         views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
-    ).says(
+    )
+    .of(lambda point, _: None if point.write_place is None else values.place(point.write_place))
+    .says(
         "Written at",
         text=lambda point, _: wording.write_place_text(point) if point.addresses else "",
         remark="written at {}",
@@ -255,9 +238,9 @@ POINT: FactTable = (
         "The type on the wire; null where the manual does not settle it.",
         null_or({"type": "string", "pattern": TYPE_PATTERN}),
         values.type_class,
-        shared="shape and terms",
-        value=lambda point, _: point.shape.wire_type if point.untyped is None else None,
-    ).says("Type", text=texts.type_text, column="the wire type; empty where the manual does not settle it"),
+    )
+    .of(lambda point, _: point.shape.wire_type if point.untyped is None else None, shared="shape and terms")
+    .says("Type", text=texts.type_text, column="the wire type; empty where the manual does not settle it"),
     Fact(
         "untyped",
         "What the manual says in place of a type: empty if it leaves the type open.",
@@ -292,10 +275,10 @@ POINT: FactTable = (
         "Cases of raw = value * num / den + offset; null where raw is the value.",
         null_or(list_of(ref("scale_case"), 1)),
         WIRE,
-        shared="shape",
-        value=lambda point, context: values.scale_of(point, context.by_name),
         refers="point",
-    ).says(rows=texts.scale_rows),
+    )
+    .of(lambda point, context: values.scale_of(point, context.by_name), shared="shape")
+    .says(rows=texts.scale_rows),
     Fact("bits", "Its bits in a shared word; null when it has its words to itself.", null_or(ref("bits")), WIRE).says(
         text=lambda point, _: wording.shared_text(point), remark="{}"
     ),
@@ -305,9 +288,12 @@ POINT: FactTable = (
         "when there are none.",
         {**map_of(ADDRESS), "propertyNames": {"enum": ["mask", "bits"]}},
         WIRE,
+    )
+    .of(
+        lambda point, _: {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         shared="shape",
-        value=lambda point, _: {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
-    ).says("Fixed bits", text=lambda point, _: wording.fixed_text(point), remark="{}"),
+    )
+    .says("Fixed bits", text=lambda point, _: wording.fixed_text(point), remark="{}"),
     Fact(
         "special",
         "Special codes: raw numbers that are no quantity, and what they mean.",
@@ -328,10 +314,10 @@ POINT: FactTable = (
         "Which raw steps the device keeps, from which raw number on; null for every number.",
         null_or(list_of(record(("from", "The first raw number.", INTEGER), ("step", "The step in raw.", INTEGER)))),
         BEHAVIOUR,
-        shared="terms",
-        value=lambda point, _: [{"from": start, "step": step} for start, step in point.steps] or None,
         yaml=("steps",),
-    ).says("Steps", text=lambda point, _: wording.steps_text(point), remark="steps: {}"),
+    )
+    .of(lambda point, _: [{"from": start, "step": step} for start, step in point.steps] or None, shared="terms")
+    .says("Steps", text=lambda point, _: wording.steps_text(point), remark="steps: {}"),
     Fact(
         "display",
         "How a person should see the value; null where nothing says it.",
@@ -345,18 +331,18 @@ POINT: FactTable = (
             )
         ),
         BEHAVIOUR,
-        shared="shape",
-        value=lambda point, _: None if point.display is None else {"decimals": point.display},
-    ).says("Shown with", text=lambda point, _: wording.decimals_text(point), remark="shown with {}"),
+    )
+    .of(lambda point, _: None if point.display is None else {"decimals": point.display}, shared="shape")
+    .says("Shown with", text=lambda point, _: wording.decimals_text(point), remark="shown with {}"),
     Fact(
         "epoch",
         "The date from which the value counts seconds; null if it is no time.",
         TEXT_OR_NULL,
         BEHAVIOUR,
-        shared="shape",
-        value=lambda point, _: point.epoch or None,
         yaml=("notation",),
-    ).says("Time", text=lambda point, _: wording.epoch_text(point), remark="{}"),
+    )
+    .of(lambda point, _: point.epoch or None, shared="shape")
+    .says("Time", text=lambda point, _: wording.epoch_text(point), remark="{}"),
     Fact(
         "decimals",
         "k of the integer path, which counts 10^-k units; null where the point has none.",
@@ -379,64 +365,58 @@ POINT: FactTable = (
             ),
             ("values", "The same as single numbers where the manual lists them; else null.", null_or(list_of(INTEGER))),
         ),
-        shared="limits",
-        value=values.raw,
         views=(
             View("range", BEHAVIOUR, values.range_view, refers="point", yaml=("range", "range_in_units", "enum")),
             View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type"), yaml=("range",)),
         ),
-    ).says(rows=texts.range_rows),
+    )
+    .of(values.raw, shared="limits")
+    .says(rows=texts.range_rows),
     Fact(
         "default",
         "The default as raw number; for f32 and f64 the value as text; null when unknown or when other points decide.",
         {"anyOf": [INTEGER, ref("number_text"), {"type": "null"}]},
         BEHAVIOUR,
         attribute="default_raw",
-        value=values.default_raw,
         yaml=("default", "default_in_units"),
-    ).says("Default", text=lambda point, _: wording.default_text(point)),
+    )
+    .of(values.default_raw)
+    .says("Default", text=lambda point, _: wording.default_text(point)),
     Fact(
         "default_value",
         "The default in the unit, where other points decide about its raw number.",
         null_or(ref("number_text")),
         attribute="default",
-        value=values.default_value,
         published=False,
-    ),
+    ).of(values.default_value),
     Fact(
         "enum",
         "Names of raw numbers, by number as decimal text.",
         null_or(by_number(ref("entry"))),
-        shared="shape",
         table=ENTRY,
-        value=lambda point, _: None if point.enum is None else values.entries_of(point.enum),
         views=(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)),),
-    ).says(rows=texts.enum_rows),
+    )
+    .of(lambda point, _: None if point.enum is None else values.entries_of(point.enum), shared="shape")
+    .says(rows=texts.enum_rows),
     Fact(
         "enum_name",
         "The name of the enum, also of that of `digits`: generated code calls its type so.",
         TEXT_OR_NULL,
-        shared="shape",
-        value=lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name,
         views=(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)),),
-    ),
+    ).of(lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name, shared="shape"),
     Fact(
         "enum_was",
         "The names that the enum had when its point had its old ones: generated code keeps them, too.",
         TEXTS,
-        shared="shape",
-        value=lambda point, _: [] if (enum := values.enum_of(point)) is None else list(enum.was),
         derived="it follows from the old names",
-    ),
+    ).of(lambda point, _: [] if (enum := values.enum_of(point)) is None else list(enum.was), shared="shape"),
     Fact(
         "open",
         "True when numbers without a name are possible beside those of `enum`.",
         BOOLEAN,
         BEHAVIOUR,
-        shared="shape",
-        value=lambda point, _: point.enum is not None and not point.enum.closed,
         follows=("enum as a whole",),
-    ),
+    ).of(lambda point, _: point.enum is not None and not point.enum.closed, shared="shape"),
     Fact(
         "flags",
         "Named bits of the word.",
@@ -456,23 +436,19 @@ POINT: FactTable = (
         "The encoding of a text, or the notation of bytes.",
         TEXT_OR_NULL,
         WIRE,
-        shared="shape",
-        value=lambda point, _: None if point.text is None else point.text.encoding,
         follows=("type",),
         yaml=("encoding", "notation"),
-    ),
+    ).of(lambda point, _: None if point.text is None else point.text.encoding, shared="shape"),
     Fact(
         "layout",
         "How the characters of a text stand in words; null if each word has two, the first in the high byte, and "
         "blanks fill the text up.",
         null_or(ref("layout")),
         WIRE,
-        shared="shape",
         table=LAYOUT,
-        value=lambda point, _: None if point.text is None or point.text.is_plain else point.text,
         follows=("type",),
         yaml=("characters", "per_word", "padding", "bytes"),
-    ),
+    ).of(lambda point, _: None if point.text is None or point.text.is_plain else point.text, shared="shape"),
     Fact(
         "persistence",
         "Whether a written value is kept: `no`, `yes`, the command that keeps it, or `choice` (as the function that "
@@ -508,15 +484,9 @@ POINT: FactTable = (
         refers="point",
         follows=("access",),
     ).says("Write together with", remark="write it in one request with {}"),
-    Fact(
-        "when",
-        "The condition under which it exists.",
-        null_or(ref("condition")),
-        BEHAVIOUR,
-        shared="terms",
-        value=lambda point, _: None if point.when is None else values.condition(point.when),
-        refers="point",
-    ).says(
+    Fact("when", "The condition under which it exists.", null_or(ref("condition")), BEHAVIOUR, refers="point")
+    .of(lambda point, _: None if point.when is None else values.condition(point.when), shared="terms")
+    .says(
         "Exists when",
         text=lambda point, context: wording.condition_text(point.when, context.points),
         remark="exists when {}",

@@ -25,20 +25,14 @@ STEP: FactTable = (
     Fact("space", "The space of its address.", schema.STRING),
     Fact("address", "The address of the first word on the wire, or behind its base.", schema.ADDRESS),
     Fact("base", "What the address counts from, by name; null: it counts from 0.", schema.TEXT_OR_NULL),
-    Fact(
-        "words",
-        "Its words: constant + factor * argument, modulo 65536.",
-        schema.list_of(_WORD, 1),
-        value=lambda step, _: list(map(asdict, step.words)),
+    Fact("words", "Its words: constant + factor * argument, modulo 65536.", schema.list_of(_WORD, 1)).of(
+        lambda step, _: list(map(asdict, step.words))
     ),
     Fact("read", _READ, schema.INTEGER_OR_NULL),
     Fact("write", "The function that writes the words; null for a step that waits.", schema.INTEGER_OR_NULL),
     Fact("within", "The longest time to wait, in milliseconds; null for a step that writes.", schema.INTEGER_OR_NULL),
-    Fact(
-        "when",
-        "The condition under which the step is taken.",
-        schema.null_or(schema.ref("condition")),
-        value=lambda step, _: step.when and condition(step.when),
+    Fact("when", "The condition under which the step is taken.", schema.null_or(schema.ref("condition"))).of(
+        lambda step, _: step.when and condition(step.when)
     ),
     Fact("says", "What it writes or waits for, as the author wrote it.", schema.STRING),
 )
@@ -46,12 +40,8 @@ STEPPED_COMMAND: FactTable = (
     *(NAME, TITLE, NOTE),
     Fact("run", _RUN, schema.one_of("first", "before write", "every", "by caller"), BEHAVIOUR),
     Fact("every", "The milliseconds until it is due again; null if it is not.", schema.INTEGER_OR_NULL, BEHAVIOUR),
-    Fact(
-        "arguments",
-        _ENDS,
-        schema.map_of(schema.list_of(schema.INTEGER, 2, 2)),
-        API,
-        value=lambda command, _: {name: list(ends) for name, ends in command.arguments.items()},
+    Fact("arguments", _ENDS, schema.map_of(schema.list_of(schema.INTEGER, 2, 2)), API).of(
+        lambda command, _: {name: list(ends) for name, ends in command.arguments.items()}
     ),
     Fact("steps", "Its requests in order.", schema.list_of(schema.ref("step"), 1), WIRE, table=STEP),
     SOURCE,

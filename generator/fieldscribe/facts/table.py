@@ -135,6 +135,13 @@ class Fact:
     remark: str = ""
     column: str = ""
 
+    def of(self, value: Callable[[Any, Context], Any], shared: str = "") -> Fact:
+        """Return the fact with the function that gives its value of a thing and its context.
+
+        `shared` names what alone decides the value of a point: its `shape`, its `terms` or its `limits`.
+        """
+        return replace(self, value=value, shared=shared)
+
     def says(self, label: str = "", **said: Any) -> Fact:
         """Return the fact with what is said of it to people.
 
