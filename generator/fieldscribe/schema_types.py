@@ -118,7 +118,7 @@ class Places:
 
 
 class Key:
-    """One key: its name, the places where it may stand, and the shape of its value.
+    """One key: its name, the places where it may stand, and the shape of its value, or its meaning: see `takes`.
 
     `required` are the places that must have it; `needs` are the keys that must stand beside it. A key of the `identity`
     tells a point from others, so further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS,
@@ -130,15 +130,14 @@ class Key:
         name: str,
         places: Place | tuple[Place, ...] | Places,
         meaning: str | Shape,
-        examples: Sequence[Any] = (),
-        *kinds: Kind,
+        *,
         required: bool | tuple[Place, ...] = (),
         needs: tuple[str, ...] = (),
         identity: bool = False,
         of: str = "",
     ) -> None:
         self.name = name
-        self.shape = meaning if isinstance(meaning, Shape) else Shape(meaning, examples, *kinds)
+        self.shape = meaning if isinstance(meaning, Shape) else Shape(meaning, ())
         if isinstance(places, Place):
             places = (places,)
         if isinstance(places, tuple):
@@ -146,6 +145,11 @@ class Key:
         self.places, self.inherited = places.all, places.inherited
         self.required = required if isinstance(required, tuple) else self.places if required else ()
         self.needs, self.identity, self.of = needs, identity, of
+
+    def takes(self, examples: Sequence[Any], *kinds: Kind) -> Key:
+        """Set which values the key takes: examples, the best one first, and the kinds that they are of."""
+        self.shape = Shape(self.shape.meaning, examples, *kinds)
+        return self
 
 
 WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.schema_types import Key, Whole
 
-KEYS = (Key("strikes", BUS, "How often a bell may be struck in a minute.", [60], Whole(0, 10_000)),)
+KEYS = (Key("strikes", BUS, "How often a bell may be struck in a minute.").takes([60], Whole(0, 10_000)),)
 
 SERVES = "bells"
 DEVICE = """\

@@ -13,58 +13,45 @@ from fieldscribe.schema_types import Key, Shape, Text, Whole, by
 _BITS = Whole(choices=(11, 29))
 
 KEYS = (
-    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], _BITS),
+    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.").takes([11], _BITS),
     Key(
         "direction",
         MESSAGE,
         "Who sends it: the master (request), the device when asked (response), the device by itself (cyclic).",
-        ["request"],
-        DIRECTION,
         required=True,
-    ),
-    Key("answers", MESSAGE, "The message that this one answers.", ["read_request"], NAMED),
-    Key(
-        "can_id",
-        MESSAGE,
-        "The identifier: a number, or a number `+ unit`.",
-        ["33Fh", "320h + unit"],
-        Whole(),
-        Text(80),
+    ).takes(["request"], DIRECTION),
+    Key("answers", MESSAGE, "The message that this one answers.").takes(["read_request"], NAMED),
+    Key("can_id", MESSAGE, "The identifier: a number, or a number `+ unit`.").takes(
+        ["33Fh", "320h + unit"], Whole(), Text(80)
     ),
     Key(
         "layout",
         MESSAGE,
         "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `telegram`, or "
         "`xor 0..5`, the high byte first. Without it the message holds signals.",
+    ).takes(
         [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
         by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
     ),
-    Key(
-        "length", MESSAGE, "With signals: the number of bytes; 8 by default, more take CAN FD.", [8], Whole(0, LONGEST)
+    Key("length", MESSAGE, "With signals: the number of bytes; 8 by default, more take CAN FD.").takes(
+        [8], Whole(0, LONGEST)
     ),
-    Key("identifier_bits", MESSAGE, "The bits of the identifier if they are not those of the bus.", [29], _BITS),
-    Key("every", MESSAGE, "How often it is sent.", ["100 ms"], Text(40)),
-    Key("pgn", MESSAGE, "J1939: the parameter group, in place of `can_id`.", [61444, "0F004h"], Whole(), Text(40)),
-    Key("priority", MESSAGE, "J1939: the priority; 6 by default.", [3], Whole(0, 7), needs=("pgn",)),
-    Key(
-        "source_address",
-        MESSAGE,
-        "J1939: who sends it: a number, or `unit`; 0 by default.",
-        ["unit", 0],
-        Whole(0, 255),
-        Text(40),
-        needs=("pgn",),
+    Key("identifier_bits", MESSAGE, "The bits of the identifier if they are not those of the bus.").takes([29], _BITS),
+    Key("every", MESSAGE, "How often it is sent.").takes(["100 ms"], Text(40)),
+    Key("pgn", MESSAGE, "J1939: the parameter group, in place of `can_id`.").takes(
+        [61444, "0F004h"], Whole(), Text(40)
+    ),
+    Key("priority", MESSAGE, "J1939: the priority; 6 by default.", needs=("pgn",)).takes([3], Whole(0, 7)),
+    Key("source_address", MESSAGE, "J1939: who sends it: a number, or `unit`; 0 by default.", needs=("pgn",)).takes(
+        ["unit", 0], Whole(0, 255), Text(40)
     ),
     Key(
-        "destination",
-        MESSAGE,
-        "J1939: who receives it, for groups below 0F000h; all by default.",
-        [3],
-        Whole(0, 255),
-        needs=("pgn",),
+        "destination", MESSAGE, "J1939: who receives it, for groups below 0F000h; all by default.", needs=("pgn",)
+    ).takes([3], Whole(0, 255)),
+    Key("message", places.GROUP, "In the space `signal`: the message whose signals are the points.").takes(
+        ["engine"], NAMED
     ),
-    Key("message", places.GROUP, "In the space `signal`: the message whose signals are the points.", ["engine"], NAMED),
-    Key("can_id", FRAME, "CAN: the identifier of the frame.", ["33Fh"], Whole(), Text(40)),
+    Key("can_id", FRAME, "CAN: the identifier of the frame.").takes(["33Fh"], Whole(), Text(40)),
 )
 
 

@@ -9,14 +9,10 @@ from fieldscribe.language.keys.places import BUS
 from fieldscribe.schema_types import Items, Key, Shape, one_of
 
 KEYS = (
-    Key(
-        "framings",
-        BUS,
-        "The framings the device speaks (modbus).",
-        [["rtu"]],
-        Items(Shape("One framing.", ["rtu"], one_of(*FAMILY.framings)), 1),
+    Key("framings", BUS, "The framings the device speaks (modbus).").takes(
+        [["rtu"]], Items(Shape("One framing.", ["rtu"], one_of(*FAMILY.framings)), 1)
     ),
-    Key("pad_coil_bytes", BUS, "Function 0Fh carries an even number of data bytes.", ["even"], one_of("even")),
+    Key("pad_coil_bytes", BUS, "Function 0Fh carries an even number of data bytes.").takes(["even"], one_of("even")),
 )
 
 

@@ -11,28 +11,16 @@ from fieldscribe.schema_types import Items, Key, Shape, Text, Whole
 PKW = Whole(choices=(0, 3, 4, 127))
 
 KEYS = (
-    Key(
-        "pkw",
-        BUS,
-        "USS: the lengths in words that the parameter part can have; 127 is variable.",
-        [[0, 3, 4, 127]],
-        Items(Shape("A length.", [4], PKW), 1),
+    Key("pkw", BUS, "USS: the lengths in words that the parameter part can have; 127 is variable.").takes(
+        [[0, 3, 4, 127]], Items(Shape("A length.", [4], PKW), 1)
     ),
-    Key("pzd", BUS, "USS: how many words of process data there may be.", ["0..8"], Text(40), Whole()),
-    Key(
-        "responses",
-        BUS,
-        "USS: the response ids with the tasks that they answer.",
-        [{"1": {"name": "value", "answers": [1, 2, 14]}}],
-        CODES,
+    Key("pzd", BUS, "USS: how many words of process data there may be.").takes(["0..8"], Text(40), Whole()),
+    Key("responses", BUS, "USS: the response ids with the tasks that they answer.").takes(
+        [{"1": {"name": "value", "answers": [1, 2, 14]}}], CODES
     ),
     Key(
-        "pkw",
-        FRAME,
-        "USS: the length of the parameter part that the link is set to; 127 (variable) unless said.",
-        [4],
-        PKW,
-    ),
+        "pkw", FRAME, "USS: the length of the parameter part that the link is set to; 127 (variable) unless said."
+    ).takes([4], PKW),
 )
 
 

@@ -24,139 +24,80 @@ _VALUE = Place(
 )
 
 HEADS = (
-    Key("fieldscribe", DEVICE, "The version of the language.", [1], Whole(choices=(1,)), required=True),
+    Key("fieldscribe", DEVICE, "The version of the language.", required=True).takes([1], Whole(choices=(1,))),
     Key(
         "device",
         DEVICE,
         "The device's name in snake_case: the folder's name, and the prefix of all generated names.",
-        ["hitachi_l200"],
-        A_NAME,
         required=True,
+    ).takes(["hitachi_l200"], A_NAME),
+    Key("version", DEVICE, "The version of this description; quote it if it looks like a number.", required=True).takes(
+        ["1.0.0"], Text(form=forms.VERSION)
     ),
-    Key(
-        "version",
-        DEVICE,
-        "The version of this description; quote it if it looks like a number.",
-        ["1.0.0"],
-        Text(form=forms.VERSION),
-        required=True,
+    Key("vendor", DEVICE, "The maker of the device.", required=True).takes(["Hitachi"], Text(200)),
+    Key("model", DEVICE, "The name of the product; quote it if it looks like a number.", required=True).takes(
+        ["L200"], Text(200)
     ),
-    Key("vendor", DEVICE, "The maker of the device.", ["Hitachi"], Text(200), required=True),
-    Key(
-        "model",
-        DEVICE,
-        "The name of the product; quote it if it looks like a number.",
-        ["L200"],
-        Text(200),
-        required=True,
-    ),
-    Key(
-        "family",
-        DEVICE,
-        "The rules of addressing and framing that the device follows.",
-        ["modbus"],
-        one_of(*FAMILIES),
-        required=True,
+    Key("family", DEVICE, "The rules of addressing and framing that the device follows.", required=True).takes(
+        ["modbus"], one_of(*FAMILIES)
     ),
     Key(
         "identify",
         (DEVICE, _VALUE),
         "What tells this device, or this variant, from others: points by code or name, in the order of reading, each "
         "with its raw number, name or text, or a list of them.",
+    ).takes(
         [{"signature": "MAP12E", "hardware": [3, 4]}],
         by(forms.ANY, Shape("What the point holds.", ["MAP12E", 3], Whole(), Text(250), Items(_HELD, 1)), least=1),
     ),
     Key(
-        "given",
-        DEVICE,
-        "Numbers that a client is given when it opens a device, by name; a `base` may count with them.",
-        [{"slot": {"range": "1..15"}}],
-        by(forms.NAME, _GIVEN.shape, least=1),
-    ),
-    Key("range", _GIVEN, "What the number can be.", ["1..15"], Text(40), required=True),
+        "given", DEVICE, "Numbers that a client is given when it opens a device, by name; a `base` may count with them."
+    ).takes([{"slot": {"range": "1..15"}}], by(forms.NAME, _GIVEN.shape, least=1)),
+    Key("range", _GIVEN, "What the number can be.", required=True).takes(["1..15"], Text(40)),
     Key(
         "found",
         DEVICE,
         "A chain of blocks that a client searches for, by its name. Each block starts with its id and its length.",
+    ).takes(
         [{"models": {"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}}],
         by(forms.NAME, _FOUND.shape, least=1),
     ),
-    Key(
-        "text", _FOUND, "What stands before the first block, two characters a word.", ["SunS"], Text(16), required=True
+    Key("text", _FOUND, "What stands before the first block, two characters a word.", required=True).takes(
+        ["SunS"], Text(16)
+    ),
+    Key("at", _FOUND, "The addresses where it may stand, in the order of the search.", required=True).takes(
+        [[40000, 0, 50000]], Items(Shape("An address.", [40000], Whole(), Text(40)), 1)
     ),
     Key(
-        "at",
-        _FOUND,
-        "The addresses where it may stand, in the order of the search.",
-        [[40000, 0, 50000]],
-        Items(Shape("An address.", [40000], Whole(), Text(40)), 1),
-        required=True,
-    ),
-    Key(
-        "then",
-        _FOUND,
-        "The words that each block starts with. The length counts the words behind them.",
-        [["id", "length"]],
-        Items(Shape("A word.", ["id"], one_of("id", "length")), 2),
-        required=True,
-    ),
-    Key("space", _FOUND, "The space of the blocks; `holding` unless it is another.", ["input"], Text(40)),
-    Key(
-        "end",
-        _FOUND,
-        "What stands in place of an id behind the last block; FFFFh unless it is another.",
-        ["FFFFh"],
-        Whole(0, 65535),
-        Text(40),
+        "then", _FOUND, "The words that each block starts with. The length counts the words behind them.", required=True
+    ).takes([["id", "length"]], Items(Shape("A word.", ["id"], one_of("id", "length")), 2)),
+    Key("space", _FOUND, "The space of the blocks; `holding` unless it is another.").takes(["input"], Text(40)),
+    Key("end", _FOUND, "What stands in place of an id behind the last block; FFFFh unless it is another.").takes(
+        ["FFFFh"], Whole(0, 65535), Text(40)
     ),
     Key("group", GROUP, NAME, required=True),
-    Key(
-        "points",
-        (GROUP, places.RECORD),
-        "The points in the manual's order.",
-        [[{"name": "base_frequency", "at": "1028h"}]],
-        Items(places.POINT.shape),
-        required=True,
+    Key("points", (GROUP, places.RECORD), "The points in the manual's order.", required=True).takes(
+        [[{"name": "base_frequency", "at": "1028h"}]], Items(places.POINT.shape)
+    ),
+    Key("space", Places(GROUP, inherited=(GROUP,)), "The address space of the group's points.", required=True).takes(
+        ["holding"], Text(40)
+    ),
+    Key("telegram", GROUP, "In the space `telegram`: the telegram whose words are the points.").takes(
+        ["visualisation"], NAMED
     ),
     Key(
-        "space",
-        Places(GROUP, inherited=(GROUP,)),
-        "The address space of the group's points.",
-        ["holding"],
-        Text(40),
-        required=True,
-    ),
-    Key(
-        "telegram", GROUP, "In the space `telegram`: the telegram whose words are the points.", ["visualisation"], NAMED
-    ),
-    Key(
-        "addressing",
-        GROUP,
-        "The formula of an address: of `number` (what `at` says), index, set, sets and indices.",
-        ["number * 64 + (index - 1) * sets + (set - 1)"],
-        Text(200),
-    ),
+        "addressing", GROUP, "The formula of an address: of `number` (what `at` says), index, set, sets and indices."
+    ).takes(["number * 64 + (index - 1) * sets + (set - 1)"], Text(200)),
     Key(
         "base",
         GROUP,
         "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it. "
         "With a `block`: how many words behind its start, by the points of the block that count.",
-        ["slot * 1000"],
-        Whole(),
-        Text(200),
+    ).takes(["slot * 1000"], Whole(), Text(200)),
+    Key("block", GROUP, "The found block that the addresses count from, by its id: its first word is 0.").takes(
+        [103], Whole(0, 65535), Text(40)
     ),
-    Key(
-        "block",
-        GROUP,
-        "The found block that the addresses count from, by its id: its first word is 0.",
-        [103],
-        Whole(0, 65535),
-        Text(40),
-    ),
-    Key(
-        "numbering",
-        GROUP,
-        "How the printed numbers follow from the address on the wire.",
+    Key("numbering", GROUP, "How the printed numbers follow from the address on the wire.").takes(
         [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
         by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
     ),
@@ -167,89 +108,55 @@ HEADS = (
 
 def _listed(name: str, item: Place, meaning: str) -> Key:
     """Return the key of a list of such items in a file."""
-    return Key(name, FILES, meaning, [item.shape.examples], Items(item.shape))
+    return Key(name, FILES, meaning).takes([item.shape.examples], Items(item.shape))
 
 
 _WORD = Shape("A word.", ["Parameter"], Text(200))
 
 SECTIONS = (
-    Key(
-        "documents",
-        DEVICE,
-        "The manuals that the facts are taken from.",
+    Key("documents", DEVICE, "The manuals that the facts are taken from.", required=True).takes(
         [{"manual": {"title": "ModBus Netzwerk Kommunikation", "language": "de"}}],
         by(forms.NAME, _DOCUMENT.shape, least=1),
-        required=True,
     ),
-    Key("title", _DOCUMENT, "Its title.", ["ModBus Netzwerk Kommunikation"], Text(300), required=True),
-    Key("language", _DOCUMENT, "Its language, in two letters.", ["de"], Text(form=forms.LANGUAGE), required=True),
-    Key("file", _DOCUMENT, "The file that its text was extracted to.", ["hitachi_l200_modbus.txt"], Text(200)),
-    Key(
-        "sha256",
-        _DOCUMENT,
-        "The checksum of that file.",
-        ["d36f991273b448ca6194f1f650c71ce801bb1611e731db2e4a367a2e9977df55"],
-        Text(form=forms.SHA256),
+    Key("title", _DOCUMENT, "Its title.", required=True).takes(["ModBus Netzwerk Kommunikation"], Text(300)),
+    Key("language", _DOCUMENT, "Its language, in two letters.", required=True).takes(["de"], Text(form=forms.LANGUAGE)),
+    Key("file", _DOCUMENT, "The file that its text was extracted to.").takes(["hitachi_l200_modbus.txt"], Text(200)),
+    Key("sha256", _DOCUMENT, "The checksum of that file.").takes(
+        ["d36f991273b448ca6194f1f650c71ce801bb1611e731db2e4a367a2e9977df55"], Text(form=forms.SHA256)
     ),
-    Key("edition", _DOCUMENT, "Its edition or date.", ["2003-11"], Text(80)),
+    Key("edition", _DOCUMENT, "Its edition or date.").takes(["2003-11"], Text(80)),
     Key(
         "writes",
         _DOCUMENT,
         "For the audit: how the manual writes what a description writes otherwise (letters of codes, bits, numbers, "
         "titles, the `default`). An empty list: it does not print the title.",
+    ).takes(
         [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"], "Basisfrequenz": ["Basisfrequ."], "Ausgang 2": []}],
         by(forms.WRITTEN, Shape("Its words.", [["Parameter"]], Items(_WORD))),
     ),
-    Key(
-        "access",
-        _DOCUMENT,
-        "For the audit: how the manual prints each access.",
+    Key("access", _DOCUMENT, "For the audit: how the manual prints each access.").takes(
         [{"r": ["R/O"], "rw": ["R/W"]}],
         by(forms.ACCESS, Shape("Its notations.", [["R/W"]], Items(Shape("A notation.", ["R/W"], Text(20)), least=1))),
     ),
-    Key(
-        "names",
-        _DOCUMENT,
-        "For the audit: names with digits in them that are no facts.",
-        [["CRC-16", "RS485", "MICROMASTER 4"]],
-        Items(Shape("A name.", ["CRC-16"], Text(80))),
+    Key("names", _DOCUMENT, "For the audit: names with digits in them that are no facts.").takes(
+        [["CRC-16", "RS485", "MICROMASTER 4"]], Items(Shape("A name.", ["CRC-16"], Text(80)))
     ),
-    Key(
-        "variants",
-        DEVICE,
-        "What is chosen when a device object is made, by axis.",
-        [{"voltage": {"values": {"200V": {}, "400V": {}}}}],
-        by(forms.NAME, _AXIS.shape),
+    Key("variants", DEVICE, "What is chosen when a device object is made, by axis.").takes(
+        [{"voltage": {"values": {"200V": {}, "400V": {}}}}], by(forms.NAME, _AXIS.shape)
     ),
     Key("title", (_AXIS, _VALUE, _GIVEN, _FOUND), TITLE),
-    Key(
-        "values",
-        _AXIS,
-        "The values, by name.",
-        [{"200V": {"title": "200 V class"}}],
-        by(forms.VARIANT_VALUE, _VALUE.shape, least=1),
-        required=True,
+    Key("values", _AXIS, "The values, by name.", required=True).takes(
+        [{"200V": {"title": "200 V class"}}], by(forms.VARIANT_VALUE, _VALUE.shape, least=1)
     ),
-    Key(
-        "parts",
-        DEVICE,
-        "The other files of the folder, in reading order.",
-        [["bus.yaml", "standard_a.yaml"]],
-        Items(Shape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1),
+    Key("parts", DEVICE, "The other files of the folder, in reading order.").takes(
+        [["bus.yaml", "standard_a.yaml"]], Items(Shape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1)
     ),
-    Key(
-        "units",
-        FILES,
-        "Units that are not shipped with the compiler, by symbol.",
-        [{"rpm": {"name": "revolution per minute", "quantity": "speed"}}],
-        by(forms.ANY, _UNIT.shape),
+    Key("units", FILES, "Units that are not shipped with the compiler, by symbol.").takes(
+        [{"rpm": {"name": "revolution per minute", "quantity": "speed"}}], by(forms.ANY, _UNIT.shape)
     ),
-    Key("name", _UNIT, "Its English name.", ["hertz"], Text(80), required=True),
-    Key("quantity", _UNIT, "What it measures.", ["frequency"], Text(80), required=True),
-    Key(
-        "enums",
-        FILES,
-        "Enums that several points share, by name.",
+    Key("name", _UNIT, "Its English name.", required=True).takes(["hertz"], Text(80)),
+    Key("quantity", _UNIT, "What it measures.", required=True).takes(["frequency"], Text(80)),
+    Key("enums", FILES, "Enums that several points share, by name.").takes(
         [{"contact": {"0": "open", "1": "closed"}}],
         by(
             forms.NAME,
@@ -260,19 +167,11 @@ SECTIONS = (
             ),
         ),
     ),
-    Key(
-        "formats",
-        FILES,
-        "Meanings that points share, by name.",
-        [{"percent_tenth": {"unit": "%"}}],
-        by(forms.NAME, places.FORMAT.shape),
+    Key("formats", FILES, "Meanings that points share, by name.").takes(
+        [{"percent_tenth": {"unit": "%"}}], by(forms.NAME, places.FORMAT.shape)
     ),
-    Key(
-        "records",
-        FILES,
-        "Groups of points that repeat together, by name.",
-        [{"trip": {"points": [{"name": "error", "at": "base"}]}}],
-        by(forms.NAME, places.RECORD.shape),
+    Key("records", FILES, "Groups of points that repeat together, by name.").takes(
+        [{"trip": {"points": [{"name": "error", "at": "base"}]}}], by(forms.NAME, places.RECORD.shape)
     ),
     Key("bus", FILES, places.BUS.shape),
     _listed("telegrams", places.TELEGRAM, "The cyclic telegrams: layouts of words."),

@@ -13,220 +13,156 @@ _CITING = Places(*POINTS, USE, *CITED, places.ERRATUM, places.SOURCE, inherited=
 
 WHICH = (
     Key("name", (POINT, USE, *_NAMED), NAME, required=True, identity=True),
-    Key(
-        "code",
-        Places(*POINTS, USE, inherited=(USE,)),
-        "The manual's own short name.",
-        ["A020"],
-        Text(40),
-        identity=True,
+    Key("code", Places(*POINTS, USE, inherited=(USE,)), "The manual's own short name.", identity=True).takes(
+        ["A020"], Text(40)
     ),
-    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", ["trip"], NAMED, identity=True),
+    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", identity=True).takes(
+        ["trip"], NAMED
+    ),
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
         "The address on the wire. For a text: its words in reading order (`739..732`); of words that are not "
         "neighbours: all, the high part first. In a record: counted from `base`. In a group with `addressing`: the "
         "`number` of its rule. ~ if the manual prints none.",
-        ["1028h", 4136, "739..732", "base + 6", [604, 700]],
-        Whole(),
-        Text(200),
-        Items(PRINTED_NUMBER, 1),
-        NOTHING,
         identity=True,
-    ),
+    ).takes(["1028h", 4136, "739..732", "base + 6", [604, 700]], Whole(), Text(200), Items(PRINTED_NUMBER, 1), NOTHING),
     Key(
         "write_at",
         (POINT, SET, VARIANT, MEMBER),
         "The address for writing, if it differs from `at`; it is counted as `at` is. ~ for a set, a variant or a "
         "member that is written where it is read.",
-        ["2028h", 8232, "base + 106"],
-        Whole(),
-        Text(200),
-        NOTHING,
-    ),
+    ).takes(["2028h", 8232, "base + 106"], Whole(), Text(200), NOTHING),
     Key(
         "members",
         (POINT, USE),
         "What differs for single members of the record here, by their names.",
-        [{"error": {"line": 701}}],
-        by(forms.NAME, MEMBER.shape),
         needs=("record",),
         identity=True,
+    ).takes([{"error": {"line": 701}}], by(forms.NAME, MEMBER.shape)),
+    Key("bits", POINT, "The bits of the word that belong to this point, if it does not have all.").takes(
+        ["15..14", 3], Text(20), Whole()
     ),
-    Key(
-        "bits",
-        POINT,
-        "The bits of the word that belong to this point, if it does not have all.",
-        ["15..14", 3],
-        Text(20),
-        Whole(),
-    ),
-    Key("space", POINT, "The address space, if it differs from the group's.", ["coil"], Text(40)),
+    Key("space", POINT, "The address space, if it differs from the group's.").takes(["coil"], Text(40)),
     Key(
         "sets",
         POINT,
         "The parameter sets of the point: a count from 1, or `0..3`, with addresses by the group's rule; or the "
         "further sets by number, each with its facts. Each set named here becomes a point `<name>_set_N`; the "
         "point's own set keeps the plain name.",
-        [4, "0..3", {"2": {"code": "A220", "at": "150Eh"}}],
-        Whole(),
-        Text(40),
-        by(forms.SET, SET.shape, least=1),
         identity=True,
-    ),
+    ).takes([4, "0..3", {"2": {"code": "A220", "at": "150Eh"}}], Whole(), Text(40), by(forms.SET, SET.shape, least=1)),
     Key(
         "indices",
         POINT,
         "The elements of the array: a count from 1, or `0..1`. Each becomes a point `<name>_index_N`. `1..phases`: the "
         "point `phases` holds the last index; `to end`: up to the end of the found block.",
-        [3, "0..1", "1..phases", "to end"],
-        Whole(),
-        Text(40),
         identity=True,
-    ),
+    ).takes([3, "0..1", "1..phases", "to end"], Whole(), Text(40)),
     Key(
-        "most",
-        POINT,
-        "The greatest index that is described, if the device decides how many elements there are.",
-        [20],
-        Whole(1, 4096),
-    ),
+        "most", POINT, "The greatest index that is described, if the device decides how many elements there are."
+    ).takes([20], Whole(1, 4096)),
     Key(
         "set",
         (POINT, VARIANT),
         "The only set of the point; it adds no suffix. Beside `sets` by number: the point's own set, 1 by default.",
-        [2],
-        Whole(0, 999),
         identity=True,
-    ),
+    ).takes([2], Whole(0, 999)),
     Key(
         "index",
         (POINT, SET, VARIANT),
         "The only element of the array that is described; it adds no suffix.",
-        [1],
-        Whole(0, 65535),
         identity=True,
-    ),
+    ).takes([1], Whole(0, 65535)),
     Key(
         "each",
         POINT,
         "What differs in single elements: by index; by set if there are no indices; by set/index if there are both.",
-        [{"0": {"default": 52, "line": 377}}, {"1/2": {"line": 322}}],
-        by(forms.ELEMENT, places.ELEMENT.shape, least=1),
+    ).takes(
+        [{"0": {"default": 52, "line": 377}}, {"1/2": {"line": 322}}], by(forms.ELEMENT, places.ELEMENT.shape, least=1)
     ),
-    Key(
-        "variants",
-        POINT,
-        "What differs by variant: `axis=value` and the facts of that variant.",
-        [{"voltage=400V": {"range": "660..780"}}],
-        by(forms.VARIANT, VARIANT.shape, least=1),
+    Key("variants", POINT, "What differs by variant: `axis=value` and the facts of that variant.").takes(
+        [{"voltage=400V": {"range": "660..780"}}], by(forms.VARIANT, VARIANT.shape, least=1)
     ),
     Key(
         "cases",
         POINT,
         "What the same address means under different conditions: each case becomes a point `<name>_<case>` with the "
         "facts of the row and its own, among them `when`.",
+    ).takes(
         [{"speed": {"when": "mode == 1", "unit": "rpm"}, "torque": {"when": "mode == 2", "unit": "%"}}],
         by(forms.NAME, VARIANT.shape, least=1),
     ),
-    Key(
-        "view_of",
-        POINT,
-        "Another point that has the same words, or some of them; both always exist.",
-        ["outputs"],
-        Text(80),
+    Key("view_of", POINT, "Another point that has the same words, or some of them; both always exist.").takes(
+        ["outputs"], Text(80)
     ),
-    Key("was", POINT, "Former names; each stays usable as a deprecated alias.", [["main_frequency"]], Items(NAME, 1)),
+    Key("was", POINT, "Former names; each stays usable as a deprecated alias.").takes(
+        [["main_frequency"]], Items(NAME, 1)
+    ),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), identity=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
-    Key("document", places.SOURCE, "One of the documents that device.yaml names.", ["manual"], Text()),
+    Key("document", places.SOURCE, "One of the documents that device.yaml names.").takes(["manual"], Text()),
     Key(
         "line",
         Places(*POINTS, USE, *_NAMED, places.BUS, places.SOURCE, inherited=(USE,)),
         "The line in the text extracted from the manual.",
-        [780],
-        Whole(1, LAST_LINE),
+    ).takes([780], Whole(1, LAST_LINE)),
+    Key("section", _CITING, "The section of the manual; quote it if it looks like a number.").takes(
+        ["4.2.10"], Text(200)
     ),
-    Key("section", _CITING, "The section of the manual; quote it if it looks like a number.", ["4.2.10"], Text(200)),
-    Key("page", _CITING, "The printed page number.", [21], Whole(), Text()),
+    Key("page", _CITING, "The printed page number.").takes([21], Whole(), Text()),
     Key("lines", Places(*FACTS, USE, places.CODE, *CITED, places.ERRATUM, inherited=(USE,)), places.LINES.shape),
     Key("printed", POINTS, places.PRINTED.shape, identity=True),
-    Key("format", POINT, "The name of one of `formats`.", ["percent_tenth"], NAMED),
+    Key("format", POINT, "The name of one of `formats`.").takes(["percent_tenth"], NAMED),
 )
 """The keys that identify a point and cite the manual."""
 
 _EVERYWHERE = Places(GROUP, *POINTS, USE, inherited=(GROUP, USE))
 
 USING = (
-    Key(
-        "access",
-        _EVERYWHERE,
-        "What a master may do: read, write, both, or nothing over this bus.",
-        ["rw"],
-        one_of("r", "w", "rw", "none"),
+    Key("access", _EVERYWHERE, "What a master may do: read, write, both, or nothing over this bus.").takes(
+        ["rw"], one_of("r", "w", "rw", "none")
     ),
     Key(
         "keeps",
         _EVERYWHERE,
         "Says if a written value survives power-off: `no`, `yes` (each write wears the memory), or `choice` (the "
         "caller chooses with each write).",
-        ["yes"],
-        BOOLEAN,
-        one_of("no", "yes", "choice"),
-    ),
+    ).takes(["yes"], BOOLEAN, one_of("no", "yes", "choice")),
     Key(
         "keep_with",
         _EVERYWHERE,
         "The command that stores a written value so that it survives power-off; given in place of `keeps`.",
-        ["enter"],
-        NAMED,
-    ),
+    ).takes(["enter"], NAMED),
     Key(
-        "changes",
-        _EVERYWHERE,
-        "How often the value changes by itself; polling and run-time factors depend on it.",
-        ["never"],
-        one_of("never", "rarely", "always"),
-    ),
-    Key(
-        "conditions",
-        _EVERYWHERE,
-        "What must be true before a write.",
-        [["stopped"]],
-        Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
+        "changes", _EVERYWHERE, "How often the value changes by itself; polling and run-time factors depend on it."
+    ).takes(["never"], one_of("never", "rarely", "always")),
+    Key("conditions", _EVERYWHERE, "What must be true before a write.").takes(
+        [["stopped"]], Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1)
     ),
     Key(
         "takes_effect",
         _EVERYWHERE,
         "When the device uses a written value: `at once` (the default), or only `after a restart`.",
-        ["after a restart"],
-        one_of("at once", "after a restart"),
-    ),
+    ).takes(["after a restart"], one_of("at once", "after a restart")),
     Key(
         "write_with",
         FACTS,
         "Points that the device takes together with this one alone: all are written in one request.",
-        [["minute", "second"]],
-        Items(Shape("A point by code or name.", ["minute"], Text(80)), 1),
+    ).takes([["minute", "second"]], Items(Shape("A point by code or name.", ["minute"], Text(80)), 1)),
+    Key("when", _EVERYWHERE, "The point exists only if this is true: comparisons joined by and, or, not.").takes(
+        ["phases >= 2 and meter != none"], Text(500)
     ),
-    Key(
-        "when",
-        _EVERYWHERE,
-        "The point exists only if this is true: comparisons joined by and, or, not.",
-        ["phases >= 2 and meter != none"],
-        Text(500),
-    ),
-    Key("since", _EVERYWHERE, "The first firmware that has the point.", ["firmware 2.1.0"], Text(80)),
-    Key("until", _EVERYWHERE, "The last firmware that has the point.", ["firmware 3.7"], Text(80)),
+    Key("since", _EVERYWHERE, "The first firmware that has the point.").takes(["firmware 2.1.0"], Text(80)),
+    Key("until", _EVERYWHERE, "The last firmware that has the point.").takes(["firmware 3.7"], Text(80)),
     Key(
         "certainty",
         Places(DEVICE, *_EVERYWHERE.all, inherited=_EVERYWHERE.inherited),
         "Where the facts come from: compared with the manual (the default), `imported` and compared by nobody, or seen "
         "on `hardware`.",
-        ["imported"],
-        one_of("manual", "imported", "hardware"),
+    ).takes(["imported"], one_of("manual", "imported", "hardware")),
+    Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "The maker reserves this address.").takes(
+        ["yes"], *YES_NO
     ),
-    Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "The maker reserves this address.", ["yes"], *YES_NO),
 )
 """The keys that say how a point may be used, and when it exists."""
