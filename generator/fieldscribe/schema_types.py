@@ -78,10 +78,8 @@ class Place:
 
     def __init__(  # noqa: PLR0913  # each is given by name where it is used
         self,
-        name: str,
-        heading: str,
-        meaning: str,
-        examples: Sequence[Any],
+        name: str = "",
+        heading: str = "",
         *,
         before: tuple[Kind, ...] = (),
         after: tuple[Kind, ...] = (),
@@ -92,12 +90,17 @@ class Place:
     ) -> None:
         self.name, self.heading, self.may_be = name, heading, may_be
         self.by_form, self.least, self.required = by_form or {}, least, required
-        self.shape = Shape(meaning, examples, *before, self, *after)
+        self.shape = Shape("", (), *before, self, *after)
+
+    def means(self, meaning: str, examples: Sequence[Any]) -> Place:
+        """Say what the mapping means, with examples, the best one first."""
+        self.shape.meaning, self.shape.examples = meaning, examples
+        return self
 
 
 def by(form: Form, shape: Shape, least: int = 0, required: tuple[str, ...] = ()) -> Place:
     """Return a mapping from keys of a form to values of one shape."""
-    return Place("", "", "", (), by_form={form: shape}, least=least, required=required)
+    return Place(by_form={form: shape}, least=least, required=required)
 
 
 Kind: TypeAlias = Text | Whole | Plain | Items | Place

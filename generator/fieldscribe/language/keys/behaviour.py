@@ -7,7 +7,7 @@ from fieldscribe.language.keys.places import BEHAVIOUR
 from fieldscribe.language.keys.shapes import A_NAME, TITLE
 from fieldscribe.schema_types import BOOLEAN, NUMBER, Items, Key, Place, Shape, Text, by
 
-_QUANTITY = Place("", "", "One quantity.", [{"start": 40, "unit": "%"}], before=(NUMBER,))
+_QUANTITY = Place(before=(NUMBER,)).means("One quantity.", [{"start": 40, "unit": "%"}])
 _MOVE = Shape("A move.", ["set 1 while external_trip == trip"], Text(2000))
 
 KEYS = (

@@ -8,10 +8,8 @@ from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
 from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 
-_BY_TYPE = Place("", "", "", ())
-_PRINTED = Place(
-    "",
-    "",
+_BY_TYPE = Place()
+_PRINTED = Place().means(
     "What the manual prints a second time: `bytes`, the largest amount of data; `answers` and `refusals`, if one "
     "list contradicts another.",
     [{"bytes": 8}],

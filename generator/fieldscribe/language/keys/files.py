@@ -8,19 +8,19 @@ from fieldscribe.language.keys.places import DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
 from fieldscribe.schema_types import NUMBER, Items, Key, Place, Places, Shape, Text, Whole, by, one_of
 
-_DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}])
-_AXIS = Place("", "", "One axis.", [{"values": {"200V": {}}}])
-_UNIT = Place("", "", "One unit.", [{"name": "hertz", "quantity": "frequency"}])
+_DOCUMENT = Place().means("One manual.", [{"title": "ModBus", "language": "de"}])
+_AXIS = Place().means("One axis.", [{"values": {"200V": {}}}])
+_UNIT = Place().means("One unit.", [{"name": "hertz", "quantity": "frequency"}])
 _PROPERTY = Shape(
     "A property of the variant. `pzd` (family uss): the most words of process data that it takes.",
     [3],
     *(Text(200), NUMBER),
 )
-_GIVEN = Place("", "", "One number.", [{"range": "1..15"}])
-_FOUND = Place("", "", "One chain of blocks.", [{"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}])
+_GIVEN = Place().means("One number.", [{"range": "1..15"}])
+_FOUND = Place().means("One chain of blocks.", [{"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}])
 _HELD = Shape("One of several.", [3], Whole(), Text(250))
-_VALUE = Place(
-    "", "", "One value of the axis, and its properties.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY}
+_VALUE = Place(by_form={forms.ANY: _PROPERTY}).means(
+    "One value of the axis, and its properties.", [{"title": "200 V class"}]
 )
 
 HEADS = (

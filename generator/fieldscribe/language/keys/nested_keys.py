@@ -7,12 +7,9 @@ from fieldscribe.language.keys.shapes import LINES_OF, NAMED, PRINTED_NUMBER, in
 from fieldscribe.model import TYPES
 from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 
-_FLAG_PRINTED = Place(
-    "",
-    "",
+_FLAG_PRINTED = Place(least=1).means(
     "What the manual prints a second time about the flag, in bits of the word.",
     [{"mask": "0x0002"}, {"bit": 4}, {"active": 0}],
-    least=1,
 )
 _ONE_BIT = Whole(choices=(0, 1))
 _CITED = (

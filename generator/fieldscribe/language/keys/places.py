@@ -8,9 +8,7 @@ from fieldscribe.schema_types import NOTHING, Items, Place, Shape, Text, Whole
 
 _PRIVATE = {forms.PRIVATE: ANYTHING}
 
-DEVICE = Place(
-    "device_file",
-    "The head of device.yaml",
+DEVICE = Place("device_file", "The head of device.yaml", by_form=_PRIVATE).means(
     "The start of device.yaml: what the device is, and which files are its parts. Parts may also follow below, each "
     "after a line `---`.",
     [
@@ -25,11 +23,8 @@ DEVICE = Place(
             "documents": {"manual": {"title": "ModBus", "language": "de"}},
         }
     ],
-    by_form=_PRIVATE,
 )
-GROUP = Place(
-    "group",
-    "A group, in a part",
+GROUP = Place("group", "A group, in a part", by_form=_PRIVATE).means(
     "The points of a part, and what they share. A part has at most one group.",
     [
         {
@@ -40,142 +35,83 @@ GROUP = Place(
             "points": [],
         }
     ],
-    by_form=_PRIVATE,
 )
-PART = Place(
-    "part_file",
-    "A part",
+PART = Place("part_file", "A part", by_form=_PRIVATE, may_be=GROUP).means(
     "A document in a file that device.yaml lists under `parts`, or below a `---` in device.yaml itself: one group "
     "(with the keys of the next table), shared facts, or both.",
     [{"group": "standard_a", "space": "holding", "points": []}, {"enums": {"contact": {"0": "open", "1": "closed"}}}],
-    by_form=_PRIVATE,
-    may_be=GROUP,
 )
-POINT = Place(
-    "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], by_form=_PRIVATE
+POINT = Place("point", "A point", by_form=_PRIVATE).means(
+    "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}]
 )
-SET = Place(
-    "set",
-    "A point in a further set, under `sets`",
-    "The same point in another parameter set: only what differs.",
-    [{"code": "A220", "at": "150Eh"}],
+SET = Place("set", "A point in a further set, under `sets`").means(
+    "The same point in another parameter set: only what differs.", [{"code": "A220", "at": "150Eh"}]
 )
-ELEMENT = Place(
-    "element",
-    "A point in one element of an array, under `each`",
-    "What differs in this element of an array.",
-    [{"default": 52, "line": 377}],
+ELEMENT = Place("element", "A point in one element of an array, under `each`").means(
+    "What differs in this element of an array.", [{"default": 52, "line": 377}]
 )
-VARIANT = Place(
-    "variant_facts",
-    "A point in a variant or a case, under `variants` or `cases`",
-    "What differs in this variant or case.",
-    [{"range": "660..780"}],
+VARIANT = Place("variant_facts", "A point in a variant or a case, under `variants` or `cases`").means(
+    "What differs in this variant or case.", [{"range": "660..780"}]
 )
-USE = Place(
-    "use",
-    "A use of a record: a point with `record`",
+USE = Place("use", "A use of a record: a point with `record`", by_form=_PRIVATE).means(
     "A record at one of its places: what is said here holds for all its members; `members` has what differs.",
     [{"name": "trip_1", "record": "trip", "at": "0012h"}],
-    by_form=_PRIVATE,
 )
-MEMBER = Place(
-    "member",
-    "A member of a record, under `members`",
-    "What differs for one member of a record at this place.",
-    [{"line": 701}],
+MEMBER = Place("member", "A member of a record, under `members`").means(
+    "What differs for one member of a record at this place.", [{"line": 701}]
 )
-FORMAT = Place(
-    "format",
-    "A format, under `formats`",
-    "What a point means, shared by name.",
-    [{"scale": "value = raw * 0.1", "unit": "%"}],
+FORMAT = Place("format", "A format, under `formats`").means(
+    "What a point means, shared by name.", [{"scale": "value = raw * 0.1", "unit": "%"}]
 )
 FIXED = Place(
-    "fixed",
-    "Fixed bits, under `fixed`",
-    "Bits of the word that are always written as a constant, `7..3` for several bits.",
-    [{"10": 1}],
-    by_form={forms.BITS: Shape("The constant.", [1], Whole(), Text(40))},
-    least=1,
-)
-DIGITS = Place(
-    "digits",
-    "Decimal digits, under `digits`",
+    "fixed", "Fixed bits, under `fixed`", by_form={forms.BITS: Shape("The constant.", [1], Whole(), Text(40))}, least=1
+).means("Bits of the word that are always written as a constant, `7..3` for several bits.", [{"10": 1}])
+DIGITS = Place("digits", "Decimal digits, under `digits`").means(
     "A word whose decimal digits each have a meaning, the highest first: how many digits, and the names of their "
     "numbers.",
     [{"count": 4, "enum": "input_delay"}],
 )
-DISPLAY = Place(
-    "display",
-    "How a value is shown, under `display`",
-    "How a value is shown to people. Encoding, decoding and limits do not change.",
-    [{"decimals": 2}],
+DISPLAY = Place("display", "How a value is shown, under `display`").means(
+    "How a value is shown to people. Encoding, decoding and limits do not change.", [{"decimals": 2}]
 )
-RECORD = Place(
-    "record",
-    "A record, under `records`",
+RECORD = Place("record", "A record, under `records`").means(
     "Points that repeat together at several places; the `at` of each counts from `base`.",
     [{"points": [{"name": "error", "at": "base"}]}],
 )
-CASE = Place(
-    "scale_case",
-    "A case of a scale",
+CASE = Place("scale_case", "A case of a scale").means(
     "One rule of a scale, if another point has a certain raw number.",
     [{"when": "unit_mode == 0", "rule": "raw = value * 100"}],
 )
-ENTRY = Place(
-    "entry",
-    "An entry of an enum",
+ENTRY = Place("entry", "An entry of an enum", before=(A_NAME,), by_form={forms.LANGUAGE: in_language("Eingang")}).means(
     "A name for this number, or a name with titles by language and a quantity.",
     ["terminal", {"name": "terminal", "en": "Terminal", "de": "Eingang"}],
-    before=(A_NAME,),
-    by_form={forms.LANGUAGE: in_language("Eingang")},
 )
 SPECIAL_CODE = Place(
     "special_code",
     "A special code, under `special`",
-    "A name for this code, or a name with titles by language and what the code means; ~ removes a code that the "
-    "format, the group or the device defines.",
-    ["transducer_fault", {"name": "not_available", "no_value": "yes", "en": "Not available"}],
     before=(A_NAME,),
     after=(NOTHING,),
     by_form={forms.LANGUAGE: in_language("Eingang")},
+).means(
+    "A name for this code, or a name with titles by language and what the code means; ~ removes a code that the "
+    "format, the group or the device defines.",
+    ["transducer_fault", {"name": "not_available", "no_value": "yes", "en": "Not available"}],
 )
-TYPES = Place(
-    "types",
-    "Types, under `types` of a group or the device",
-    "Facts that all points of a type share, in this device or group.",
-    [{"s16": {"special": {"7FFFh": "fault"}}}],
-    least=1,
+TYPES = Place("types", "Types, under `types` of a group or the device", least=1).means(
+    "Facts that all points of a type share, in this device or group.", [{"s16": {"special": {"7FFFh": "fault"}}}]
 )
-OF_TYPE = Place(
-    "of_type",
-    "What holds for all points of a type",
-    "Facts that all points of this type share.",
-    [{"special": {"7FFFh": "fault"}}],
-    least=1,
+OF_TYPE = Place("of_type", "What holds for all points of a type", least=1).means(
+    "Facts that all points of this type share.", [{"special": {"7FFFh": "fault"}}]
 )
-OF_TEXTS = Place(
-    "of_texts",
-    "What holds for all texts",
-    "Facts that all texts share.",
-    [{"encoding": "latin-1", "padding": "00h"}],
-    least=1,
+OF_TEXTS = Place("of_texts", "What holds for all texts", least=1).means(
+    "Facts that all texts share.", [{"encoding": "latin-1", "padding": "00h"}]
 )
-FLAG = Place(
-    "flag",
-    "A flag",
-    "A bit, or several bits, inside the word.",
-    ["ready", {"name": "fault", "active": 0}],
-    before=(A_NAME,),
+FLAG = Place("flag", "A flag", before=(A_NAME,)).means(
+    "A bit, or several bits, inside the word.", ["ready", {"name": "fault", "active": 0}]
 )
 PRINTED = Place(
     "printed",
     "What is printed twice, under `printed`",
-    "What the manual prints a second time: a number in each numbering (one or a list of notations), ranges, "
-    "resolution, number of choices. It must agree with the facts, unless an erratum says why not.",
-    [{"modicon": ["1029h", 4137], "wire": ["1028h", 4136], "range_in_units": "0.0..400.0"}],
     by_form={
         forms.ANY: Shape(
             "The printed number in this numbering: `wire` or a name under `numbering`; with `low_` in front for the "
@@ -184,52 +120,41 @@ PRINTED = Place(
             *(Whole(), Text(64), Items(PRINTED_NUMBER, 1)),
         )
     },
+).means(
+    "What the manual prints a second time: a number in each numbering (one or a list of notations), ranges, "
+    "resolution, number of choices. It must agree with the facts, unless an erratum says why not.",
+    [{"modicon": ["1029h", 4137], "wire": ["1028h", 4136], "range_in_units": "0.0..400.0"}],
 )
-SOURCE = Place(
-    "source",
-    "A source",
-    "The place in the manual that the facts are taken from.",
-    [{"document": "manual", "section": "Gruppe A"}],
+SOURCE = Place("source", "A source").means(
+    "The place in the manual that the facts are taken from.", [{"document": "manual", "section": "Gruppe A"}]
 )
-LINES = Place(
-    "lines",
-    "Where single facts stand, under `lines`",
+LINES = Place("lines", "Where single facts stand, under `lines`", least=1).means(
     "For the audit: the lines of the manual's text that hold single facts, if they differ from `line`.",
     [{"range": 215, "enum": "2553..2652", "scale": [130, 140]}],
-    least=1,
 )
-LOOKED_THROUGH = Place(
-    "looked_through",
-    "Lines that hold nothing, under `looked_through`",
+LOOKED_THROUGH = Place("looked_through", "Lines that hold nothing, under `looked_through`").means(
     "Lines of the manual's text without facts for the description, and what they are about.",
     [{"lines": "9..33", "why": "Wiring."}],
 )
-BUS = Place(
-    "bus",
-    "The bus",
+BUS = Place("bus", "The bus", by_form=_PRIVATE).means(
     "What frames of the family need to know about this device.",
     [{"framings": ["rtu"], "units": "1..32", "functions": {"03h": "read_holding_registers"}}],
-    by_form=_PRIVATE,
 )
 CODE = Place(
     "code_entry",
     "A function, a response or an exception",
+    before=(A_NAME,),
+    by_form={forms.LANGUAGE: in_language("Adresse unbekannt")},
+).means(
     "A code of the protocol: its name and titles; for a function also the largest request and if it may be "
     "broadcast; for USS the codes that belong to it.",
     [{"name": "read_holding_registers", "max": 4}],
-    before=(A_NAME,),
-    by_form={forms.LANGUAGE: in_language("Adresse unbekannt")},
 )
-TELEGRAM = Place(
-    "telegram",
-    "A telegram",
+TELEGRAM = Place("telegram", "A telegram", by_form=_PRIVATE).means(
     "A layout of words that is sent cyclically.",
     [{"name": "visualisation", "direction": "cyclic", "length": 69, "message": "visualisation"}],
-    by_form=_PRIVATE,
 )
-MESSAGE = Place(
-    "message",
-    "A message",
+MESSAGE = Place("message", "A message", by_form=_PRIVATE).means(
     "A layout of the eight bytes of a CAN frame, with its identifier.",
     [
         {
@@ -239,32 +164,20 @@ MESSAGE = Place(
             "layout": {"0": "FFh", "1": "unit", "2..3": "address", "4..5": 0, "6..7": "xor 0..5"},
         }
     ],
-    by_form=_PRIVATE,
 )
-COMMAND = Place(
-    "command",
-    "A command",
+COMMAND = Place("command", "A command", by_form=_PRIVATE).means(
     "A constant that is written under a name, or several requests in order (`steps`).",
     [{"name": "enter", "at": "0900h", "function": "06h", "value": "any"}],
-    by_form=_PRIVATE,
 )
-STEP = Place(
-    "step",
-    "A step of a command, under `steps`",
+STEP = Place("step", "A step of a command, under `steps`", least=1).means(
     "One request: words to write by points (`write`) or by address (`at`, `words`), or points to wait for (`wait`).",
     [{"write": {"A020": 50.0}}],
-    least=1,
 )
-FRAME = Place(
-    "frame",
-    "A frame",
+FRAME = Place("frame", "A frame", by_form=_PRIVATE).means(
     "A worked example from the manual.",
     [{"name": "write_base_frequency", "direction": "request", "bytes": "05 06 10 28 01 F4 0C 91"}],
-    by_form=_PRIVATE,
 )
-ERRATUM = Place(
-    "erratum",
-    "An erratum",
+ERRATUM = Place("erratum", "An erratum", by_form=_PRIVATE).means(
     "A place where the manual is wrong, unclear or silent, and what was taken instead.",
     [
         {
@@ -276,14 +189,10 @@ ERRATUM = Place(
             "certainty": "certain",
         }
     ],
-    by_form=_PRIVATE,
 )
-BEHAVIOUR = Place(
-    "behaviour_file",
-    "The behaviour of a simulated device, behaviour.yaml",
+BEHAVIOUR = Place("behaviour_file", "The behaviour of a simulated device, behaviour.yaml", by_form=_PRIVATE).means(
     "What a simulated device does, in a file beside device.yaml; it is no part of the description.",
     [{"behaviour": "hitachi_l200", "moves": {"output_frequency": "ramp to A020 at 10 Hz/s while run_command == run"}}],
-    by_form=_PRIVATE,
 )
 
 FILES = (DEVICE, PART)
