@@ -26,6 +26,8 @@ export interface EastronSdm630Options {
 type Requested = "measurements" | "settings" | "maintenance" | "order_of_registers" | Iterable<keyof Values<typeof points> | Point<any, "eastron_sdm630">>;
 /** Eastron SDM630-Modbus V2 on a line. */
 export declare class EastronSdm630 extends ModbusDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: EastronSdm630Options);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

@@ -10,8 +10,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** Eastron SDM630-Modbus V2 on a line. */
-export class EastronSdm630 extends ModbusDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class EastronSdm630 extends ModbusDevice {}
+defineDevice(
+  EastronSdm630,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -99,6 +101,5 @@ export class EastronSdm630 extends ModbusDevice {
     },
     version: "1.0.0",
     digest: "2994a4a0ce53a72efa8c87729ff76aa088de942a435739b27c2e41956a32c6c7",
-  });
-}
-defineDevice(EastronSdm630, EastronSdm630.facts);
+  }),
+);

@@ -1,5 +1,5 @@
 /**
- * Give a class the points and commands of a device, as attributes of its objects.
+ * Give a class its facts, and the points and commands of a device as attributes of its objects.
  * @template {typeof Session} T @param {T} kind @param {import("./table.js").DeviceFacts} facts @returns {T}
  */
 export function defineDevice<T extends typeof Session>(kind: T, facts: import("./table.js").DeviceFacts): T;

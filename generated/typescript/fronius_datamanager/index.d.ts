@@ -17,6 +17,8 @@ export interface FroniusDatamanagerOptions {
 type Requested = "common" | "inverter" | "nameplate" | "settings" | "status" | "controls" | "mppt" | "storage" | "fronius" | Iterable<keyof Values<typeof points> | Point<any, "fronius_datamanager">>;
 /** Fronius Datamanager with a three-phase inverter on a line. */
 export declare class FroniusDatamanager extends ModbusDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: FroniusDatamanagerOptions);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

@@ -11,8 +11,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** Fronius Datamanager with a three-phase inverter on a line. */
-export class FroniusDatamanager extends ModbusDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class FroniusDatamanager extends ModbusDevice {}
+defineDevice(
+  FroniusDatamanager,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -60,6 +62,5 @@ export class FroniusDatamanager extends ModbusDevice {
     documented: { padding: documented("reserved by the maker", { code: "Pad" }) },
     version: "1.0.0",
     digest: "29107d9a0ac2d4d871d669295a4d9827b6431670539184b105cc0dba57aa2ec7",
-  });
-}
-defineDevice(FroniusDatamanager, FroniusDatamanager.facts);
+  }),
+);

@@ -31,6 +31,8 @@ export interface HitachiL200Options {
 type Requested = "coils" | "status" | "monitor_d" | "basic_f" | "standard_a" | "fine_tuning_b" | "control_c" | "motor_h" | Iterable<keyof Values<typeof points> | Point<any, "hitachi_l200">>;
 /** Hitachi L200 on a line. */
 export declare class HitachiL200 extends ModbusDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: HitachiL200Options);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

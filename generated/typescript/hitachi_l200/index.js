@@ -10,8 +10,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** Hitachi L200 on a line. */
-export class HitachiL200 extends ModbusDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class HitachiL200 extends ModbusDevice {}
+defineDevice(
+  HitachiL200,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -179,6 +181,5 @@ export class HitachiL200 extends ModbusDevice {
     },
     version: "1.0.0",
     digest: "41c63c2a3a23005afe7d7ee28e57e970bfd01c5538b464050412295a759ec8bb",
-  });
-}
-defineDevice(HitachiL200, HitachiL200.facts);
+  }),
+);

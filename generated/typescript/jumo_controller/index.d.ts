@@ -28,6 +28,8 @@ export interface JumoControllerOptions {
 type Requested = "process_data" | "examples" | "command_words" | Iterable<keyof Values<typeof points> | Point<any, "jumo_controller">>;
 /** JUMO Controller with MOD-Bus on a line. */
 export declare class JumoController extends ModbusDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: JumoControllerOptions);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

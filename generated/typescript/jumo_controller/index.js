@@ -10,8 +10,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** JUMO Controller with MOD-Bus on a line. */
-export class JumoController extends ModbusDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class JumoController extends ModbusDevice {}
+defineDevice(
+  JumoController,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -43,6 +45,5 @@ export class JumoController extends ModbusDevice {
     documented: { limitComparators: documented("the manual prints no address") },
     version: "1.0.0",
     digest: "260af48d2f694f9b5cdc2ac881427c270112f355c1294a730a48d3dccb221fd0",
-  });
-}
-defineDevice(JumoController, JumoController.facts);
+  }),
+);

@@ -29,6 +29,8 @@ export interface NordSk5xxeOptions {
 type Requested = "process_data" | Iterable<keyof Values<typeof points> | Point<any, "nord_sk5xxe">>;
 /** NORD SK 5xxE on a line. */
 export declare class NordSk5xxe extends ModbusDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: NordSk5xxeOptions);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

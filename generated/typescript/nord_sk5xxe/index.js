@@ -10,8 +10,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** NORD SK 5xxE on a line. */
-export class NordSk5xxe extends ModbusDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class NordSk5xxe extends ModbusDevice {}
+defineDevice(
+  NordSk5xxe,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -151,6 +153,5 @@ export class NordSk5xxe extends ModbusDevice {
     },
     version: "1.0.0",
     digest: "8a2a4e64b041a524d55530fb73c11b5d3b594c620a83ebaab5eb8ec660ec72cd",
-  });
-}
-defineDevice(NordSk5xxe, NordSk5xxe.facts);
+  }),
+);

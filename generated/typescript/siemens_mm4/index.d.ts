@@ -39,6 +39,8 @@ export interface SiemensMm4Options {
 type Requested = "parameters" | "answer" | Iterable<keyof Values<typeof points> | Point<any, "siemens_mm4">>;
 /** Siemens MICROMASTER 4 on a line. */
 export declare class SiemensMm4 extends UssDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: SiemensMm4Options);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

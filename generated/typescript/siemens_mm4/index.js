@@ -11,8 +11,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** Siemens MICROMASTER 4 on a line. */
-export class SiemensMm4 extends UssDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class SiemensMm4 extends UssDevice {}
+defineDevice(
+  SiemensMm4,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -89,6 +91,5 @@ export class SiemensMm4 extends UssDevice {
     },
     version: "1.0.0",
     digest: "5cb44d5bdfa4306682dac13f58e2d2fd2b36ae840ff6e839ed716d7c31f949b0",
-  });
-}
-defineDevice(SiemensMm4, SiemensMm4.facts);
+  }),
+);

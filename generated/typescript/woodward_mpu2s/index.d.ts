@@ -35,6 +35,8 @@ export interface WoodwardMpu2sOptions {
 type Requested = "visualisation_data" | "parameters_access" | "parameters_general" | "parameters_controllers" | "parameters_breaker" | "parameters_synchronisation" | "parameters_monitoring_generator" | "parameters_monitoring_mains" | "parameters_monitoring_power" | "parameters_inputs" | "parameters_texts" | "parameters_analog" | "parameters_relays" | "parameters_operation" | Iterable<keyof Values<typeof points> | Point<any, "woodward_mpu2s">>;
 /** Woodward MPU2-S on a line. */
 export declare class WoodwardMpu2s extends CanDevice {
+  /** What the package was made from. */
+  static readonly facts: { readonly version: string; readonly digest: string };
   constructor(line: Line, options: WoodwardMpu2sOptions);
   /**
    * Read a group by its name, or several points by their names or as they are, with few requests. Of names alone each has

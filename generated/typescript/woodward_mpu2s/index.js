@@ -10,8 +10,10 @@ export * from "./enums.js";
 export * from "./points.js";
 
 /** Woodward MPU2-S on a line. */
-export class WoodwardMpu2s extends CanDevice {
-  static facts = /* @__PURE__ */ Object.freeze({
+export class WoodwardMpu2s extends CanDevice {}
+defineDevice(
+  WoodwardMpu2s,
+  Object.freeze({
     points: allPoints,
     commands: allCommands,
     oldNames,
@@ -142,6 +144,5 @@ export class WoodwardMpu2s extends CanDevice {
     },
     version: "1.0.0",
     digest: "77f5919be08f3e15d651e3cc3ece7b29a75b92c2be259f702918dc9a85f9a37b",
-  });
-}
-defineDevice(WoodwardMpu2s, WoodwardMpu2s.facts);
+  }),
+);

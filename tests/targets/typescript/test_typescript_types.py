@@ -61,6 +61,21 @@ def test_packages_as_npm_packs_them(package: str, tmp_path: Path) -> None:
     succeed([*npm_program("@arethetypeswrong/cli", "dist/index.js"), packed, *profile])
 
 
+def test_modules_need_nothing_newer_than_es2020(tmp_path: Path) -> None:
+    """Nothing is left for a compiler to do that writes modules for ES2020."""
+    files = [path for folder in SHIPPED.iterdir() for path in folder.glob("*.js")]
+    targets = ("es2020", "esnext")
+    for target in targets:
+        options = (f"--outbase={SHIPPED}", f"--outdir={tmp_path / target}", f"--target={target}", "--log-level=error")
+        succeed([npm_package("esbuild") / "bin/esbuild", *files, *options])
+    old, new = (
+        {path.relative_to(tmp_path / target): path.read_text("utf-8") for path in (tmp_path / target).rglob("*.js")}
+        for target in targets
+    )
+    assert len(old) == len(files)
+    assert old == new
+
+
 def test_bundles_hold_what_is_used(tmp_path: Path) -> None:
     """A program of one point brings its codec, and neither other points, other forms nor a client."""
     install(tmp_path, DEVICES)

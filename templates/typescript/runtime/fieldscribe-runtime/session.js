@@ -631,7 +631,7 @@ function boundPoint(session, point) {
 }
 
 /**
- * Give a class the points and commands of a device, as attributes of its objects.
+ * Give a class its facts, and the points and commands of a device as attributes of its objects.
  * @template {typeof Session} T @param {T} kind @param {import("./table.js").DeviceFacts} facts @returns {T}
  */
 export function defineDevice(kind, facts) {
@@ -640,6 +640,7 @@ export function defineDevice(kind, facts) {
     Object.defineProperty(kind.prototype, name, { get, configurable: true });
   define("table", () => table);
   Object.defineProperty(kind, "table", { value: table });
+  Object.defineProperty(kind, "facts", { value: facts });
   for (const [attribute, point] of table.points) {
     define(attribute, function () {
       return this._bound(point);

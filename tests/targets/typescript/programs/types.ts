@@ -70,6 +70,7 @@ mm4.controlWord.encode(mm4.ControlWord.of({ on: true }));
 mm4.ControlWord.of({ flying: true });
 
 // devices
+export const version: string = l200.HitachiL200.facts.version;
 export async function talk(line: Line): Promise<void> {
   const drive = new l200.HitachiL200(line, { unit: 1, voltageClass: "200V" });
   const read: number = await drive.baseFrequency.read();
