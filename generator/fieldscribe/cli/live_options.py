@@ -26,6 +26,8 @@ from fieldscribe.user_errors import did_you_mean
 if TYPE_CHECKING:
     from fieldscribe_runtime import AnyDevice
 
+    from fieldscribe.live.snapshots import Snapshot
+
 LINES = """lines: tcp://HOST[:PORT], rtu:///dev/ttyUSB0, rtu+tcp://HOST:PORT, uss:///dev/ttyUSB0, can://INTERFACE/CHANNEL
 serial ones take settings, as in rtu:///dev/ttyUSB0?baud=9600&parity=even&stop=1, uss also pkw=4&pzd=2"""
 
@@ -38,6 +40,19 @@ def add_live(parser: ArgumentParser, *, optional: bool = False) -> None:
     add("--line", metavar="LINE", help=f"where the device is: tcp://192.168.0.20, or a name from {NAME}")
     add("--timeout", type=duration, metavar="SECONDS", help="how long to wait for an answer")
     add("-v", "--verbose", action="store_true", help="print the frames, and how many requests it took, on stderr")
+
+
+def add_points(parser: ArgumentParser) -> None:
+    """Add the points that a command reads."""
+    help_text = "points by code, name or address; or groups, records, sets, arrays"
+    parser.add_argument("points", nargs="+", metavar="POINT|GROUP", help=help_text)
+
+
+def add_writing(parser: ArgumentParser) -> None:
+    """Add what a command that writes is told beside the values."""
+    add = parser.add_argument
+    add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
+    add("-y", "--yes", action="store_true", help="write without asking")
 
 
 def add_unit(parser: ArgumentParser) -> None:
@@ -68,12 +83,17 @@ def _take(arguments: Namespace, station: Station) -> None:
     arguments.line = arguments.line or station.line
     if getattr(arguments, "unit", None) is None:
         arguments.unit = station.unit
-    arguments.variant = _without_given(station.variants, arguments.variant)
-    arguments.settings = _without_given(station.settings, arguments.settings)
+    add_pairs(arguments, station.variants, station.settings)
+
+
+def add_pairs(arguments: Namespace, variants: Iterable[str], settings: Iterable[str]) -> None:
+    """Add variants and settings whose name the command line does not give."""
+    arguments.variant = _without_given(variants, arguments.variant)
+    arguments.settings = _without_given(settings, arguments.settings)
 
 
 def _without_given(known: Iterable[str], given: list[str]) -> list[str]:
-    """Return the given pairs, and those of the station whose name is not given."""
+    """Return the given pairs, and the known ones whose name is not given."""
     names = {pair.partition("=")[0] for pair in given}
     return [*given, *(pair for pair in known if pair.partition("=")[0] not in names)]
 
@@ -123,6 +143,21 @@ class Live(NamedTuple):
     device: AnyDevice
     line: LineAddress
     work: Work
+
+    @property
+    def head(self) -> dict[str, object]:
+        """Which device it is, for JSON."""
+        return {"device": self.model.id, "unit": self.device.unit, "line": self.line.text}
+
+    def taken(self) -> Snapshot:
+        """Return all that the device holds now. Raises FieldscribeError."""
+        from fieldscribe.live.snapshots import take  # `read` starts without it
+
+        progress = Progress()
+        try:
+            return take(self.model, self.device, self.line.text, progress.show)
+        finally:
+            progress.clear()
 
     def progress(self) -> AbstractContextManager[None]:
         """Show how many requests were sent, where it takes long."""

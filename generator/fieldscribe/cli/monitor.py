@@ -11,7 +11,7 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli.common import period, times
-from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, opened
+from fieldscribe.cli.live_options import LINES, Live, add_live, add_points, add_unit, opened
 from fieldscribe.cli.read import style_of
 from fieldscribe.cli.terminal import FINE, is_coloured, print_lines, terminal_size
 from fieldscribe.live.readings import Reader, Reading, chosen
@@ -39,14 +39,9 @@ _COLUMNS = ("time", *Reading._fields)
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
-    add = parser.add_argument
-    add(
-        "points",
-        nargs="+",
-        metavar="POINT|GROUP",
-        help="points by code, name or address; or groups, records, sets, arrays",
-    )
+    add_points(parser)
     add_unit(parser)
+    add = parser.add_argument
     add("--every", type=period, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
     add("--count", type=times, metavar="N", help="so often (default: until Ctrl-C)")
     add("--all", action="store_true", help="print all points each time, not only what changed")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.common import add_format, print_json
-from fieldscribe.cli.live_options import LINES, add_live, add_unit, opened
+from fieldscribe.cli.live_options import LINES, add_live, add_points, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.live.readings import GOOD, Reader, Reading, chosen
 from fieldscribe.report import visible
@@ -27,8 +27,7 @@ ends with 1 when a point has no value or the device refuses it, with 2 when the 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
-    help_text = "points by code, name or address; or groups, records, sets, arrays"
-    parser.add_argument("points", nargs="+", metavar="POINT|GROUP", help=help_text)
+    add_points(parser)
     add_unit(parser)
     add_format(parser)
 
@@ -40,8 +39,7 @@ def run(arguments: Namespace) -> int:
         with live.progress():
             readings = Reader(live.model, live.device).read(what)
         if arguments.format == "json":
-            values = [reading.as_data() for reading in readings]
-            print_json({"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "values": values})
+            print_json({**live.head, "values": [reading.as_data() for reading in readings]})
         else:
             print_readings(readings)
     return FINE if all(reading.status in GOOD for reading in readings) else FINDINGS

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fieldscribe.cli.common import StopError, add_format, add_repeated, print_json
-from fieldscribe.cli.live_options import LINES, Live, Progress, add_live, add_unit, opened
+from fieldscribe.cli.live_options import LINES, Live, add_live, add_pairs, add_unit, add_writing, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.cli.write import ask
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.live.restoring import Journal, Order, interrupted, ordered, refusals
-from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of, take
+from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.model import Point
 from fieldscribe.report import visible
@@ -55,9 +55,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_repeated(parser, "--only", "POINT|GROUP", "restore only this, whatever it is")
     add("--all", action="store_true", help="also restore what the description calls no setting, as commands, setpoints")
     add_repeated(parser, "--without", "POINT|GROUP", "do not restore this, as a baud rate or an address")
-    add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("--dry-run", action="store_true", help="only show what would be written")
-    add("-y", "--yes", action="store_true", help="write without asking")
+    add_writing(parser)
     add_format(parser)
 
 
@@ -69,7 +68,7 @@ def run(arguments: Namespace) -> int:
         print_lines([[("warning", visible(text))] for text in before.lines()], sys.stderr)
     _take_from(wanted, arguments)
     with opened(arguments) as live:
-        now = _taken(live)
+        now = live.taken()
         order = ordered(live.model, now, wanted, _chooser(live, arguments))
         writes = _planned(live, now, order, keep=arguments.keep)
         _print_rest(live, order, by_name=bool(arguments.only or arguments.all))
@@ -109,18 +108,7 @@ def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
         arguments.device = wanted.device
         arguments.line = arguments.line or wanted.line
         arguments.unit = wanted.unit if arguments.unit is None else arguments.unit
-    variants = [f"{axis}={value}" for axis, value in wanted.variants.items()]
-    for named, kept in ((arguments.variant, variants), (arguments.settings, wanted.given)):
-        names = {each.partition("=")[0] for each in named}
-        named += [each for each in kept if each.partition("=")[0] not in names]
-
-
-def _taken(live: Live) -> Snapshot:
-    progress = Progress()
-    try:
-        return take(live.model, live.device, live.line.text, progress.show)
-    finally:
-        progress.clear()
+    add_pairs(arguments, [f"{axis}={value}" for axis, value in wanted.variants.items()], wanted.given)
 
 
 def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
@@ -164,13 +152,7 @@ def _print_rest(live: Live, order: Order, *, by_name: bool) -> None:
 
 
 def _facts(arguments: Namespace, live: Live) -> dict[str, object]:
-    return {
-        "file": str(arguments.file),
-        "device": live.model.id,
-        "unit": live.device.unit,
-        "line": live.line.text,
-        "keep": arguments.keep,
-    }
+    return {"file": str(arguments.file), **live.head, "keep": arguments.keep}
 
 
 def _write(live: Live, writes: list[Write], now: Snapshot, journal: Journal) -> None:
@@ -201,8 +183,7 @@ def _report(arguments: Namespace, live: Live, done: Done) -> int:
     if arguments.format == "json":
         what = [write.reading.as_data() for write in done.writes]
         key = "written" if done.is_written else "would_write"
-        facts = {"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "same": done.same}
-        print_json({**facts, key: what, "refused": done.refused, "still_different": done.left})
+        print_json({**live.head, "same": done.same, key: what, "refused": done.refused, "still_different": done.left})
     else:
         verb = "written" if done.is_written else "would be written"
         lines = [[("", visible(f"{verb}: {write.text}"))] for write in done.writes]

@@ -9,9 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from fieldscribe.cli.common import StopError
-from fieldscribe.cli.live_options import LINES, Progress, add_live, add_unit, opened
+from fieldscribe.cli.live_options import LINES, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
-from fieldscribe.live.snapshots import take
 from fieldscribe.output import writing
 from fieldscribe.report import visible
 from fieldscribe.safe_files import kind_of
@@ -39,12 +38,9 @@ def run(arguments: Namespace) -> int:
     """Read all and write the file; return the exit code."""
     if arguments.out.exists() and (kind := kind_of(os.stat(arguments.out))) is not None:
         raise StopError(f"{kind}: {arguments.out}", "name a file")
-    progress, given = Progress(), list(arguments.settings)
+    given = list(arguments.settings)
     with opened(arguments) as live:
-        try:
-            snapshot = take(live.model, live.device, live.line.text, progress.show)
-        finally:
-            progress.clear()
+        snapshot = live.taken()
     writing.replace(Path(os.path.realpath(arguments.out)), [replace(snapshot, given=given).as_text().encode("utf-8")])
     missing = [[("error", visible(f"{name}: {why}"))] for name, why in snapshot.missing.items()]
     print_lines(missing, sys.stderr)

@@ -6,7 +6,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.common import StopError, add_format, print_json
-from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, opened
+from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, add_writing, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.report import Line, visible
@@ -33,16 +33,14 @@ answer, and where nobody can be asked"""
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_live(parser)
-    add = parser.add_argument
-    add(
+    parser.add_argument(
         "words",
         nargs="+",
         metavar="POINT=VALUE|COMMAND",
         help="a point with a value as for `encode`, or a command; arguments follow it, as in dim:percent=50",
     )
     add_unit(parser)
-    add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
-    add("-y", "--yes", action="store_true", help="write without asking")
+    add_writing(parser)
     add_format(parser)
 
 
@@ -65,8 +63,7 @@ def run(arguments: Namespace) -> int:
                 with live.work.writing([write.reading.label for write in request]):
                     carry_out(request, live.device)
     if arguments.format == "json":
-        written = [write.reading.as_data() for write in writes]
-        print_json({"device": live.model.id, "unit": live.device.unit, "line": live.line.text, "written": written})
+        print_json({**live.head, "written": [write.reading.as_data() for write in writes]})
     else:
         print_lines([[("", f"written: {visible(write.text)}")] for write in writes])
     return FINE
