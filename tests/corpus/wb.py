@@ -124,8 +124,8 @@ def _read(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     form, (space, _, bits) = str(item.get("format", "u16")), _place(item)
     ratio, offset = (Fraction(item.get(key) or otherwise) for key, otherwise in (("scale", 1), ("offset", 0)))
     if space in ("coil", "discrete"):
-        named = offset or item.keys() & {"on_value", "off_value"}
-        return Register("u", 1, names=_states(item, ratio, offset) if named else {})
+        is_named = offset or item.keys() & {"on_value", "off_value", "enum"}
+        return Register("u", 1, names=_names(item, ratio, offset, english) if is_named else {})
     if form in ("string", "string8"):
         return Register("t", 16 * int(item["string_data_size"]), per_word=1 if form == "string" else 2)
     kind, width = {"float": ("f", 32), "double": ("f", 64), "char8": ("u", 8)}.get(form) or (
@@ -139,13 +139,8 @@ def _read(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     for key, name in (("unsupported_value", "unsupported"), ("error_value", "error")):
         if key in item:
             one.codes = {**one.codes, int(_number(item[key])) & (1 << width) - 1: name}
-    if "enum" in item:
-        raws = [(Fraction(str(value)) - offset) / ratio for value in item["enum"]]
-        titles = item.get("enum_titles", [])
-        titles = [str(title) for title in (titles if len(titles) == len(raws) else item["enum"])]
-        one.names = {int(raw): english.get(title, title) for raw, title in zip(raws, titles, strict=True)}
-    elif item.get("type") in ("switch", "alarm"):
-        one.names = _states(item, ratio, offset)
+    if "enum" in item or item.get("type") in ("switch", "alarm"):
+        one.names = _names(item, ratio, offset, english)
     elif item.get("type") == "pushbutton" and _number(item.get("on_value", 1)) != 1:
         one.names = {_number(item["on_value"]): "Press"}
     else:
@@ -153,8 +148,13 @@ def _read(item: Mapping[str, Any], english: Mapping[str, str]) -> Register:
     return one
 
 
-def _states(item: Mapping[str, Any], ratio: Fraction, offset: Fraction) -> Mapping[int, str]:
-    """Return the raw numbers of a switch: 1 is on if the template does not say otherwise."""
+def _names(item: Mapping[str, Any], ratio: Fraction, offset: Fraction, english: Mapping[str, str]) -> Mapping[int, str]:
+    """Return the titles of raw numbers; of a switch 1 is on if the template does not say otherwise."""
+    if "enum" in item:
+        raws = [(Fraction(str(value)) - offset) / ratio for value in item["enum"]]
+        titles = item.get("enum_titles", [])
+        titles = [str(title) for title in (titles if len(titles) == len(raws) else item["enum"])]
+        return {int(raw): english.get(title, title) for raw, title in zip(raws, titles, strict=True)}
     if "on_value" in item or "off_value" in item:
         return {_number(item.get("off_value", 0)): "Off", _number(item.get("on_value", 1)): "On"}
     return {int((value - offset) / ratio): title for value, title in enumerate(("Off", "On"))}
