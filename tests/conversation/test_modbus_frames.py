@@ -9,8 +9,9 @@ from random import Random
 import pytest
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decoder import StreamDecoder
+from fieldscribe.conversation.encoding import frames_for
 from fieldscribe.conversation.explanation import read_text
-from fieldscribe.families.frame_results import FrameResult, refused
+from fieldscribe.families.frame_results import FrameResult, Options, refused
 from fieldscribe.families.modbus import SPACES
 from fieldscribe.families.modbus.frame_builder import words_of, write_requests
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
@@ -71,6 +72,23 @@ def test_blocks_are_where_the_frames_before_have_shown_them() -> None:
     assert "curve_time" not in said(*_reads(1, 50024, 705, 20)), "nobody knows how many elements are before it"
     assert said(*_reads(1, 50026, 3, 1)) == ["curve_points", "curve_count"]
     assert said(*_reads(1, 50024 + 3 * 2 + 1 + 1 + 4, 0, 9)) == ["curve_time"]
+
+
+def test_a_page_and_an_index_select_what_frames_mean() -> None:
+    device = kitchen_sink()
+    point = next(point for point in device.points if point.name == "input_delay_index_2")
+    *selecting, write = map(bytes.fromhex, frames_for(device, point, 45, {}, Options()).frames)
+    assert selecting == [rtu("01 06 75 00 00 01"), rtu("01 06 75 01 00 0B")]
+    decoder = StreamDecoder(device, {}, ModbusFrameDecoder(device))
+    meant = {f"input_delay_index_{index}" for index in (1, 2, 3)} | {"output_mode"}
+    assert {item.point for item in decoder.decode(write).items} == meant, "nobody has selected one"
+    decoder.decode(write)
+    for frame in selecting:
+        decoder.decode(frame)
+        decoder.decode(frame)
+    assert [item.point for item in decoder.decode(write).items] == ["input_delay_index_2"]
+    decoder.decode(write)
+    assert [decoder.decode(frame) for frame in _reads(1, 0x7510, 20, 0, 8)][-1].items[0].point == "input_delay_index_2"
 
 
 def test_a_write_is_a_request_or_its_echo() -> None:

@@ -51,9 +51,10 @@ def _draft(file: Path) -> Drafted | None:
     document = Document(file.name, "ab" * 32, "database")
     head = Head("device", [document], "can", facts=drafted.head(), kind="a CAN database", bus=drafted.bus())
     compiled = compilable(drafted.groups, head, with_head=True)
-    different = _different(database, compiled)
-    if different:
-        raise ValueError(f"frames of {len(different)} messages mean something else: {', '.join(different[:5])}")
+    different = set(_different(database, compiled))
+    for group in drafted.groups:
+        for point in group.points if group.title in different else ():
+            point.questions.append("not carried: frames: they mean something else")
     return Drafted(drafted.groups, head)
 
 

@@ -109,7 +109,8 @@ class Register:
         )
         codes = {self._raw(code, width) for code in self.codes if self.kind != "b" or f"{code:x}".isdecimal()}
         named = () if self.has_flags else tuple(self.names)
-        return Written(least, greatest, ratio, self.offset, limits, named, self.closed, codes)
+        no_numbers = range(greatest + 1, 1 << width) if self.kind == "b" else ()
+        return Written(least, greatest, ratio, self.offset, limits, named, self.closed, codes, no_numbers)
 
     def _exponent(self, chance: Random) -> int:
         return chance.randint(-self.most_exponent, self.most_exponent) if self.factor else 0

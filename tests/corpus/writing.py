@@ -50,6 +50,8 @@ class Written:
     named: Collection[int]
     closed: bool
     codes: Collection[int]
+    no_numbers: Collection[int] = ()
+    """Raw numbers whose patterns are none, as where digits are decimal: a code, too."""
 
     def vectors(self, point: Mapping[str, Any], chance: Random) -> Iterator[str]:
         """Yield vectors for a random number, for a point of the export."""
@@ -77,7 +79,7 @@ class Written:
         return chance.choice(edges) + chance.choice((-1, 0, 1))
 
     def _status(self, raw: int) -> str:
-        if raw in self.codes:
+        if raw in self.codes or raw in self.no_numbers:
             return "special"
         if self.closed:
             return "ok" if raw in self.named else "unknown_value"

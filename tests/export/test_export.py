@@ -26,10 +26,10 @@ POINT_KEYS = """
 name code group space telegram direction address index addresses byte_order coding base to_end signal references
 places written type untyped words access bits variant when since until record set repeat format unit unit_name
 quantity display epoch decimals default step special special_of fixed changes changes_with view_of certainty together
-scale raw enum enum_name enum_was open flags digits encoding layout persistence conditions takes_effect write_with title
+scale raw enum enum_name enum_was open flags digits encoding layout persistence conditions takes_effect write_with selects title
 note source errata was reserved generated reason
 """
-"""The keys of format 6: another key, or one less, is another format."""
+"""The keys of format 7: another key, or one less, is another format."""
 TOP_KEYS = (
     *("format", "device", "version", "family", "vendor", "model", "title", "note", "documents", "variants", "limits"),
     *("groups", "points", "commands", "stepped_commands", "identifications", "given", "found", "bases"),
@@ -110,7 +110,7 @@ def test_no_value_and_a_span_of_special_codes() -> None:
         {"raw": [32768, 32768], "name": "no_value", "title": {"en": "No value"}, "no_value": True, "writable": False},
         {"raw": [65280, 65535], "name": "error", "title": {"en": "Error"}, "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 6
+    assert exported["format"] == 7
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 

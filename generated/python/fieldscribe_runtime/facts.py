@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         changes_with: NotRequired[tuple[str, ...]]
         takes_effect: NotRequired[str]
         write_with: NotRequired[tuple[str, ...]]
+        selects: NotRequired[tuple[tuple[str, int], ...]]
         variant: NotRequired[tuple[str, str]]
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
@@ -186,6 +187,7 @@ class Facts:
     it too, such as another point or a firmware. `when` has the condition where other points decide: alternatives of
     tests by raw numbers. `conditions` name what has to hold before it is written.
     `takes_effect` says when the device uses a written value, `write_with` names what is written in the same request.
+    `selects` has points with the raw numbers that they must hold before the address means this point.
     `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory), `choice` (if it
     is written with `keep=True`, which wears it) or the command that has to follow; empty where the manual does not say.
     """
@@ -210,6 +212,7 @@ class Facts:
     conditions: tuple[str, ...] = ()
     takes_effect: str = "at once"
     write_with: tuple[str, ...] = ()
+    selects: tuple[tuple[str, int], ...] = ()
     keeps: str = ""
     name: str = ""
     item: str = ""

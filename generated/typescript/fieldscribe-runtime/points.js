@@ -26,6 +26,7 @@ import { SpecialCode } from "./special.js";
  *   changesWith?: readonly string[], variant?: readonly [string, string],
  *   onlyFor?: readonly [string, readonly string[]], uncertain?: boolean,
  *   when?: import("./commands.js").Step["when"], conditions?: readonly string[], takesEffect?: string,
+ *   selects?: readonly (readonly [string, number])[],
  *   writeWith?: readonly string[], keeps?: string }} FactsOfPoint
  */
 

@@ -25,6 +25,9 @@ export class Session {
     _profile: any;
     /** @type {PointRaws} */
     _kept: PointRaws;
+    /** What points hold that select the meaning of addresses, as far as it was written and stands.
+     * @type {Map<AnyPoint, number>} */
+    _selected: Map<AnyPoint, number>;
     /** What `readMany` does not request again. @type {Refusals} */
     _refused: Refusals;
     _isFirstDue: boolean;
@@ -97,6 +100,13 @@ export class Session {
     _sharedWord(point: AnyPoint): Promise<number>;
     /** Write words or bits at a place, and forget what they change. @param {Place} at @param {readonly number[]} words */
     _put(at: Place, words: readonly number[]): Promise<void>;
+    /** Write what other points must hold before the address of this one means it, unless they hold it.
+     * @param {AnyPoint} point */
+    _select(point: AnyPoint): Promise<void>;
+    /** Read the raw numbers of several points, those together whose addresses mean them at the same time.
+     * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+     * @returns {Promise<PointRaws>} */
+    _gatherSelected(points: readonly AnyPoint[], group: string | undefined, refusals?: Refusals): Promise<PointRaws>;
     /** Read the raw numbers of several points (of a whole group, where one is named): place by place.
      * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
      * @returns {Promise<PointRaws>} */

@@ -71,6 +71,9 @@ export class Session {
     this._profile = this.table.facts.profile;
     /** @type {PointRaws} */
     this._kept = new Map();
+    /** What points hold that select the meaning of addresses, as far as it was written and stands.
+     * @type {Map<AnyPoint, number>} */
+    this._selected = new Map();
     /** What `readMany` does not request again. @type {Refusals} */
     this._refused = new Map();
     this._isFirstDue = true;
@@ -150,6 +153,7 @@ export class Session {
       } catch (error) {
         if (!(error instanceof FieldscribeError)) throw error;
         this.traffic.errors[error.status] = (this.traffic.errors[error.status] ?? 0) + 1;
+        this._selected.clear();
         if (left <= 0 || this._isOnce || !error.lost) throw error;
       }
       if (this.retryPause) await paused(this.retryPause);
@@ -182,7 +186,8 @@ export class Session {
   }
 
   /** @param {AnyPoint} point @returns {Promise<number | bigint>} */
-  _readRaw(point) {
+  async _readRaw(point) {
+    await this._select(point);
     return this._existing(point, () =>
       this._about(point, async () => this._taken(point, await this._get(point.at))),
     );
@@ -266,6 +271,7 @@ export class Session {
   async _putRaw(point, raw, raws, at) {
     const isGroup = point.facts.bits !== undefined;
     await this._automatic("before write");
+    await this._select(point);
     await this._about(point, async () => {
       const words = isGroup ? [point.insert(await this._sharedWord(point), raw)] : point.toWords(raw);
       try {
@@ -296,8 +302,39 @@ export class Session {
       const places = [kept, ...changing].flatMap((point) => [point.at, point.facts.writeAt ?? point.at]);
       if (places.some((one) => placesOverlap(at, one))) this._kept.delete(kept);
     }
+    for (const one of [...this._selected.keys()]) if (placesOverlap(at, one.at)) this._selected.delete(one);
     for (const point of [...this._refused.keys()]) if (point.facts.when) this._refused.delete(point); // it may exist now
     await this._store(at, words);
+  }
+
+  /** Write what other points must hold before the address of this one means it, unless they hold it.
+   * @param {AnyPoint} point */
+  async _select(point) {
+    for (const [name, raw] of point.facts.selects ?? []) {
+      const other = this.table.resolved(name, this.variants);
+      if (this._selected.get(other) === raw) continue;
+      await this._putRaw(other, raw, {});
+      this._selected.set(other, raw);
+    }
+  }
+
+  /** Read the raw numbers of several points, those together whose addresses mean them at the same time.
+   * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
+   * @returns {Promise<PointRaws>} */
+  async _gatherSelected(points, group, refusals) {
+    /** @type {Map<string, AnyPoint[]>} */
+    const parts = new Map();
+    for (const point of points) {
+      const key = JSON.stringify(point.facts.selects ?? []);
+      parts.set(key, [...(parts.get(key) ?? []), point]);
+    }
+    /** @type {PointRaws} */
+    const raws = new Map();
+    for (const [key, inside] of parts) {
+      const gathered = await this._gather(inside, key === "[]" ? group : undefined, refusals);
+      for (const [point, raw] of gathered) raws.set(point, raw);
+    }
+    return raws;
   }
 
   /** Read the raw numbers of several points (of a whole group, where one is named): place by place.
@@ -334,6 +371,7 @@ export class Session {
   async _part(points, refusals, ask, block) {
     let isRefusedForGood = false;
     try {
+      await this._select(points[0]);
       return await this._about(points, ask);
     } catch (error) {
       if (!(error instanceof FieldscribeError) || !refusals || error.lost) throw error;
@@ -375,7 +413,10 @@ export class Session {
   /** The points whose conditions may hold by what the device has now; what they compare is read.
    * @param {AnyPoint[]} points @returns {Promise<AnyPoint[]>} */
   async _existingOf(points) {
-    const names = points.flatMap((point) => conditionOf(point).flatMap((clause) => clause.map(([of]) => of)));
+    const names = points.flatMap((point) => {
+      const selecting = Object.fromEntries(point.facts.selects ?? []);
+      return conditionOf(point).flatMap((clause) => clause.map(([of]) => of).filter((of) => !(of in selecting)));
+    });
     const compared = new Map([...new Set(names)].map((name) => [name, this.table.found(name, this.variants)]));
     const unknown = [...compared.values()].filter(
       (point) => point && this._isCarried(point) && !this._kept.has(point) && !this._refused.has(point),
@@ -386,9 +427,12 @@ export class Session {
     for (const [name, point] of compared) {
       if (point) held[name] = raws.get(point) ?? this._kept.get(point);
     }
-    const mayHold = (/** @type {import("./commands.js").StepTest} */ [of, test, than]) =>
-      held[of] === undefined || stepTestHolds(held[of], test, than);
-    return points.filter((point) => !point.facts.when || conditionOf(point).some((clause) => clause.every(mayHold)));
+    return points.filter((point) => {
+      const known = { ...held, ...Object.fromEntries(point.facts.selects ?? []) };
+      const mayHold = (/** @type {import("./commands.js").StepTest} */ [of, test, than]) =>
+        known[of] === undefined || stepTestHolds(known[of], test, than);
+      return !point.facts.when || conditionOf(point).some((clause) => clause.every(mayHold));
+    });
   }
 
   /** Ask for a point, and add to a refusal what other points must hold for it to exist.
@@ -424,7 +468,7 @@ export class Session {
         if (other && !this._kept.has(other)) wanted.add(other);
       }
     }
-    const raws = await this._gather(
+    const raws = await this._gatherSelected(
       [...wanted].filter((point) => !refusals?.has(point)),
       group,
       refusals,
@@ -605,6 +649,7 @@ export class Session {
   forget() {
     this._isFirstDue = true;
     this._kept.clear();
+    this._selected.clear();
     this._refused.clear();
   }
 }

@@ -11,6 +11,7 @@ from fieldscribe.audit.numbers import Notation, joined
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Flag, Point
+from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.point_facts import PointFacts
 
 
@@ -29,7 +30,8 @@ class _FlagClaims:
         self.maker, self.point, self.notation, self.flag = maker, point, notation, flag
         above = point.bits[1] if point.bits else 0
         self.low, self.high = flag.low + above, flag.low + above + flag.width - 1
-        self.place, self.node = _node_of(facts, self.low, self.high)
+        self.numbers = bit_numbers(facts, WORD_BITS if point.bits else point.width)
+        self.place, self.node = _node_of(facts, {self.numbers.number(bit) for bit in (self.low, self.high)})
         self.printed = self.node.get("printed", {}) if isinstance(self.node, Map) else {}
         self.named = notation.bits(self.high - above, flag.low)
 
@@ -41,7 +43,7 @@ class _FlagClaims:
         at_values = any(values) and not once_for_all  # the values carry the numbers, the title is one of them or none
         yield from self._bits(optional=bool(label or at_values) and not self.named)
         if label and self.flag.width > 1 and not self.named and not at_values:
-            ends = (Fraction(self.high), Fraction(self.low))
+            ends = (Fraction(self.numbers.number(self.high)), Fraction(self.numbers.number(self.low)))
             yield from self.maker.run("flags", f"bits {self.high} and {self.low}", [ends], self.place, spread=True)
         is_value = any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values)
         if not is_value:
@@ -56,7 +58,7 @@ class _FlagClaims:
         for bit in dict.fromkeys((self.high, self.low)):
             run = self._ends_of_run(bit)
             ends = frozenset(map(Fraction, run)) if bit not in run else frozenset()
-            numbers = numbers_in(self.printed.get("bit")) or [Fraction(bit), *self._masks()]
+            numbers = numbers_in(self.printed.get("bit")) or [Fraction(self.numbers.number(bit)), *self._masks()]
             words = (*self.named, *joined("bit", bit))
             names = ("Bit", *self.notation.written("bits")) if optional else ()
             evidence = Number(absolute(numbers), words, ends, names=names)
@@ -75,7 +77,9 @@ class _FlagClaims:
 
     def _bits_of_flag(self) -> list[Fraction]:
         """Return the bits that may stand for the flag: its ends, or as `printed` has it."""
-        return numbers_in(self.printed.get("bit")) or [Fraction(self.high), Fraction(self.low)]
+        return numbers_in(self.printed.get("bit")) or [
+            Fraction(self.numbers.number(bit)) for bit in (self.high, self.low)
+        ]
 
     def _masks(self) -> list[Fraction]:
         """Return the masks that may stand for the flag, in its own word and in the whole one."""
@@ -107,10 +111,10 @@ def _label_of_value(node: Any, raw: int, enum: Map | None, notation: Notation) -
     return notation.label(titles) if isinstance(titles, Map) else ()
 
 
-def _node_of(facts: PointFacts, low: int, high: int) -> tuple[Span, Any]:
+def _node_of(facts: PointFacts, ends: set[int]) -> tuple[Span, Any]:
     """Return where the description names the bits of a flag, and what it says of them."""
     flags = facts.get("flags")
     if not isinstance(flags, Map):
         return facts.span("flags"), None
-    key = next((bits for bits in flags if {low, high} == set(numbers_in(bits))), None)
+    key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
     return (flags.span(), None) if key is None else (flags.key_span(key), flags[key])

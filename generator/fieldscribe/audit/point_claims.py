@@ -14,6 +14,7 @@ from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Point
+from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.point_facts import PointFacts
 
 _INDEX_AFTER_CODE = re.compile(r"\[.*|\(.*")
@@ -151,15 +152,16 @@ class _PointClaims:
         """The bits of the word that the point takes, and the bits that are always written as a constant."""
         bits = self.point.bits
         if bits is not None:
-            words = self.notation.bits(*bits)
+            words, numbers = self.notation.bits(*bits), bit_numbers(self.facts)
             for bit in range(bits[1], bits[0] + 1):
-                evidence, place = Number(frozenset((Fraction(bit),)), words), self.facts.span("bits")
+                evidence, place = Number(frozenset((Fraction(numbers.number(bit)),)), words), self.facts.span("bits")
                 yield from self.maker.claim("bits", str(bit), evidence, place, optional=bit not in bits)
+        numbers = bit_numbers(self.facts, self.point.width if bits is None else WORD_BITS)
         fixed: Any = self.facts.get("fixed") if self._says("fixed") else None
         for run, constant in fixed.items() if isinstance(fixed, Map) else ():
             place, ends = fixed.key_span(run), numbers_in(run)
             for end in ends:
-                masks = (Fraction(1 << int(end)),) if len(ends) == 1 else ()
+                masks = (Fraction(1 << numbers.bit(int(end))),) if len(ends) == 1 else ()
                 yield from self.maker.claim("fixed bits", str(end), Number(absolute((end, *masks))), place, key="bits")
             for number in numbers_in(constant):
                 evidence = Number(absolute((number,)), self.notation.written(number))

@@ -33,6 +33,7 @@ CHECKS = (
     "fixed_bits_can_be_written",
     "defaults_are_allowed",
     "references_exist",
+    "selecting_points_can_be_written",
     "printed_facts_agree",
     "checks_of_the_family",
     "frames_agree",

@@ -16,6 +16,7 @@ from fieldscribe.language.numbers import plain_number
 from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.errata import PrintedFact, same
 from fieldscribe.resolve.points import ResolvedPoint
@@ -236,6 +237,7 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
     """Compare the masks and bit numbers printed for flags, which count in the whole word."""
     point, raw = resolved.point, resolved.facts.get("flags")
     first = point.bits[1] if point.bits else 0
+    numbers = bit_numbers(resolved.facts, WORD_BITS if point.bits else point.width)
     by_name = {flag.name: flag for flag in point.flags}
     for value in raw.values():
         printed = value.get("printed") if isinstance(value, Map) else None
@@ -247,7 +249,7 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
         with_fixed = mask | (point.fixed.bits if point.fixed is not None else 0)
         for key, right, other in (
             ("mask", mask, with_fixed),
-            ("bit", low, low + flag.width - 1),
+            ("bit", numbers.number(low), numbers.number(low + flag.width - 1)),
             ("active", flag.active, flag.active),
         ):
             if key not in printed:

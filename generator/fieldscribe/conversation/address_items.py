@@ -12,6 +12,7 @@ from fieldscribe.conversation.decode_state import (
     Base,
     DecodeState,
     PointFormatter,
+    PointPlace,
     named_item,
     without_variants,
 )
@@ -33,7 +34,8 @@ _MOST_WORDS = 16
 
 def span_items(state: DecodeState, span: Span) -> list[Item]:
     """Return the items of consecutive addresses; neighbours without a point are one item."""
-    if span.learned and not span.written and len(span.words or ()) >= span.count:
+    is_whole = span.learned and not span.written and len(span.words or ()) >= span.count
+    if is_whole and not state.directory.has_selections:
         return _items_read(state, span)
     here = _SpanItems(state, span)
     if step := here.step_item():
@@ -120,7 +122,7 @@ class _SpanItems:
         raws = [
             (point, self._raw(point, place))
             for at in (self._carried if taught else ())
-            for point, place in self._directory.places(self._space, at)
+            for point, place in self._places(at)
             if at == place.addresses[0] and self.is_whole(point, place) and self._directory.teaches(point)
         ]
         if raws:
@@ -128,16 +130,23 @@ class _SpanItems:
             self._state = state if span.learned else replace(state, settings=dict(state.settings), changed=set())
             self._state.learn(raws)
 
+    def _places(self, at: int) -> list[PointPlace]:
+        """Return the points at an address, without those that what was written before does not select."""
+        places, held = self._directory.places(self._space, at), self._state.settings
+        if not self._directory.has_selections:
+            return places
+        return [one for one in places if all(held.get(name, raw) == raw for name, raw in one[0].selects)]
+
     def items_at(self, at: int) -> list[Item] | None:
         """Return the items that begin at an address of the span; None if nothing has this address."""
-        places = self._directory.places(self._space, at)
+        places = self._places(at)
         items = [self._point(point, place) for point, place in places if at == self.inside(place)[0]]
         commands = self._commands(at)
         return [*items, *commands] if places or commands else None
 
     def step_item(self) -> Item | None:
         """Return the item of a step of a command that writes just these words, where no point has them."""
-        if not self._written or any(self._directory.places(self._space, at) for at in self.addresses):
+        if not self._written or any(map(self._places, self.addresses)):
             return None
         here = self._space, self._start, len(self._words), None
         for command in self._device.stepped_commands:

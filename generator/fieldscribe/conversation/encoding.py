@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -62,10 +62,21 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings, *
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
-    """Return the frames that write a raw number. Raises RefusedError, UnclearError."""
+    """Return the frames that write a raw number, before them those that select the point by others.
+
+    Raises RefusedError, UnclearError.
+    """
     require_writable(point)
-    frames: BuiltFrames = family_part(device, "frame_builder").frames_for(device, point, raw, settings, options)
-    return frames
+    build = family_part(device, "frame_builder").frames_for
+    before = [
+        frame
+        for name, held in point.selects
+        for other in device.points
+        if other.name == name
+        for frame in build(device, other, held, settings, options).frames
+    ]
+    frames: BuiltFrames = build(device, point, raw, settings, options)
+    return replace(frames, frames=(*before, *frames.frames)) if before else frames
 
 
 def family_part(device: Device, name: str) -> Any:

@@ -36,7 +36,7 @@ from fieldscribe.wording import without_lines
 
 Listed: TypeAlias = Callable[[Exported], Iterable[Exported]]
 
-FORMAT = 6
+FORMAT = 7
 """The version of the exported shape."""
 _HEX = {**STRING, "pattern": "^([0-9A-F]{2}( [0-9A-F]{2})*)?$"}
 

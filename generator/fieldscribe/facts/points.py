@@ -491,6 +491,20 @@ POINT: FactTable = (
         text=lambda point, context: wording.condition_text(point.when, context.points),
         remark="exists when {}",
     ),
+    Fact(
+        "selects",
+        "What other points must hold before the address means this one: each with its raw number.",
+        list_of(record(("point", "The point.", STRING), ("raw", "What it holds.", INTEGER))),
+        BEHAVIOUR,
+        refers="point",
+        yaml=("select",),
+    )
+    .of(lambda point, _: [{"point": name, "raw": raw} for name, raw in point.selects])
+    .says(
+        "Selected by",
+        text=lambda point, _: ", ".join(f"{name} = {raw}" for name, raw in point.selects),
+        remark="write {} before",
+    ),
     Fact("since", "The firmware that brought it.", TEXT_OR_NULL, BEHAVIOUR).says("Since", remark="since {}"),
     Fact("until", "The last firmware that has it.", TEXT_OR_NULL, BEHAVIOUR).says("Until", remark="until {}"),
     Fact("changes", "How often it changes: `never`, `rarely`, `always`.", TEXT_OR_NULL, BEHAVIOUR).says(

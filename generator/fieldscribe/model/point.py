@@ -120,7 +120,7 @@ class Terms:
     same words. `certainty` says where the facts come from, None if it is the manual. `base` names what the addresses
     count from, None if that is 0; a point that repeats `to_end` exists where the found block is long enough.
     `takes_effect` says when the device uses a written value, None if at once; `write_with` names the points that are
-    written in the same request.
+    written in the same request. `selects` has points with what they must hold before the address means this point.
     """
 
     group: str
@@ -146,6 +146,7 @@ class Terms:
     to_end: bool = False
     takes_effect: str | None = None
     write_with: tuple[str, ...] = ()
+    selects: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,6 +232,7 @@ class Point:
     base = _Shared(lambda point: point.terms.base)
     to_end = _Shared(lambda point: point.terms.to_end)
     takes_effect = _Shared(lambda point: point.terms.takes_effect)
+    selects = _Shared(lambda point: point.terms.selects)
     write_with = _Shared(lambda point: point.terms.write_with)
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
     addresses = _Shared(lambda point: point.place.addresses)

@@ -10,11 +10,11 @@ from fieldscribe.language.hints import quoted
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import space_hint, suggest_bits
 from fieldscribe.model import Special, carrier_of, type_info
+from fieldscribe.resolve.bit_numbers import BitNumbers, bit_numbers
 from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import SpecialCodes
-from fieldscribe.resolve.values import bit_range
 
 
 class Encoding(NamedTuple):
@@ -116,20 +116,21 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
         message = f"the space `{space}` holds {'single bits' if holds == 'bit' else 'signals'}, not words"
         scope.report.error("bit-outside-word", message, span, "leave `bits` out")
         return None
-    return _parse_bits(scope, str(text), span)
+    return _parse_bits(scope, str(text), span, bit_numbers(facts))
 
 
-def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+def _parse_bits(scope: Scope, text: str, span: Span, numbers: BitNumbers) -> tuple[int, int] | None:
     suggestion = suggest_bits(text)
     if suggestion is not None:
         message = f"{quoted(text)} is not a bit or bits"
         scope.report.error("wrong-form", message, span, f"write `bits: {suggestion}`")
         return None
-    ends = bit_range(text, span, scope.report)
+    ends = numbers.range_of(text, span, scope.report)
     outside = next((bit for bit in ends or () if not 0 <= bit <= 15), None)
     if outside is not None:
-        message = f"bit {outside} lies outside the 16-bit word"
-        hint = "bits are numbered 15..0; bit 16 is bit 0 of the next address"
+        message = f"bit {numbers.number(outside)} lies outside the 16-bit word"
+        hint = f"bits are numbered {numbers.said(15, 0)}"
+        hint += "" if numbers.from_top else f"; bit {numbers.number(16)} is bit {numbers.first} of the next address"
         scope.report.error("bit-outside-word", message, span, hint)
         return None
     return ends

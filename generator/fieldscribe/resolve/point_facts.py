@@ -6,18 +6,23 @@ Also sets and arrays: which points a row stands for if it has `sets`, `indices` 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from fieldscribe.diagnostics import Span
+from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import plain_number
 from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
+from fieldscribe.wording.exact import number_text
 
 MOST_ELEMENTS = 4096
 """The most points that one row may stand for."""
@@ -206,7 +211,17 @@ class PointFacts:
         """Return the conditions for the point to exist, each with the key that says so."""
         when = self.get("when")
         stated = () if when is None else ((str(when), "when"),)
-        return stated if self.element is None else stated + self.element.exists
+        counted = () if self.element is None else self.element.exists
+        return (*stated, *counted, *self._selecting()) if self.layer("select") else stated + counted
+
+    def _selecting(self) -> Iterator[tuple[str, str]]:
+        """Yield that each point that selects holds its number: a name, or a formula of what `addressing` knows."""
+        numbers = (self.element or ALONE).values(plain_number(self.get("at")) or 0)
+        for name, text in self.get("select").items():
+            try:
+                yield f"{name}.raw == {number_text(evaluate(parse_expression(str(text)), numbers))}", "select"
+            except FormulaError:
+                yield f"{name} == {text}", "select"
 
     @property
     def suffix(self) -> str:

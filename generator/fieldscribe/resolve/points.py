@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import partial
 
 from fieldscribe.arithmetic.exact import float_of
+from fieldscribe.conditions import Condition
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
@@ -127,7 +128,7 @@ class _Points:
             changes=get("changes"),
             keeps=_keeps(scope, facts) if shape.writable else None,
             conditions=tuple(get("conditions", ())) if shape.writable else (),
-            when=condition_of(facts, self._scales),
+            when=(when := condition_of(facts, self._scales)),
             since=get("since"),
             until=get("until"),
             reserved=bool(get("reserved", False)),
@@ -142,6 +143,7 @@ class _Points:
             to_end=facts.get("indices") == TO_END,
             takes_effect=_takes_effect(facts) if shape.writable else None,
             write_with=_other_points(facts, "write_with", self._scales.symbols),
+            selects=_selects(facts, when, self._scales.symbols),
         )
 
 
@@ -214,6 +216,14 @@ def _takes_effect(facts: PointFacts) -> str | None:
     """Return when the device uses a written value, None if at once."""
     when = facts.get("takes_effect")
     return None if when == "at once" else when
+
+
+def _selects(facts: PointFacts, when: Condition | None, symbols: SymbolTable) -> tuple[tuple[str, int], ...]:
+    """Return the points that select the meaning of the address, each with its raw number."""
+    if facts.layer("select") is None or when is None:
+        return ()
+    names = {used.name for word in facts.get("select") for used in symbols.all(word)}
+    return tuple((test.of, int(test.than[0])) for test in when.clauses[0] if test.of in names and test.test == "==")
 
 
 def _other_points(facts: PointFacts, key: str, symbols: SymbolTable) -> tuple[str, ...]:

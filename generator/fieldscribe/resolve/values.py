@@ -84,7 +84,7 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     if suggestion is not None:
         report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {suggestion}")
         return None
-    ends = _ends(text, span, report)
+    ends = whole_ends(text, span, report)
     if ends is not None and ends[0] > ends[1]:
         low_text, _, high_text = text.partition("..")
         message = f"`{text}` runs downwards"
@@ -93,17 +93,7 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     return ends
 
 
-def bit_range(text: str, span: Span, report: Report) -> tuple[int, int] | None:
-    """Return the highest and the lowest bit that `5..4` or a single number names; None after a finding."""
-    ends = _ends(text, span, report)
-    if ends is not None and ends[0] < ends[1]:
-        hint = f"the higher bit stands first: {ends[1]}..{ends[0]}"
-        report.error("range-reversed", f"bits `{text}` run upwards", span, hint)
-        return None
-    return ends
-
-
-def _ends(text: str, span: Span, report: Report) -> tuple[int, int] | None:
+def whole_ends(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """Return both numbers of `a..b`, or a single number twice; None after a finding."""
     ends = [integer(end.strip(), span, report) for end in text.split("..", 1)]
     return None if ends[0] is None or ends[-1] is None else (ends[0], ends[-1])

@@ -14,13 +14,13 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOTATIONS, Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Shape, Text
+from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
-from fieldscribe.resolve.values import bit_range, integer, number, pattern
+from fieldscribe.resolve.values import integer, number, pattern
 from fieldscribe.schema_types import TEXTS
 from fieldscribe.wording.exact import number_text
 
-WORD_BITS = 16
 _MOST_WORDS = 500
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
@@ -217,17 +217,18 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
         return None
     word = WORD_BITS if bits is not None else width
     taken = 0 if bits is None else ((1 << width) - 1) << bits[1]
-    mask = value = 0
+    mask, value, numbers = 0, 0, bit_numbers(facts, word)
     for key, content in node.items():
         span, text = node.key_span(key), f"bits {key}" if ".." in key else f"bit {key}"
-        ends, number = bit_range(key, span, scope.report), integer(content, node.span(key), scope.report)
+        ends, number = numbers.range_of(key, span, scope.report), integer(content, node.span(key), scope.report)
         if ends is None or number is None:
             continue
         (high, low), greatest = ends, (1 << ends[0] - ends[1] + 1) - 1
-        if high >= word:
+        if not 0 <= low <= high < word:
             if not facts.failed & {"type", "bits"}:
-                message = f"bit {high} lies outside the {word} bits of the word"
-                scope.report.error("bit-outside-word", message, span, f"bits are numbered {word - 1}..0")
+                outside = numbers.number(high if high >= word else low)
+                message = f"bit {outside} lies outside the {word} bits of the word"
+                scope.report.error("bit-outside-word", message, span, f"bits are numbered {numbers.said(word - 1, 0)}")
         elif not 0 <= number <= greatest:
             message = f"{content} does not fit into {text}"
             scope.report.error("range-outside-type", message, node.span(key), f"write 0..{greatest}")
@@ -253,17 +254,18 @@ def flags_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
     taken = Taken(scope.report, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
+    numbers = bit_numbers(facts, width if bits is None else WORD_BITS)
     for key, value in node.items():
         span, name = node.key_span(key), name_of(value)
-        ends = bit_range(key, span, scope.report)
+        ends = numbers.range_of(key, span, scope.report)
         if ends is None:
             continue
         high, low = ends
         if not first <= low <= high <= last:
             if not facts.failed & {"type", "bits"}:
                 outside = high if high > last else low
-                message = f"bit {outside} lies outside the {width} bits of the point"
-                hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"
+                message = f"bit {numbers.number(outside)} lies outside the {width} bits of the point"
+                hint = f"bits are numbered {numbers.said(last, first)}{', as in the word' if bits else ''}"
                 place = outside.bit_length() - 1
                 if outside > _WIDEST and outside == 1 << place and first <= place <= last:
                     hint += f"; the mask {key} is bit {place}"

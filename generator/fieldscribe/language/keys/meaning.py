@@ -59,6 +59,12 @@ KEYS = (
         ["ipv4", "ipv6", "eui48", "eui64", "hex", "version", "version of nibbles", "time since 1970-01-01"],
         Text(form=forms.NOTATION),
     ),
+    Key(
+        "bit_numbers",
+        _GROUPED,
+        "How the manual numbers the bits of a word in `bits`, `flags` and `fixed`: from 0 or 1 at the lowest, which is "
+        "usual, or at the top.",
+    ).takes(["from 1"], one_of("from 0", "from 1", "from 0 at the top", "from 1 at the top")),
     Key("words", _GROUPED, "The order of the words of a value that has several.").takes(["low first"], WORD_ORDER),
     Key(
         "bytes",

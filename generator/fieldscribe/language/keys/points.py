@@ -153,6 +153,15 @@ USING = (
     Key("when", _EVERYWHERE, "The point exists only if this is true: comparisons joined by and, or, not.").takes(
         ["phases >= 2 and meter != none"], Text(500)
     ),
+    Key(
+        "select",
+        Places(GROUP, POINT, inherited=(GROUP,)),
+        "What other points must hold before an address means the point: a number or a name of each, or a formula of "
+        "number, index, set, sets and indices. Clients write it before, unless it stands.",
+    ).takes(
+        [{"page": 3, "parameter_index": "index - 1"}],
+        by(forms.ANY, Shape("What the point must hold.", [3, "index - 1"], Whole(), Text(200)), least=1),
+    ),
     Key("since", _EVERYWHERE, "The first firmware that has the point.").takes(["firmware 2.1.0"], Text(80)),
     Key("until", _EVERYWHERE, "The last firmware that has the point.").takes(["firmware 3.7"], Text(80)),
     Key(

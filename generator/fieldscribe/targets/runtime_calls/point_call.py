@@ -108,6 +108,8 @@ def _facts(point: Point, fields: PointFields, scope: Scope) -> _Facts:
         yield "changes_with", tuple(map(PointName, point.changes_with))
     if point.writable:
         yield from _writing(point, scope)
+    if point.selects:
+        yield "selects", tuple((PointName(name), raw) for name, raw in point.selects)
     yield from _existence(point, scope)
 
 

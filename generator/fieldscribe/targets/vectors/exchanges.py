@@ -126,6 +126,16 @@ class Exchanges:
             script += read
         return script
 
+    def _selecting(self, point: Point) -> Script:
+        """Return the exchanges that write what other points must hold before; clients send them by themselves."""
+        script: Script = []
+        for name, raw in point.selects:
+            other = self.points[name]
+            encoding = self.encodings.of(other)
+            written = self.wire.writes(other, words_of(encoding, encoding.order or (), raw), keep=False) or []
+            script += written if encoding.bits is None else self._beside(other, encoding, raw, written) or []
+        return script
+
     def _add(
         self, kind: str, point: Point, typical: _Typical, sent: tuple[int, tuple[int, ...]], script: Script | None
     ) -> None:
@@ -134,11 +144,12 @@ class Exchanges:
             return
         is_text, first = typical.encoding.shape.text is not None, (kind, point.space)
         raw, words = (None, sent[1]) if is_text else (sent[0], None)
-        if is_text or typical.needs:
-            self.lines.add(kind, script, "ok", raw, words, typical.needs or None)
+        needs = typical.needs + self._selecting(point)
+        if is_text or needs:
+            self.lines.add(kind, script, "ok", raw, words, needs or None)
         else:  # most exchanges
             self.lines.add_written(kind, (f"{kind}\t{script_text(script)}\tok\t{raw}",))
-        if is_text or typical.encoding.bits is not None or typical.needs or first in self.spoiled:
+        if is_text or typical.encoding.bits is not None or needs or first in self.spoiled:
             return
         self.spoiled.add(first)
         for status, bad in self.wire.spoils(point, script, writes=kind != "read"):

@@ -82,6 +82,8 @@ class Session(NamedPoints, ABC):
         """What `read_many` does not request again, by item."""
         self._first = self.AUTOMATIC.get("first", ())
         """Commands that come before all else."""
+        self._selected: dict[str, int] = {}
+        """What points hold that select the meaning of addresses, by name, as far as it was written and stands."""
         self._gaps: frozenset[tuple[str, int]] = frozenset()
         """What lies between points, and no read may pass over: the space and the address."""
 
@@ -114,6 +116,7 @@ class Session(NamedPoints, ABC):
                 result = yield from ask(*arguments)
             except FieldscribeError as error:
                 is_final = left <= 0 or not error.lost
+                self._selected.clear()
                 self.traffic.failed(error, is_final=is_final)
                 if is_final:
                     raise
@@ -151,6 +154,7 @@ class Session(NamedPoints, ABC):
         """Read some points by one request; where `refusals` are noted, by one each if the device refuses that."""
         self.traffic.is_split = refusals is not None and len(points) > 1
         try:
+            yield from self._select_steps(points[0])
             with About(self.traffic, *points):
                 return (yield from ask(*arguments))
         except FieldscribeError as error:
@@ -214,11 +218,13 @@ class Session(NamedPoints, ABC):
         """
         self._first = self.AUTOMATIC.get("first", ())
         self._kept.clear()
+        self._selected.clear()
         self._refused.clear()
         self._gaps = frozenset()
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
+        yield from self._select_steps(point)
         try:
             with About(self.traffic, point):
                 return self._taken(point, (yield from self._get_steps(point.facts.at)))
@@ -301,6 +307,7 @@ class Session(NamedPoints, ABC):
         words = point.to_words(raw)
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
+        yield from self._select_steps(point)
         with About(self.traffic, point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)
@@ -332,6 +339,8 @@ class Session(NamedPoints, ABC):
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
         words: dict[int, int] = {}
+        for point in points:
+            yield from self._select_steps(point)
         with About(self.traffic, *points):
             for point in points:
                 raw, addresses = raws[point.facts.item], sorted((point.facts.write_at or point.facts.at).addresses)
@@ -372,7 +381,16 @@ class Session(NamedPoints, ABC):
                 del self._kept[item]
         for item in [item for item in self._refused if self.POINTS[item].facts.when]:
             del self._refused[item]  # perhaps it exists now
+        for name in [name for name in self._selected if place.overlaps(self._resolved(name).facts.at)]:
+            del self._selected[name]
         yield from self._store_steps(place, values)
+
+    def _select_steps(self, point: Point) -> Steps[None]:
+        """Write what other points must hold before the address of this one means it, unless they hold it."""
+        for name, raw in point.facts.selects:
+            if self._selected.get(name) != raw:
+                yield from self._put_raw_steps(self._resolved(name), raw, None, NO_RAWS)
+                self._selected[name] = raw
 
     def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.
@@ -399,12 +417,24 @@ class Session(NamedPoints, ABC):
 
     def _existing_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
         """Return the points whose conditions may hold by what the device has now; what they compare is read."""
-        names = dict.fromkeys(name for point in points for name in names_in(point.facts.when))
+        names = dict.fromkeys(
+            name for point in points for name in names_in(point.facts.when) if name not in dict(point.facts.selects)
+        )
         compared = [one for name in names if (one := self._found(name)) is not None and self._carried(one)]
         items = [one for one in compared if one.facts.item not in self._kept.keys() | self._refused.keys()]
         raws = {**self._kept, **(yield from self._gather_steps(items, None, {}))} if compared else {}
         held = {**self.variants, **{one.facts.name: raws.get(one.facts.item) for one in compared}}
-        return [point for point in points if may_hold(point.facts.when, held)]
+        return [point for point in points if may_hold(point.facts.when, {**held, **dict(point.facts.selects)})]
+
+    def _selected_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
+        """Read the raw numbers of several points, those together whose addresses mean them at the same time."""
+        parts: dict[tuple[tuple[str, int], ...], list[Point]] = {}
+        for point in points:
+            parts.setdefault(point.facts.selects, []).append(point)
+        raws: dict[str, int] = {}
+        for selects, inside in parts.items():
+            raws.update((yield from self._gather_steps(inside, None if selects else group, refusals)))
+        return raws
 
     def _values_steps(
         self, points: Sequence[Decoding[Any]], group: str | None, refusals: Refusals
@@ -415,7 +445,8 @@ class Session(NamedPoints, ABC):
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point and point.facts.item not in self._kept})
         left = [point for item, point in wanted.items() if not refusals or item not in refusals]
-        raws = yield from self._gather_steps(left, group, refusals)
+        ask = self._selected_steps if any(point.facts.selects for point in left) else self._gather_steps
+        raws = yield from ask(left, group, refusals)
         values: dict[str, Any] = {}
         for point in points:
             try:

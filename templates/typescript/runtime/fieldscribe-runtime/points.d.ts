@@ -53,6 +53,7 @@ export type FactsOfPoint = {
     when?: import("./commands.js").Step["when"];
     conditions?: readonly string[];
     takesEffect?: string;
+    selects?: readonly (readonly [string, number])[];
     writeWith?: readonly string[];
     keeps?: string;
 };
@@ -74,6 +75,7 @@ declare class ReadWriteCodec extends ReadOnlyCodec {
  *   changesWith?: readonly string[], variant?: readonly [string, string],
  *   onlyFor?: readonly [string, readonly string[]], uncertain?: boolean,
  *   when?: import("./commands.js").Step["when"], conditions?: readonly string[], takesEffect?: string,
+ *   selects?: readonly (readonly [string, number])[],
  *   writeWith?: readonly string[], keeps?: string }} FactsOfPoint
  */
 /** One addressable datum. Its methods need no device; which there are follows from what can be read or written. */
