@@ -59,7 +59,7 @@ def test_blocks_are_where_the_frames_before_have_shown_them() -> None:
     marker = int.from_bytes(b"Su", "big"), int.from_bytes(b"nS", "big")
 
     def said(*frames: bytes) -> list[str]:
-        return [item.point for item in [decoder.decode(frame) for frame in frames][-1].items]
+        return [item.point for item in [decoder.decode(data) for data in frames][-1].items]
 
     search = (_reads(1, 0, 1, 2), _reads(1, 50000, *marker), _reads(1, 50002, 103, 8), _reads(1, 50012, 160, 10))
     for frames in search:
@@ -83,12 +83,12 @@ def test_a_page_and_an_index_select_what_frames_mean() -> None:
     meant = {f"input_delay_index_{index}" for index in (1, 2, 3)} | {"output_mode"}
     assert {item.point for item in decoder.decode(write).items} == meant, "nobody has selected one"
     decoder.decode(write)
-    for frame in selecting:
-        decoder.decode(frame)
-        decoder.decode(frame)
+    for data in selecting:
+        decoder.decode(data)
+        decoder.decode(data)
     assert [item.point for item in decoder.decode(write).items] == ["input_delay_index_2"]
     decoder.decode(write)
-    assert [decoder.decode(frame) for frame in _reads(1, 0x7510, 20, 0, 8)][-1].items[0].point == "input_delay_index_2"
+    assert [decoder.decode(data) for data in _reads(1, 0x7510, 20, 0, 8)][-1].items[0].point == "input_delay_index_2"
 
 
 def test_a_write_is_a_request_or_its_echo() -> None:

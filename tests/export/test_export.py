@@ -26,8 +26,8 @@ POINT_KEYS = """
 name code group space telegram direction address index addresses byte_order coding base to_end signal references
 places written type untyped words access bits variant when since until record set repeat format unit unit_name
 quantity display epoch decimals default step special special_of fixed changes changes_with view_of certainty together
-scale raw enum enum_name enum_was open flags digits encoding layout persistence conditions takes_effect write_with selects title
-note source errata was reserved generated reason
+scale raw enum enum_name enum_was open flags digits encoding layout persistence conditions takes_effect write_with
+selects title note source errata was reserved generated reason
 """
 """The keys of format 7: another key, or one less, is another format."""
 TOP_KEYS = (

@@ -128,7 +128,7 @@ def test_points_that_never_coexist_may_share_an_address(tmp_path: Path) -> None:
     ]
     assert wording.condition_text(points["b"].when) == "mode.raw in (1, 2) and level.raw < 50"
     exported: Any = export_model(device)
-    assert exported["format"] == 6
+    assert exported["format"] == 7
     assert {one["name"]: one["when"] for one in exported["points"] if one["name"] in "bd"} == {
         "b": {"any": [{"all": [{"of": "mode", "is": "in", "than": [1, 2]}, {"of": "level", "is": "<", "than": 50}]}]},
         "d": {"any": [{"all": [{"of": "model", "is": "==", "than": "550"}]}]},
