@@ -5,7 +5,9 @@ function fillCalculator(place, point) {
   const codec = codecOf(point);
   if (!place || !codec || !codec.access) return;
   place.hidden = false;
-  place.replaceChildren(...new Calculator(point, codec).parts());
+  const calculator = new Calculator(point, codec);
+  place.replaceChildren(...calculator.parts());
+  calculator.listenToBits();
 }
 
 /** What was entered last stays for a visit: the unit, the framing, other points, and the numbers that addresses depend on. */
@@ -246,7 +248,7 @@ class Calculator {
       const flag = flags.find(([from, size]) => bit >= from && bit < from + size);
       const button = element("button", { type: "button", title: flag ? flag[2] : "" }, element("span", { className: "unseen" }, "Bit "), element("small", {}, String(bit + low)), flag ? element("span", { className: "unseen" }, ` ${flag[2]} `) : null, element("b", {}));
       button.dataset.bit = bit;
-      button.addEventListener("click", () => this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit))), button));
+      button.addEventListener("click", () => this.flip(bit, button));
       return button;
     });
     const show = () => {
@@ -270,6 +272,21 @@ class Calculator {
     for (const box of document.querySelectorAll("#detail [data-bit].bit")) {
       const bit = Number(/** @type {SVGElement} */ (box).dataset.bit) - low;
       box.classList.toggle("set", bit >= 0 && bit < this.codec.width && ((now >> BigInt(bit)) & 1n) === 1n);
+    }
+  }
+
+  /** @param {number} bit @param {HTMLElement} source */
+  flip(bit, source) {
+    this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit))), source);
+  }
+
+  /** Let bits in the drawings be clicked, beside whose lines their names stand. */
+  listenToBits() {
+    for (const box of document.querySelectorAll("#detail [data-bit].bit")) {
+      const bit = Number(/** @type {SVGElement} */ (box).dataset.bit) - (this.point.shared.low ?? 0);
+      if (!this.bits || bit < 0 || bit >= this.codec.width) continue;
+      box.classList.add("clickable");
+      box.addEventListener("click", () => this.flip(bit, /** @type {HTMLElement} */ (box)));
     }
   }
 

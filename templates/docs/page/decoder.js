@@ -68,12 +68,12 @@ function isWrong({ faults, findings, said, kind }) {
   return kind === "exception" || faults.length + findings.length > 0 || said.some(({ finding }) => finding);
 }
 
-/** Return numbers by name out of `P2009=0, PGNEXPO=3h`. @param {string} text @returns {Record<string, number>} */
+/** Return numbers by name out of `P2009=0, P2000=50.5, PGNEXPO=3h`. @param {string} text @returns {Record<string, number>} */
 function knownNumbers(text) {
   /** @type {Record<string, number>} */
   const known = {};
   for (const [, name, number] of text.matchAll(/([\w.[\]]+)\s*=\s*([^\s,;]+)/g)) {
-    try { known[name] = Number(wholeText(number, false)); } catch { /* it is typed on */ }
+    try { known[name] = /^-?\d+\.\d+$/.test(number) ? Number(number) : Number(wholeText(number, false)); } catch { /* it is typed on */ }
   }
   return known;
 }
@@ -136,9 +136,10 @@ class DecoderView {
       fields.push(this.choice("Framing", "framing", Object.entries(USS_FRAMINGS), "by its bytes"), this.choice("Parameter part", "pkw", lengths), this.choice("Process data", "pzd", words));
     }
     const places = new Places({});
-    const names = [...places.unplaced, ...[...places.needed].map(neededCode)];
-    if (names.length) {
-      const input = element("input", { type: "text", value: pastedBefore.known, spellcheck: false, placeholder: `${names[0]}=1` });
+    const needed = [...places.needed].map((name) => (isFloat(neededCodec(name)) ? `${neededCode(name)}=50.0` : `${neededCode(name)}=1`));
+    const examples = [...[...places.unplaced].map((name) => `${name}=1`), ...needed];
+    if (examples.length) {
+      const input = element("input", { type: "text", value: pastedBefore.known, spellcheck: false, placeholder: examples.slice(0, 2).join(" ") });
       input.addEventListener("input", () => { pastedBefore.known = input.value; void this.decode(); });
       fields.push(element("label", {}, element("span", {}, places.unplaced.size ? "Known addresses and raw numbers" : "Known raw numbers"), input));
     }
@@ -200,10 +201,15 @@ class DecoderView {
   }
 }
 
+/** @param {string} name @returns {Codec} */
+function neededCodec(name) {
+  return generatedCode().Device.table.byName.get(name)[0];
+}
+
 /** @param {string} name */
 function neededCode(name) {
-  const codec = generatedCode().Device.table.byName.get(name)?.[0];
-  return codec?.code ?? codec?.name ?? name;
+  const { code, name: own } = neededCodec(name);
+  return code ?? own;
 }
 
 /** Return a decoded frame as a box. @param {Heard} heard */

@@ -9,7 +9,8 @@
 /** What the frames of a unit brought: raw numbers that scales and limits need, and words of parameters.
  * @typedef {{ raws: Record<string, any>, words: Map<number, number> }} UnitState */
 
-/** Finds points by their addresses; `known` has raw numbers of points and addresses of bases that the reader gives. */
+/** Finds points by their addresses; `known` has what the reader gives: raw numbers of points, values of floats, and numbers
+ * that addresses depend on. */
 class Places {
   /** @param {Record<string, number>} known */
   constructor(known) {
@@ -29,7 +30,7 @@ class Places {
     const codec = codecOf(point);
     for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? [])] : []) this.needed.add(name);
     const given = known[point.name] ?? known[point.code];
-    if (codec && given !== undefined) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(given);
+    if (codec && given !== undefined && (isFloat(codec) || Number.isInteger(given))) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(isFloat(codec) ? codec.form.converted(given, {}) : given);
     const { base } = point.shared;
     const start = baseAddress(base, known);
     if (start === undefined) {

@@ -1,6 +1,6 @@
 // Types into the calculators on the pages of devices in a real browser, and prints as JSON what the fields say then.
-// Usage: node calculate.mjs BROWSER NODE_MODULES STEPS_FILE: { page: [{ point, anew, needs, field, text, bits, then }, ...] }
-// where `then` has what is typed at last, by the beginnings of labels; or { decode, known } instead.
+// Usage: node calculate.mjs BROWSER NODE_MODULES STEPS_FILE: { page: [{ point, anew, needs, field, text, bits, clicks, then }, ...] }
+// where `clicks` are bits of the drawing, and `then` has what is typed at last, by the beginnings of labels; or { decode, known } instead.
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { opened } from "../../support/browser.mjs";
@@ -13,7 +13,7 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
   said[file] = await page.evaluate(async (typed) => {
     const found = [];
     const settled = () => new Promise((done) => setTimeout(done));
-    for (const { point, anew, needs = {}, field, text, bits = [], then = {}, decode, known } of typed) {
+    for (const { point, anew, needs = {}, field, text, bits = [], clicks = [], then = {}, decode, known } of typed) {
       if (decode) {
         found.push([...decodedFrames(decode, newDecoder({ known }))].flatMap((frame) => frame.said.map((said) => `${said.name}${said.text}`)));
         continue;
@@ -28,6 +28,7 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
       }
       if (field) type(labelled(field), text);
       for (const [label, last] of Object.entries(then)) type(labelled(label), last);
+      for (const bit of clicks) document.querySelector(`#detail .clickable[data-bit="${bit}"]`).dispatchEvent(new MouseEvent("click"));
       for (const bit of bits) place.querySelector(`[data-bit="${bit}"]`).click();
       await settled();
       const frames = Object.fromEntries([...place.querySelectorAll(".frame")].map((row) => [row.firstChild.textContent, row.querySelector("code, input").textContent || row.querySelector("input")?.value]));

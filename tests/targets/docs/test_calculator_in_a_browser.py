@@ -30,6 +30,7 @@ BY_HAND = (
     ("hitachi_l200", {"point": "base_frequency", "field": "Value", "text": "37.5 Hz"}, "375", "0177"),
     ("hitachi_l200", {"point": "base_frequency", "field": "Word", "text": "0FA0"}, "4000", "0FA0"),
     ("hitachi_l200", {"point": "base_frequency", "anew": True, "bits": [2, 8]}, "260", "0104"),
+    ("hitachi_l200", {"point": "digital_outputs", "anew": True, "clicks": [0, 2]}, "5", "0005"),
     ("hitachi_l200", {"point": "run_command", "field": "Name", "text": "1"}, "1", "0001"),
     ("siemens_mm4", {"point": "control_word", "field": "Word", "text": "047F"}, "1151", "047F"),
     ("jumo_controller", {"point": "setpoint_1", "field": "Value", "text": "1"}, "1065353216", "0000 3F80"),
@@ -91,6 +92,7 @@ WORDS = {
     "12345": "12345 is no word",
 }
 FOREIGN_UNIT = {"point": "generator_frequency", "then": {"Unit": "300"}}
+OF_FLOATS = {"decode": "02 06 01 04 7F 20 00 5E", "known": {"P2009": 0, "P2000": 50.0}}
 IN_SLOT = {"decode": "01 06 0B CD 01 90 1B ED", "known": {"slot": 3, "half": 1}}
 NO_WORD = {"point": "control_word", "field": "Raw", "text": "none"}
 REPLIES = [
@@ -150,7 +152,9 @@ def _steps(device_id: str) -> list[dict[str, Any]]:
     samples = _samples(device_id) if device_id in DEVICES else []
     l200 = [*REPLIES, *REFUSED, ROUNDED, *map(_words, WORDS)] if device_id == "hitachi_l200" else []
     bits = [NO_WORD] if device_id == "siemens_mm4" else []
-    last = {"woodward_mpu2s": [FOREIGN_UNIT], "kitchen_blocks": [IN_SLOT]}.get(device_id, [])
+    last = {"woodward_mpu2s": [FOREIGN_UNIT], "kitchen_blocks": [IN_SLOT], "siemens_mm4": [OF_FLOATS]}.get(
+        device_id, []
+    )
     return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps()), *last]
 
 
@@ -264,3 +268,8 @@ def test_a_unit_that_cannot_be_has_no_frames(typed: Typed) -> None:
 def test_the_decoder_takes_numbers_that_addresses_depend_on(typed: Typed) -> None:
     [said] = typed("kitchen_blocks", IN_SLOT)
     assert said.startswith("level = 40 %")
+
+
+def test_the_decoder_takes_values_of_floats(typed: Typed) -> None:
+    """2000h is half of the reference frequency."""
+    assert any(each.startswith("main_setpoint = 25 Hz") for each in typed("siemens_mm4", OF_FLOATS))
