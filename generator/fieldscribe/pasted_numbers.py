@@ -23,16 +23,20 @@ class HexError(ValueError):
 
 def parse_hex(text: str) -> bytes:
     """Return the bytes that a text stands for. Raises HexError with what is wrong and where."""
+    if data := _plain_bytes(text):
+        return data
     spaced = _SEPARATORS.sub(" ", _MARK.sub(" 0x", text)).strip()
-    for plain in (text, spaced):
-        try:
-            if data := bytes.fromhex(plain):
-                return data
-        except ValueError:
-            continue
     if not spaced:
         raise HexError("there are no bytes")
-    return b"".join(_bytes_of(piece, place) for place, piece in enumerate(spaced.split(), 1))
+    return _plain_bytes(spaced) or b"".join(_bytes_of(piece, place) for place, piece in enumerate(spaced.split(), 1))
+
+
+def _plain_bytes(text: str) -> bytes:
+    """Return the bytes of digits alone; none for any other text."""
+    try:
+        return bytes.fromhex(text)
+    except ValueError:
+        return b""
 
 
 def _bytes_of(piece: str, place: int) -> bytes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder
@@ -23,12 +23,12 @@ class Script:
 
     def frames(self, texts: Sequence[str]) -> Sequence[DecodedFrame]:
         """None: nobody pastes anything here."""
-        return [DecodedFrame(replace(QUIET, summary=text)) for text in texts]
+        return [DecodedFrame(QUIET._replace(summary=text)) for text in texts]
 
     def decode(self, frame: DecodedFrame, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """The frame, and what was open before it."""
-        decoded = replace(frame.result, summary=f"{requests.request(frame.unit, frame.exchange)}")
-        return replace(frame, result=decoded, stays_open=expecting)
+        decoded = frame.result._replace(summary=f"{requests.request(frame.unit, frame.exchange)}")
+        return frame._replace(result=decoded, stays_open=expecting)
 
 
 def summaries(*frames: DecodedFrame, expected: DecodedFrame | None = None) -> list[str]:
@@ -46,12 +46,12 @@ ASKS, ANSWERS = DecodedFrame(QUIET, request="first"), DecodedFrame(QUIET, answer
     ("frames", "expected", "open_"),
     [
         ([ASKS, ANSWERS, ANSWERS], None, ["None", "first", "None"]),
-        ([ASKS, replace(ANSWERS, answers=False), ANSWERS], None, ["None", "first", "first"]),
-        ([ASKS, replace(ASKS, request="all", unanswered=True), ANSWERS], None, ["None", "first", "None"]),
-        ([ASKS, replace(ANSWERS, unit=2), ANSWERS], None, ["None", "None", "first"]),
-        ([ASKS, replace(ANSWERS, exchange="other"), ANSWERS], None, ["None", "None", "first"]),
+        ([ASKS, ANSWERS._replace(answers=False), ANSWERS], None, ["None", "first", "first"]),
+        ([ASKS, ASKS._replace(request="all", unanswered=True), ANSWERS], None, ["None", "first", "None"]),
+        ([ASKS, ANSWERS._replace(unit=2), ANSWERS], None, ["None", "None", "first"]),
+        ([ASKS, ANSWERS._replace(exchange="other"), ANSWERS], None, ["None", "None", "first"]),
         ([ANSWERS, ANSWERS], ASKS, ["first", "first"]),
-        ([ANSWERS, ANSWERS], replace(ASKS, unanswered=True), ["first", "first"]),
+        ([ANSWERS, ANSWERS], ASKS._replace(unanswered=True), ["first", "first"]),
     ],
 )
 def test_which_request_is_open(frames: list[DecodedFrame], expected: DecodedFrame | None, open_: list[str]) -> None:
@@ -65,6 +65,6 @@ def carrying(*words: int) -> DecodedFrame:
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:
     told = Item("", 0, 1, "as it is")
-    decoded = StreamDecoder(DEVICE, {}, Script()).decode(replace(carrying(7), contents=(told, told)))
+    decoded = StreamDecoder(DEVICE, {}, Script()).decode(carrying(7)._replace(contents=(told, told)))
     assert decoded.items == (told, told)
     assert [item.raw for item in StreamDecoder(DEVICE, {}, Script()).decode(carrying(7)).items] == [7]

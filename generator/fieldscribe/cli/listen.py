@@ -8,7 +8,6 @@ import sys
 import time
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
-from dataclasses import replace
 from datetime import UTC, datetime
 from functools import lru_cache
 from io import BufferedReader
@@ -185,7 +184,7 @@ class _Output:
         except HexError:
             self._unread += 1
             return None
-        return chunk if chunk is None or frame is text else replace(chunk, time=timed(text)[0])
+        return chunk if chunk is None or frame is text else chunk._replace(time=timed(text)[0])
 
     def _take(self, chunk: Chunk) -> None:
         for exchange in self._listener.take(chunk):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.model import Telegram
@@ -87,8 +87,7 @@ class Pieces(Protocol):
         """Return ("ok", words); another status and no words while they are not known."""
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(NamedTuple):
     """The words of one frame of a telegram that comes in several frames."""
 
     telegram: Telegram
@@ -100,8 +99,7 @@ class Piece:
 Content = Span | Element | Word | ProcessData | Masks | Piece | Item
 
 
-@dataclass(frozen=True, slots=True)
-class DecodedFrame:
+class DecodedFrame(NamedTuple):
     """One decoded frame, before its contents are matched with points.
 
     `unit` is the unit that sends or receives it; `exchange` tells apart exchanges that are open at the same time.

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.model import Bus, Point
 from fieldscribe.user_errors import RefusedError
@@ -134,8 +134,7 @@ class Captured(Protocol):
         """When and where it was captured, for JSON."""
 
 
-@dataclass(frozen=True, slots=True)
-class FrameResult:
+class FrameResult(NamedTuple):
     """One frame in words.
 
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
@@ -156,7 +155,7 @@ class FrameResult:
     findings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     exception: int | None = None
-    details: Mapping[str, object] = field(default_factory=dict)
+    details: Mapping[str, object] = MappingProxyType({})
     captured: Captured | None = None
     refusal: str = ""
 
@@ -181,11 +180,11 @@ class FrameResult:
 
     def captured_as(self, data: bytes, captured: Captured) -> FrameResult:
         """Return the same for these bytes, as they were captured."""
-        return replace(self, data=data, captured=captured)
+        return self._replace(data=data, captured=captured)
 
     def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
         """Return the same with items, and further notes."""
-        return replace(self, items=items, notes=self.notes + notes)
+        return self._replace(items=items, notes=self.notes + notes)
 
     @property
     def wrong(self) -> bool:

@@ -21,8 +21,7 @@ BYTES, STREAM, MESSAGE, SILENT = "bytes", "stream", "message", ""
 """How bytes travel: on a serial line, in a connection of a network, as messages with an identifier; or nothing came."""
 
 
-@dataclass(frozen=True, slots=True)
-class Chunk:
+class Chunk(NamedTuple):
     """Bytes that came together; without any, nothing came for a while.
 
     `place` tells lines and connections apart. `fresh`: bytes before these are lost. `sent`: whether they go to the
@@ -39,8 +38,7 @@ class Chunk:
     remote: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Cut:
+class Cut(NamedTuple):
     """A frame that was cut out: as its family's decoder takes it, and as bytes.
 
     `unit` is the unit that it is for or from, if the bytes alone tell it. Requests and answers with another `exchange`

@@ -20,7 +20,7 @@ _MOST_BYTES = 16
 """How many bytes of what is no frame are printed."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class Exchange:
     """A request with its answer, one of them alone, or a frame that nobody answers.
 

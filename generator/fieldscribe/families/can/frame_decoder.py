@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -145,9 +145,9 @@ class CanFrameDecoder:
         message = head.message
         if head.slot * self._words[message.name] >= (telegram.words if self._words[message.name] else 0):
             last = -(-telegram.words // max(1, message.words)) - 1
-            return DecodedFrame(replace(result, findings=(f"the manual knows multiplexers 0 to {last} only",)))
+            return DecodedFrame(result._replace(findings=(f"the manual knows multiplexers 0 to {last} only",)))
         if head.differences or head.wrong_sum:
-            return DecodedFrame(replace(result, notes=(_DAMAGED,)))
+            return DecodedFrame(result._replace(notes=(_DAMAGED,)))
         receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
         return DecodedFrame(result, (piece,), head.unit)
@@ -180,13 +180,13 @@ class CanFrameDecoder:
         word = Word(head.address, raw, in_request=writes and is_request, learned=learned, stale=writes and sound)
         if is_request:
             strange = "" if head.unit is None else strange_unit(self._device.bus, head.unit)
-            result = replace(result, findings=(strange,) if strange else ())
+            result = result._replace(findings=(strange,) if strange else ())
             return DecodedFrame(result, (word,), head.unit, message.name, request=about)
         exchange = message.answers or ""
         open_request: ParameterWord | None = requests.request(head.unit, exchange)
         findings = () if open_request is None else tuple(_answer_findings(open_request, about))
         answers = open_request is not None and open_request.address == about.address
-        result = replace(result, findings=findings) if findings else result
+        result = result._replace(findings=findings) if findings else result
         return DecodedFrame(result, (word,), head.unit, exchange, answers=answers)
 
     def _unknown(self, pasted: Pasted) -> DecodedFrame:
@@ -199,10 +199,10 @@ class CanFrameDecoder:
         if senders:
             fault = _unknown_kind(pasted, [message for message, _ in senders])
             text, unit = f"{text}: not readable", senders[0][1]
-            result = replace(result, kind="unreadable", unit=unit, summary=text, faults=(fault,))
+            result = result._replace(kind="unreadable", unit=unit, summary=text, faults=(fault,))
         else:
             notes = (_foreign_note(self._device),)
-            result = replace(result, summary=f"{text}: not of this device", notes=notes)
+            result = result._replace(summary=f"{text}: not of this device", notes=notes)
         return DecodedFrame(result)
 
 

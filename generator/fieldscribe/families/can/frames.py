@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import itemgetter
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.model import Device, Message, Role, Telegram
@@ -18,8 +19,7 @@ _STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
 """The status of a frame whose bytes of this role differ."""
 
 
-@dataclass(frozen=True, slots=True)
-class CanFrame:
+class CanFrame(NamedTuple):
     """A frame on the bus: its identifier and its data."""
 
     id: int

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
@@ -31,8 +31,7 @@ _ALONE = re.compile(r"\([0-9.]{1,32}\)")
 _REMOTE = re.compile(r"[Rr][0-8]?|remote request")
 
 
-@dataclass(frozen=True, slots=True)
-class Pasted:
+class Pasted(NamedTuple):
     """A frame with the time and the bus of its capture; `remote` frames only ask for data."""
 
     frame: CanFrame

@@ -62,9 +62,9 @@ class ModbusFrameDecoder:
             return decoded
         faults = (*faults, *result.faults)
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
-            result = replace(result, kind="unreadable")
+            result = result._replace(kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
-        return replace(decoded, result=replace(result, checks=remarks.frame_checks(unwrapped), faults=faults))
+        return decoded._replace(result=result._replace(checks=remarks.frame_checks(unwrapped), faults=faults))
 
     def _read(self, unwrapped: Unwrapped, request: Request | None, *, fixed: bool) -> DecodedFrame:
         pdu = unwrapped.pdu
@@ -98,12 +98,12 @@ class ModbusFrameDecoder:
             return _unreadable(unwrapped, Flaw("long_exception", len(unwrapped.pdu), 2))
         code = unwrapped.pdu[1]
         text = f"exception {remarks.exception_text(self._device, code)}"
-        result = replace(_result(unwrapped, "exception", text), exception=code, refusal=text)
+        result = _result(unwrapped, "exception", text)._replace(exception=code, refusal=text)
         if request is None:
-            return DecodedFrame(replace(result, notes=(remarks.UNKNOWN_REQUEST,)))
+            return DecodedFrame(result._replace(notes=(remarks.UNKNOWN_REQUEST,)))
         if status != "exception":
-            return DecodedFrame(replace(result, faults=(no_answer_text(status, "request before"),)))
-        result = replace(result, summary=f"{result.summary}; refused was {remarks.span_of_request(request)}")
+            return DecodedFrame(result._replace(faults=(no_answer_text(status, "request before"),)))
+        result = result._replace(summary=f"{result.summary}; refused was {remarks.span_of_request(request)}")
         return DecodedFrame(result, _contents(request, _span(request)), answers=True)
 
 
@@ -174,7 +174,7 @@ def _unmatched_read(unwrapped: Unwrapped, request: Request | None, faults: tuple
     data = unwrapped.pdu[2:]
     if request is None:
         text = f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
-        return DecodedFrame(replace(_result(unwrapped, "reply", text), faults=faults, notes=(remarks.NO_REQUEST,)))
+        return DecodedFrame(_result(unwrapped, "reply", text)._replace(faults=faults, notes=(remarks.NO_REQUEST,)))
     values, due = values_in(request.function, data), data_size(request.function, request.count)
     if len(data) != due:
         due_text = f"the request asks for {due} ({counted(request.count, 'item')})"
@@ -223,4 +223,4 @@ def _result(
 
 def _unreadable(unwrapped: Unwrapped, flaw: Flaw) -> DecodedFrame:
     faults = (remarks.unreadable_text(unwrapped.pdu, flaw),)
-    return DecodedFrame(replace(_result(unwrapped, "unreadable", "not readable"), faults=faults))
+    return DecodedFrame(_result(unwrapped, "unreadable", "not readable")._replace(faults=faults))

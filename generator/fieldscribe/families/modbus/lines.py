@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.families.frame_results import FrameResult
@@ -149,7 +148,7 @@ def chunk_of_text(text: str) -> Chunk:
     chunk = logged_bytes(text)
     if unwrap("rtu", chunk.data).flaw is None or unwrap("tcp", chunk.data).flaw is not None:
         return chunk
-    return replace(chunk, kind=STREAM)
+    return chunk._replace(kind=STREAM)
 
 
 def hear(line: LineAddress) -> Iterator[Chunk]:

@@ -39,7 +39,7 @@ class UssFrameDecoder:
         unwrapped = unwrap(frame) if self._framing == "uss" else bare_words(frame)
         direction = "request" if expecting else self._direction or ("response" if requests.fixed else None)
         decoded = self._read(unwrapped, requests, direction)
-        return replace(decoded, stays_open=True) if expecting else decoded
+        return decoded._replace(stays_open=True) if expecting else decoded
 
     def _read(self, unwrapped: Unwrapped, requests: OpenRequests, direction: str | None) -> DecodedFrame:
         unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
@@ -47,9 +47,9 @@ class UssFrameDecoder:
         checks, faults = remarks.checks_text(unwrapped), tuple(remarks.flaw_texts(unwrapped))
         base = FrameResult(unwrapped.data, framing, "unreadable", unit, None, head, checks=checks, faults=faults)
         if words is None:
-            return DecodedFrame(replace(base, summary=f"{head}: not readable"))
+            return DecodedFrame(base._replace(summary=f"{head}: not readable"))
         if "wrong_start" in unwrapped.flaws and len(faults) > 1:
-            return DecodedFrame(replace(base, summary=f"{head}: not readable", unit=None, notes=(remarks.PARTS,)))
+            return DecodedFrame(base._replace(summary=f"{head}: not readable", unit=None, notes=(remarks.PARTS,)))
         if framing == "broadcast" or (framing == "uss" and unit == self._device.bus.broadcast):
             return _broadcast(base, words)
         if framing == "pzd":
@@ -69,7 +69,7 @@ class UssFrameDecoder:
             return self._response(base, words, open_request, status)
         decoded = self._request(base, words)
         if direction is None and not requests.addressed(base.unit) and self._could_answer(words):
-            return replace(decoded, result=replace(decoded.result, notes=(*decoded.result.notes, remarks.NO_REQUEST)))
+            return decoded._replace(result=decoded.result._replace(notes=(*decoded.result.notes, remarks.NO_REQUEST)))
         return decoded
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
@@ -80,20 +80,19 @@ class UssFrameDecoder:
     def _request(self, base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
         divided = parts.split(words, self._link, request=True)
         if not divided.fits:
-            base = replace(base, faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=True)))
+            base = base._replace(faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=True)))
         part, data = parts.part_of(divided.part), ProcessData("request", divided.words)
         unit = base.unit or 0
         if part is None:
             kind, text = ("request", "request, process data") if self._link.pkw == 0 else ("unreadable", "not readable")
-            result = replace(base, kind=kind, summary=f"{base.summary}: {text}")
+            result = base._replace(kind=kind, summary=f"{base.summary}: {text}")
             return DecodedFrame(result, (data,), base.unit, request=Request(unit, 0, words=divided.words))
         request = request_in(unit, part, self._link, divided.words)
         value = part.value(request.width, self._link)
         element = Element(part.parameter, part.index, request.width, value, part.values, in_request=True)
         task = remarks.code_text(self._device.bus.functions, part.code, "task")
         text, details = self._element_and_details(part, "task")
-        result = replace(
-            base,
+        result = base._replace(
             kind="request",
             function=part.code,
             summary=f"{base.summary}: request, {task}{text}",
@@ -108,19 +107,19 @@ class UssFrameDecoder:
     ) -> DecodedFrame:
         divided = parts.split(words, self._link, request=False)
         if not divided.fits:
-            base = replace(base, faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=False)))
+            base = base._replace(faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=False)))
         elif status and status not in _ANSWERS:
-            base = replace(base, faults=(*base.faults, no_answer_text(status)))
+            base = base._replace(faults=(*base.faults, no_answer_text(status)))
         part, data = parts.part_of(divided.part), ProcessData("response", divided.words)
         answers = status != "no_answer"
         if part is None:
-            result = replace(base, kind="reply", summary=f"{base.summary}: reply, process data")
+            result = base._replace(kind="reply", summary=f"{base.summary}: reply, process data")
             return DecodedFrame(result, (data,), base.unit, answers=answers)
         response = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
         text, details = self._element_and_details(part, "response")
-        result = replace(base, kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
+        result = base._replace(kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
         if part.code in (parts.REFUSED, parts.NO_RIGHTS):
-            result = self._refusal(replace(result, refusal=f"{response}{text}"), part, open_request)
+            result = self._refusal(result._replace(refusal=f"{response}{text}"), part, open_request)
         width = parts.RESPONSE_WIDTHS.get(part.code, 0)
         element = Element(
             part.parameter,
@@ -144,11 +143,10 @@ class UssFrameDecoder:
     def _refusal(self, base: FrameResult, part: parts.Part, open_request: Request | None) -> FrameResult:
         """Return the result of a response that refuses the request, and says how."""
         if part.code == parts.NO_RIGHTS or not part.values:
-            return replace(base, kind="exception")
+            return base._replace(kind="exception")
         error, task = part.values[0], None if open_request is None else open_request.task
         why = remarks.titled_code(self._device.bus.exceptions, error, "error")
-        return replace(
-            base,
+        return base._replace(
             kind="exception",
             exception=error,
             summary=f"{base.summary}: {why}",
@@ -164,7 +162,7 @@ class UssFrameDecoder:
         if not low <= len(words) <= high:
             faults = (*faults, f"there are {low} to {high} words of process data, here are {len(words)}")
         notes = () if direction else (remarks.FROM_MASTER,)
-        result = replace(base, kind=kind, summary=f"USS: {kind}, process data", faults=faults, notes=notes)
+        result = base._replace(kind=kind, summary=f"USS: {kind}, process data", faults=faults, notes=notes)
         return DecodedFrame(result, (ProcessData(direction or "request", words),))
 
 
@@ -177,8 +175,8 @@ def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
 
 def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
     """Return the result of a broadcast: four words of masks, then process data."""
-    result = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
+    result = base._replace(kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
     if len(words) < parts.MASKS:
         fault = f"a broadcast starts with {parts.MASKS} words of masks, here are {len(words)}"
-        return DecodedFrame(replace(result, faults=(*result.faults, fault)))
+        return DecodedFrame(result._replace(faults=(*result.faults, fault)))
     return DecodedFrame(result, (Masks(words[: parts.MASKS]), ProcessData("request", words[parts.MASKS :])))
