@@ -41,6 +41,15 @@ L200: list[Step] = [
         1,
         {"trip_count": 2, "trip_1_error": "overvoltage", "trip_2_error": 12},
     ),
+    ({"trip_reset": "reset"}, 0, {"alarm": "normal"}),
+    ({"trip_reset": "no_reset", "direction_command": "forward", "run_command": "run"}, 9, {"output_frequency": 30}),
+    ({"A063": 31, "A064": 2}, 1, {"output_frequency": 29}),  # within the jump it stays below
+    ({"network_frequency_setpoint": 33.0}, 2, {"output_frequency": 33}),  # at its end it does not
+    ({"A067": 33, "A068": 0.5, "A063": 0}, 2, {"output_frequency": 32.5}),
+    ({"A067": 0, "A204": 40, "A203": 40, "F202": 1.0, "second_set": 1}, 0.0125, {"output_frequency": 33}),
+    ({"network_frequency_setpoint": 45.0}, 1, {"output_frequency": 40, "output_voltage": 100}),
+    ({"A201": "f001_or_a020", "A220": 20}, 2, {"output_frequency": 32}),
+    ({"second_set": 0}, 1, {"output_frequency": 42}),
 ]
 MM4: list[Step] = [
     ({"STW": 0x047E, "HSW": 40.0}, 1, {"ZSW": 0xFA31, "HIW": 0}),  # the manual's examples, lines 381 to 385

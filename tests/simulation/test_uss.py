@@ -102,6 +102,31 @@ def test_telegrams_of_the_manual() -> None:
     assert len(exchanges) > 8
 
 
+@pytest.mark.parametrize("to_all", [False, True])
+def test_a_master_that_falls_silent(to_all: bool) -> None:
+    """The drive trips when the off time has run out behind the last telegram that it takes, and never before one."""
+    device = inverter(behaviour=Behaviour(rules_of("siemens_mm4")))
+    core, quiet = core_of([device]), (0x047E, 0)
+    device.values["uss_telegram_off_time_index_0"] = 500
+
+    def passed(seconds: float) -> object:
+        device.clock.advance(seconds)
+        return device.values["ZSW"]
+
+    def sent(words: tuple[int, ...]) -> None:
+        core.answer(telegram(32 if to_all else device.unit, words))
+
+    assert passed(9) == 0xFA31
+    for _ in range(3):
+        sent((6, 0xFFFF, 0, 0, *quiet) if to_all else (0, 0, 0, *quiet))
+        assert passed(0.45) == 0xFA31
+    sent((1, 2, 3))  # no telegram of this link
+    assert passed(0.1) == 0xFA78
+    device.values["uss_telegram_off_time_index_0"] = 0
+    sent((6, 0xFFFF, 0, 0, 0x04FE, 0) if to_all else (0, 0, 0, 0x04FE, 0))
+    assert passed(9) == 0xFA31
+
+
 P1082, P0700, P2010, R0052, P0003 = 1082, 700, 2010, 52, 3
 REFUSED = [
     ((1, 1999), 0),

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 SAMPLE = 10
 """How many milliseconds a moving number may be old when a request reads it."""
 
+SILENCE = "silent_master"
+"""The quantity that is 1 while the master is silent: from the last telegram on."""
+
 _MOST_PASSES = 8
 _MOST_EVENTS = 5_000
 _DECIMALS = 10**9
@@ -76,6 +79,13 @@ class Behaviour:
         for point in points:
             self._stale |= self._readers.get(point.name, frozenset())
         self.advance(device, now)
+
+    def heard(self, device: SimulatedDevice, now: float) -> None:
+        """Take notice of the master: it is silent from now on, and a delay while it is begins anew."""
+        self.advance(device, now)
+        for number in (ZERO, Fraction(1)) if SILENCE in self._plant else ():
+            self._put(Ref(SILENCE, "plant"), number)
+            self._settle()
 
     def restarted(self, device: SimulatedDevice, now: float) -> None:
         """Begin anew: what moves starts as before, all else holds what the memory kept."""

@@ -91,6 +91,9 @@ class Behaviour(Plant, Protocol):
     def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
         """Take notice of a write that was accepted; the memory has the new numbers."""
 
+    def heard(self, device: SimulatedDevice, now: float) -> None:
+        """Take notice of the master; called with each telegram of a bus whose devices watch for them."""
+
     def restarted(self, device: SimulatedDevice, now: float) -> None:
         """Begin anew; the memory has what survived."""
 
@@ -182,6 +185,11 @@ class SimulatedDevice:
         if self.behaviour is not None and changed:
             self.behaviour.written(self, changed, self.clock.now())
         return points
+
+    def heard(self) -> None:
+        """Take notice of the master, whose silence the device may watch."""
+        if self.behaviour is not None:
+            self.behaviour.heard(self, self.clock.now())
 
     def perform(self, command: Command) -> None:
         """Carry out a command that is one write: it stores what waits for it, and takes its time."""

@@ -135,6 +135,7 @@ class _Unit:
         if not divided.fits:
             self.device.complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
             return None
+        self.device.heard()
         self._take_words(dict(enumerate(divided.words)), 0xFFFF)
         part = parts.part_of(divided.part)
         result = _Result(_NO_ANSWER, ())
@@ -153,6 +154,7 @@ class _Unit:
     def broadcast(self, words: tuple[int, ...]) -> Answer:
         """Take the process data that the masks let count; nobody answers."""
         if len(words) == parts.MASKS + self.link(len(words), parts.MASKS).pzd:
+            self.device.heard()
             which, bits = words[:2]
             chosen = {at: word for at, word in enumerate(words[parts.MASKS :]) if which >> at + 1 & 1}
             if 0 in chosen:
