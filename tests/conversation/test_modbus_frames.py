@@ -58,7 +58,7 @@ def test_blocks_are_where_the_frames_before_have_shown_them() -> None:
     decoder = StreamDecoder(device, {}, ModbusFrameDecoder(device))
     marker = int.from_bytes(b"Su", "big"), int.from_bytes(b"nS", "big")
 
-    def said(*frames: bytes) -> list[str]:
+    def said(*frames: bytes) -> list[str | None]:
         return [item.point for item in [decoder.decode(data) for data in frames][-1].items]
 
     search = (_reads(1, 0, 1, 2), _reads(1, 50000, *marker), _reads(1, 50002, 103, 8), _reads(1, 50012, 160, 10))
