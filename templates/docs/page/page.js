@@ -204,7 +204,7 @@ function listRow(point) {
   const link = element("a", { href: `#point=${encodeURIComponent(point.name)}` }, first || point.name);
   const at = point.addresses.length ? Math.min(...point.addresses) : null;
   const name = element("td", { className: "title" }, link, element("span", { className: "name" }, point.name + (point.variant ? ` · ${point.variant}` : "")));
-  const address = element("td", { className: "address" }, at === null ? "" : shortAddress(at), at === null ? null : element("span", { className: "soft" }, ` ${at}`));
+  const address = element("td", { className: "address" }, at === null ? "" : addressText(point), at === null ? null : element("span", { className: "soft" }, ` ${at}`));
   const row = element("tr", {}, element("td", { className: "code" }, point.code), name, address,
     element("td", {}, shared.type ?? ""), element("td", {}, shared.access), element("td", { className: "range" }, point.allowed.range ?? (point.allowed.raw ? `raw ${point.allowed.raw}` : "")), element("td", {}, shared.unit ?? ""));
   row.dataset.point = point.name;

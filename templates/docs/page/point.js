@@ -65,7 +65,7 @@ function addressTable(device, point) {
   });
   const where = point.shared.telegram ?? point.shared.space;
   const heads = [point.shared.telegram === undefined ? "Space" : "Telegram", "Address", "Decimal", ...device.numberings.map(capital), "Words"];
-  return tableOf(heads, [[where, shortAddress(at), String(at), ...printed, texts.Addresses ?? ""]], "Addresses", "facts");
+  return tableOf(heads, [[where, addressText(point), `${point.shared.base ? "+" : ""}${at}`, ...printed, texts.Addresses ?? ""]], "Addresses", "facts");
 }
 
 /** @param {PageDevice} device @param {Point} point */
@@ -110,7 +110,7 @@ function bitsOf(device, point, width) {
     size === 1 ? String(active) : "",
     element("span", { className: "lines" }, values.map(([raw, called, entry]) => `${raw} = ${["zero", "one"].includes(called) ? titlesOf(entry).join(" / ") : `${called} (${titlesOf(entry).join(" / ")})`}`).join("\n")),
   ]);
-  return part("Bits", drawBits(bits, withGaps(fields, bits, point.shared.fixed ?? []), width, `Bits of ${point.name}`), tableOf(["Bits", "Name", "Title", "True at", "Means"], rows, "Flags"));
+  return part("Bits", drawBits(bits, withGaps(fields, bits, point.shared.fixed ?? []), width, `Bits of ${point.name}`), tableOf(["Bits", "Name", "Title", "True at", "Means"], rows, "Flags", "facts"));
 }
 
 /** Return the drawing of the word that a point shares with others. @param {PageDevice} device @param {Point} point @param {number} width */
@@ -188,6 +188,11 @@ function pointLink(name) {
 /** Return elements with commas between them. @param {any[]} items */
 function listed(items) {
   return items.flatMap((item, at) => (at ? [", ", item] : [item]));
+}
+
+/** Return where a point starts: `1028h`, or `+000Eh` if that counts from a base. @param {Point} point */
+function addressText(point) {
+  return `${point.shared.base ? "+" : ""}${shortAddress(Math.min(...point.addresses))}`;
 }
 
 /** @param {number} address */

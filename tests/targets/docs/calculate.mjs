@@ -34,7 +34,7 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
       const frames = Object.fromEntries([...place.querySelectorAll(".frame")].map((row) => [row.firstChild.textContent, row.querySelector("code, input").textContent || row.querySelector("input")?.value]));
       const drawn = [...document.querySelectorAll("#detail .set")].map((bit) => Number(bit.dataset.bit)).sort((one, other) => one - other);
       const status = place.querySelector(".calculated");
-      found.push({ value: labelled("Value").value, raw: labelled("Raw").value, words: labelled("Word").value, status: status.textContent, wrong: status.classList.contains("wrong"), frames, drawn });
+      found.push({ value: labelled("Value").value, raw: labelled("Raw").value, words: labelled("Word").value, status: status.textContent, address: listRow(device.byName.get(point)).querySelector(".address").textContent, wrong: status.classList.contains("wrong"), frames, drawn });
     }
     return found;
   }, all);

@@ -227,6 +227,12 @@ def test_frames_are_those_of_the_manual(
     assert frames.items() <= typed(device_id, step)["frames"].items()
 
 
+def test_an_address_that_counts_from_a_base_says_so(typed: Typed) -> None:
+    said = {device: typed(device, step)["address"] for device, step, _ in FRAMES}
+    assert said["fronius_datamanager"] == "+000Eh 14"
+    assert said["hitachi_l200"] == "1028h 4136"
+
+
 def test_what_may_not_be_written_says_so_and_has_no_frame(typed: Typed) -> None:
     for step in REFUSED:
         said = typed("hitachi_l200", step)
