@@ -178,11 +178,8 @@ MESSAGE: FactTable = (
     _SENDER,
     Fact("answers", "The message that it answers.", TEXT_OR_NULL, WIRE, refers="message"),
     Fact("identifier", "The identifier.", ADDRESS, WIRE),
-    Fact(
-        "adds_unit",
-        "Whether the unit number is added to the identifier.",
-        BOOLEAN,
-        views=(View("adds the unit", WIRE, itemgetter("adds_unit")),),
+    Fact("adds_unit", "Whether the unit number is added to the identifier.", BOOLEAN).differs(
+        View("adds the unit", WIRE, itemgetter("adds_unit"))
     ),
     Fact("layout", "What each byte holds.", list_of(ref("role"), 0, 8), WIRE).of(
         lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles]
@@ -245,8 +242,9 @@ ERRATUM: FactTable = (
         "point",
         "The point it is about; a list for several; null for none.",
         {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]},
-        views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")),),
-    ).of(lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None),
+    )
+    .differs(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")))
+    .of(lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None),
     Fact("where", "The place, in words.", STRING, DOCS, value=lambda erratum, _: str(erratum.where)),
     SOURCE,
     Fact("printed", "What is printed.", STRING, _sentence),
@@ -321,12 +319,11 @@ def codes_table(own_family: str) -> FactTable:
                 partial(_codes_of, section)
             )
         )
-    serial = Fact(
-        "serial",
-        "Codes of serial settings, by setting: what each code means.",
-        map_of(map_of(STRING)),
-        views=(View("serial", BEHAVIOUR, lambda device: device["codes"]["serial"]),),
-    ).of(lambda bus, _: {setting: dict(codes) for setting, codes in bus.serial.items()})
+    serial = (
+        Fact("serial", "Codes of serial settings, by setting: what each code means.", map_of(map_of(STRING)))
+        .differs(View("serial", BEHAVIOUR, lambda device: device["codes"]["serial"]))
+        .of(lambda bus, _: {setting: dict(codes) for setting, codes in bus.serial.items()})
+    )
     return (*sections, serial)
 
 
@@ -358,12 +355,9 @@ def device_table(own_family: str) -> FactTable:
             "The manuals.",
             _parts("document", DOCUMENT, listed=partial(_named, "documents", name="id"), change=DOCS),
         ),
-        Fact(
-            "variants",
-            "The values of each variant axis.",
-            map_of(TEXTS),
-            views=(Parts("variant", "variant", _axes, (), (View("values", grown, itemgetter("values")),), added=API),),
-        ).of(lambda device, _: {axis: list(values) for axis, values in device.variants.items()}),
+        Fact("variants", "The values of each variant axis.", map_of(TEXTS))
+        .differs(Parts("variant", "variant", _axes, (), (View("values", grown, itemgetter("values")),), added=API))
+        .of(lambda device, _: {axis: list(values) for axis, values in device.variants.items()}),
         Fact(
             "limits",
             "What the line allows.",
@@ -387,12 +381,8 @@ def device_table(own_family: str) -> FactTable:
         ),
         _list("given", "Numbers that a client is given.", _parts("given", GIVEN, listed=partial(_named, "given"))),
         Fact(
-            "found",
-            "The chain of blocks that a client searches for; null: none.",
-            null_or(ref("found")),
-            table=FOUND,
-            views=(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE),),
-        ),
+            "found", "The chain of blocks that a client searches for; null: none.", null_or(ref("found")), table=FOUND
+        ).differs(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE)),
         _list("bases", "What addresses count from, if not from 0.", _parts("base", BASE, "formula")),
         _list(
             "messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "bits", "direction", "layout")

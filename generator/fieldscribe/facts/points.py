@@ -77,8 +77,9 @@ FLAG: FactTable = (
         "makes it true.",
         by_number(ref("flag_value")),
         table=FLAG_VALUE,
-        views=(_by_raw("value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,)),),
-    ).of(values.flag_values),
+    )
+    .differs(_by_raw("value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,)))
+    .of(values.flag_values),
     Fact("enum", "The shared enum that has these names.", TEXT_OR_NULL, API, value=lambda flag, _: flag.enum or None),
 )
 
@@ -158,15 +159,12 @@ POINT: FactTable = (
         INTEGER_OR_NULL,
         WIRE,
     ).says("Index", text=texts.index_text, column="the index of an element"),
-    Fact(
-        "addresses",
-        "All words, the one that holds the high part (or the first characters) first.",
-        list_of(ADDRESS),
-        views=(
-            View("address", values.address_class, values.address_view, yaml=("at",)),
-            View("order of words", WIRE, values.word_order_view, yaml=("words",)),
-        ),
-    ).says("Addresses", text=texts.words_text),
+    Fact("addresses", "All words, the one that holds the high part (or the first characters) first.", list_of(ADDRESS))
+    .differs(
+        View("address", values.address_class, values.address_view, yaml=("at",)),
+        View("order of words", WIRE, values.word_order_view, yaml=("words",)),
+    )
+    .says("Addresses", text=texts.words_text),
     Fact(
         "byte_order",
         "The order of the two bytes in each word, if it is not the usual one: `low first`.",
@@ -188,12 +186,9 @@ POINT: FactTable = (
         text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
         remark="{}",
     ),
-    Fact(
-        "base",
-        "What its addresses count from, by name; null: they count from 0.",
-        TEXT_OR_NULL,
-        views=(View("counted from", WIRE, itemgetter("base"), refers="base", yaml=("base", "block")),),
-    ).says("Counted from", text=texts.base_text, column="what the address counts from, if not from 0"),
+    Fact("base", "What its addresses count from, by name; null: they count from 0.", TEXT_OR_NULL)
+    .differs(View("counted from", WIRE, itemgetter("base"), refers="base", yaml=("base", "block")))
+    .says("Counted from", text=texts.base_text, column="what the address counts from, if not from 0"),
     Fact(
         "to_end", "Whether it exists only where the found block is long enough.", BOOLEAN, BEHAVIOUR, yaml=("indices",)
     ).says(
@@ -204,16 +199,13 @@ POINT: FactTable = (
         "Of a signal of a message: its first bit, as CAN databases count them, and whether the low byte comes first; "
         "its addresses are words of the telegram of the message.",
         null_or(record(("bit", "The bit.", ADDRESS), ("low_first", "Whether the low byte comes first.", BOOLEAN))),
-        views=(View("order of bytes", WIRE, values.byte_order_view, yaml=("bytes",)),),
     )
+    .differs(View("order of bytes", WIRE, values.byte_order_view, yaml=("bytes",)))
     .of(values.signal)
     .says("Bits", text=texts.signal_text, column="the bits of a signal in its message"),
-    Fact(
-        "references",
-        *_REFERENCES,
-        attribute="place.references",
-        views=(View("base", WIRE, values.base_view, yaml=("numbering",)),),
-    ).says(rows=texts.reference_rows),
+    Fact("references", *_REFERENCES, attribute="place.references")
+    .differs(View("base", WIRE, values.base_view, yaml=("numbering",)))
+    .says(rows=texts.reference_rows),
     Fact(
         "places",
         "Where it is, by purpose; the first repeats `space` and `address`.",
@@ -225,8 +217,8 @@ POINT: FactTable = (
         "Where it is written, if that is not where it is read.",
         null_or(record(("addresses", "As the point's own.", list_of(ADDRESS)), ("references", *_REFERENCES))),
         attribute="write_place",
-        views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
     )
+    .differs(View("write address", WIRE, values.written_view, yaml=("write_at",)))
     .of(lambda point, _: None if point.write_place is None else values.place(point.write_place))
     .says(
         "Written at",
@@ -248,11 +240,8 @@ POINT: FactTable = (
         DOCS,
         follows=("type",),
     ),
-    Fact(
-        "words",
-        "How many words (or single bits) it takes.",
-        COUNT,
-        views=(View("length", WIRE, values.length_view, follows=("type",), yaml=("length", "characters")),),
+    Fact("words", "How many words (or single bits) it takes.", COUNT).differs(
+        View("length", WIRE, values.length_view, follows=("type",), yaml=("length", "characters"))
     ),
     Fact("access", "What the bus may do with it.", one_of("r", "w", "rw", "none"), values.access_class).says(
         "Access",
@@ -262,12 +251,8 @@ POINT: FactTable = (
     Fact("unit", "The symbol of the unit; empty for a plain number.", STRING, WIRE, attribute="unit.symbol").says(
         "Unit", text=texts.unit_text, column="the unit of values"
     ),
-    Fact(
-        "unit_name",
-        "The name of the unit.",
-        STRING,
-        attribute="unit.name",
-        views=(View("name of the unit", DOCS, itemgetter("unit_name"), follows=("unit",)),),
+    Fact("unit_name", "The name of the unit.", STRING, attribute="unit.name").differs(
+        View("name of the unit", DOCS, itemgetter("unit_name"), follows=("unit",))
     ),
     Fact("quantity", "What the unit measures.", STRING, DOCS, attribute="unit.quantity", follows=("unit",)),
     Fact(
@@ -300,15 +285,17 @@ POINT: FactTable = (
         list_of(ref("special")),
         attribute="specials",
         table=SPECIAL,
-        views=(_by_raw("special", "code", itemgetter("special"), SPECIAL, yaml=("special", "code")),),
-    ).says(rows=texts.special_rows),
+    )
+    .differs(_by_raw("special", "code", itemgetter("special"), SPECIAL, yaml=("special", "code")))
+    .says(rows=texts.special_rows),
     Fact(
         "special_of",
         "The type, group or format whose special codes the point shares; empty if it shares none.",
         STRING,
         attribute="specials_of",
-        views=(View("codes of", API, itemgetter("special_of"), follows=("special",), yaml=("special",)),),
-    ).says(remark="special codes of {}"),
+    )
+    .differs(View("codes of", API, itemgetter("special_of"), follows=("special",), yaml=("special",)))
+    .says(remark="special codes of {}"),
     Fact(
         "step",
         "Which raw steps the device keeps, from which raw number on; null for every number.",
@@ -365,10 +352,10 @@ POINT: FactTable = (
             ),
             ("values", "The same as single numbers where the manual lists them; else null.", null_or(list_of(INTEGER))),
         ),
-        views=(
-            View("range", BEHAVIOUR, values.range_view, refers="point", yaml=("range", "range_in_units", "enum")),
-            View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type"), yaml=("range",)),
-        ),
+    )
+    .differs(
+        View("range", BEHAVIOUR, values.range_view, refers="point", yaml=("range", "range_in_units", "enum")),
+        View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type"), yaml=("range",)),
     )
     .of(values.raw, shared="limits")
     .says(rows=texts.range_rows),
@@ -389,21 +376,13 @@ POINT: FactTable = (
         attribute="default",
         published=False,
     ).of(values.default_value),
-    Fact(
-        "enum",
-        "Names of raw numbers, by number as decimal text.",
-        null_or(by_number(ref("entry"))),
-        table=ENTRY,
-        views=(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)),),
-    )
+    Fact("enum", "Names of raw numbers, by number as decimal text.", null_or(by_number(ref("entry"))), table=ENTRY)
+    .differs(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)))
     .of(lambda point, _: None if point.enum is None else values.entries_of(point.enum), shared="shape")
     .says(rows=texts.enum_rows),
-    Fact(
-        "enum_name",
-        "The name of the enum, also of that of `digits`: generated code calls its type so.",
-        TEXT_OR_NULL,
-        views=(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)),),
-    ).of(lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name, shared="shape"),
+    Fact("enum_name", "The name of the enum, also of that of `digits`: generated code calls its type so.", TEXT_OR_NULL)
+    .differs(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)))
+    .of(lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name, shared="shape"),
     Fact(
         "enum_was",
         "The names that the enum had when its point had its old ones: generated code keeps them, too.",
@@ -417,20 +396,15 @@ POINT: FactTable = (
         BEHAVIOUR,
         follows=("enum as a whole",),
     ).of(lambda point, _: point.enum is not None and not point.enum.closed, shared="shape"),
-    Fact(
-        "flags",
-        "Named bits of the word.",
-        list_of(ref("flag")),
-        table=FLAG,
-        views=(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API, yaml=("flags",)),),
-    ).says(rows=texts.flag_rows),
+    Fact("flags", "Named bits of the word.", list_of(ref("flag")), table=FLAG)
+    .differs(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API, yaml=("flags",)))
+    .says(rows=texts.flag_rows),
     Fact(
         "digits",
         "The decimal digits of a word that mean something each, the highest first.",
         null_or(ref("digits")),
         table=DIGITS,
-        views=(View("digits", WIRE, lambda point: point["digits"] and point["digits"]["count"]),),
-    ),
+    ).differs(View("digits", WIRE, lambda point: point["digits"] and point["digits"]["count"])),
     Fact(
         "encoding",
         "The encoding of a text, or the notation of bytes.",
@@ -455,17 +429,18 @@ POINT: FactTable = (
         "writes it says).",
         TEXT_OR_NULL,
         attribute="keeps",
-        views=(
-            View(
-                "kept",
-                BEHAVIOUR,
-                itemgetter("persistence"),
-                follows=("access",),
-                refers="command",
-                yaml=("keep_with", "keeps"),
-            ),
-        ),
-    ).says("Kept", text=lambda point, context: wording.keeps_text(context.device, point)),
+    )
+    .differs(
+        View(
+            "kept",
+            BEHAVIOUR,
+            itemgetter("persistence"),
+            follows=("access",),
+            refers="command",
+            yaml=("keep_with", "keeps"),
+        )
+    )
+    .says("Kept", text=lambda point, context: wording.keeps_text(context.device, point)),
     Fact("conditions", "When it may be written: `stopped`.", TEXTS, BEHAVIOUR, follows=("access",)).says(
         "Write only when", remark="write only when: {}", column="what must hold to write it"
     ),
@@ -534,12 +509,9 @@ POINT: FactTable = (
         column="where the facts come from, if not from the manual",
     ),
     _always_null("together", "What must be read or written in one telegram."),
-    Fact(
-        "was",
-        "Former names, which stay alive as deprecated aliases.",
-        TEXTS,
-        views=(View("old names", values.grown, itemgetter("was"), yaml=("was",)),),
-    ).says("Old names", remark="was {}"),
+    Fact("was", "Former names, which stay alive as deprecated aliases.", TEXTS)
+    .differs(View("old names", values.grown, itemgetter("was"), yaml=("was",)))
+    .says("Old names", remark="was {}"),
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API).says(remark="reserved"),
     TITLE,
     NOTE.says("Note", text=lambda point, _: wording.title_text(point.note) if point.note else "", remark="{}"),

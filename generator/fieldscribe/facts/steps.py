@@ -52,5 +52,4 @@ STEPPED_COMMANDS = Fact(
     "Commands of several requests.",
     schema.list_of(schema.ref("stepped_command")),
     table=STEPPED_COMMAND,
-    views=(_PARTS,),
-)
+).differs(_PARTS)

@@ -142,6 +142,10 @@ class Fact:
         """
         return replace(self, value=value, shared=shared)
 
+    def differs(self, *views: View | Parts) -> Fact:
+        """Return the fact with what `diff` compares of it, where that is not the exported value."""
+        return replace(self, views=views)
+
     def says(self, label: str = "", **said: Any) -> Fact:
         """Return the fact with what is said of it to people.
 
