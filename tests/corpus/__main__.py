@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from fieldscribe.importing import compilable
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 
 from corpus.values import COLLECTIONS, compare
 

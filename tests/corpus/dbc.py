@@ -19,7 +19,7 @@ from fieldscribe.families.can.dbc import export
 from fieldscribe.importing import compilable
 from fieldscribe.importing.dbc import DbcDraft
 from fieldscribe.importing.draft_text import Document, Head
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.pipeline import load_device
 
 from corpus.collection import Collection, Counts, Drafted, Points

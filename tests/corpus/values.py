@@ -22,7 +22,7 @@ from typing import NamedTuple
 from fieldscribe.diagnostics import Report
 from fieldscribe.export import export_model
 from fieldscribe.importing import compilable
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.pipeline import load_device
 from support.places import TESTS
 from support.rust_crates import without_registry

@@ -10,7 +10,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.wb import draft
 from fieldscribe.importing.wb.templates import read_template
 from jinja2 import FileSystemLoader

@@ -1,11 +1,11 @@
-"""Formats descriptions; a file is written only if its meaning and comments stay the same."""
+"""Formats descriptions, if their meaning and comments stay the same; replaces files of one: all of them, or none."""
 
 from __future__ import annotations
 
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import State, read_regular, shown_path, state_of
+from fieldscribe.user_errors import UnclearError
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _SUFFIX = ".fieldscribe-new"
@@ -114,3 +115,30 @@ class Formatting:
                 raise MovedError
             replace(place, (new,), f".{place.name}{_SUFFIX}", mode=stat.S_IMODE(status.st_mode))
         self.changed.append(path)
+
+
+_MARK = b"\xef\xbb\xbf"
+"""The byte order mark that some editors put before a text in UTF-8."""
+
+
+def rewrite(texts: Mapping[str, tuple[str, str]]) -> None:
+    """Replace the text of each file, given as it was read and as it is to be; modes stay. Raises UnclearError."""
+    before: dict[Path, bytes] = {}
+    replaced: list[Path] = []
+    try:
+        for name, (text, _) in texts.items():
+            place = Path(name).resolve()
+            before[place] = read_regular(place, MOST_BYTES).data
+            if before[place].decode("utf-8-sig", "replace") != text:
+                hint = "nothing was changed: run the command again"
+                raise UnclearError(f"`{place.name}` was changed while it was read", hint)
+        for name, (_, text) in texts.items():
+            place = Path(name).resolve()
+            mark = _MARK if before[place].startswith(_MARK) else b""
+            mode = stat.S_IMODE(place.stat().st_mode)
+            replace(place, (mark, text.encode()), f".{place.name}.fieldscribe-new", mode=mode)
+            replaced.append(place)
+    except OSError as error:
+        for place in replaced:
+            place.write_bytes(before[place])
+        raise UnclearError(f"cannot write {error.filename}: {error.strerror}", "nothing was changed") from error

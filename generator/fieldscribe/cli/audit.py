@@ -11,6 +11,7 @@ from typing import NamedTuple
 from fieldscribe.audit import Citations, Comparison, Editions, audit, audit_of
 from fieldscribe.audit.renumbering import LONGEST, hindrances, renumber, with_recorded
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
+from fieldscribe.authoring.formatting import rewrite
 from fieldscribe.cli import FINDINGS, FINE
 from fieldscribe.cli.common import (
     StopError,
@@ -21,7 +22,6 @@ from fieldscribe.cli.common import (
     some_path,
     usage_error,
 )
-from fieldscribe.cli.rewriting import rewrite
 from fieldscribe.cli.terminal import print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Document

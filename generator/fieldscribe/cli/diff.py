@@ -7,8 +7,8 @@ from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
 from pathlib import Path
 
+from fieldscribe.authoring.formatting import rewrite
 from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
-from fieldscribe.cli.rewriting import rewrite
 from fieldscribe.cli.terminal import print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.differences.aliases import with_aliases

@@ -12,7 +12,7 @@ from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
 from fieldscribe.importing.dbc import DbcDraft
 from fieldscribe.importing.draft_text import Document, Head
-from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
+from fieldscribe.importing.readers import MOST_BYTES, UnreadableError
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import StopError, add_repeated, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.sunspec import Imported, draft_models
 from fieldscribe.importing.sunspec.models import read_models
-from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.report import visible
 from fieldscribe.text import counted
 

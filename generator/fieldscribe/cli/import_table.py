@@ -16,8 +16,7 @@ from fieldscribe.importing import Draft, compilable, draft
 from fieldscribe.importing.draft_points import Options
 from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.headings import ROLES
-from fieldscribe.importing.readers import FORMATS, read_tables
-from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
+from fieldscribe.importing.readers import FORMATS, MOST_BYTES, UnreadableError, read_tables
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import StopError, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.wb import draft
 from fieldscribe.report import visible
 from fieldscribe.text import counted

@@ -20,7 +20,7 @@ from fieldscribe.importing.cells import one_line, space_in
 from fieldscribe.importing.draft_points import Options, points_of
 from fieldscribe.importing.draft_text import DraftGroup, DraftPoint, Head, Line, Names, draft_lines, snake
 from fieldscribe.importing.headings import Columns, columns_of, is_column_number, same_heading, upright
-from fieldscribe.importing.tables import Table, UnreadableError
+from fieldscribe.importing.readers import Table, UnreadableError
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 
 _OVERLAPS = ("address-taken", "bits-overlap")

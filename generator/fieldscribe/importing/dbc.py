@@ -15,7 +15,7 @@ from itertools import chain, count
 from typing import Any
 
 from fieldscribe.importing.draft_text import DraftGroup, DraftPoint, label_map, scalar, snake
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model.point import message_bits
 from fieldscribe.text import counted

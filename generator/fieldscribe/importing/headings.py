@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from fieldscribe.importing.cells import one_line
-from fieldscribe.importing.tables import Row, Table
+from fieldscribe.importing.readers import Row, Table
 
 Wanted = Mapping[str, Sequence[str]]
 

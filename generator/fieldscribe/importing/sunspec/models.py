@@ -10,7 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.safe_files import read_regular
 
 _MOST_BYTES, _MOST_PARTS, _DEEPEST = 4 << 20, 5_000, 6

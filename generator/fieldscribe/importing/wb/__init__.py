@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from fieldscribe.importing import compilable
 from fieldscribe.importing.draft_text import Document, DraftGroup, Head, Names, snake
-from fieldscribe.importing.tables import MOST_ROWS, UnreadableError
+from fieldscribe.importing.readers import MOST_ROWS, UnreadableError
 from fieldscribe.importing.wb.folding import folded
 from fieldscribe.importing.wb.heads import FAMILY, base_of, blocks_of, bus_of, first_firmware, identification
 from fieldscribe.importing.wb.parameters import Parameters

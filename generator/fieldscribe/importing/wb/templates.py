@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from fieldscribe.importing.draft_text import Names, scalar, snake, titles_text
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.wb import rendering
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line

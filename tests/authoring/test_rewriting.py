@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fieldscribe.cli.common import StopError
-from fieldscribe.cli.rewriting import rewrite
+from fieldscribe.authoring.formatting import rewrite
 from fieldscribe.output.writing import replace
+from fieldscribe.user_errors import UnclearError
 
 
 def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -21,8 +21,8 @@ def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkey
             raise OSError(28, "No space left on device", str(second))
         replace(place, *rest, **more)
 
-    monkeypatch.setattr("fieldscribe.cli.rewriting.replace", full_at_last)
-    with pytest.raises(StopError, match=r"cannot write .*second\.yaml: No space left on device"):
+    monkeypatch.setattr("fieldscribe.authoring.formatting.replace", full_at_last)
+    with pytest.raises(UnclearError, match=r"cannot write .*second\.yaml: No space left on device"):
         rewrite({str(file): ("old\n", "new\n") for file in (first, second)})
     assert (first.read_text(), second.read_text()) == ("old\n", "old\n")
 
@@ -30,6 +30,6 @@ def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkey
 def test_a_file_that_was_changed_meanwhile_is_left(tmp_path: Path) -> None:
     file = tmp_path / "device.yaml"
     file.write_text("newer\n")
-    with pytest.raises(StopError, match=r"`device\.yaml` was changed while it was read"):
+    with pytest.raises(UnclearError, match=r"`device\.yaml` was changed while it was read"):
         rewrite({str(file): ("old\n", "new\n")})
     assert file.read_text() == "newer\n"
