@@ -232,19 +232,80 @@ class ModbusDecoder extends FrameDecoder {
     const written = code > 4;
     const { space } = functionOf(code);
     const span = { space, address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
-    return [...spanSaid(this.places, this.state(unit), span), ...commandsAt(span)];
+    const state = this.state(unit);
+    if (isReply && words) this.find(state, space, address, words);
+    return [...spanSaid(this.placesOf(unit), state, span), ...commandsAt(span)];
+  }
+
+  /** The places of points, where a unit has shown its blocks in these. @param {number} unit @returns {Places} */
+  placesOf(unit) {
+    return this.state(unit).places ?? this.places;
+  }
+
+  /** Look in what a unit reported for the blocks from which its addresses count.
+   * @param {UnitState} state @param {string} space @param {number} address @param {number[]} words */
+  find(state, space, address, words) {
+    const { chain } = generatedCode().Device.table.facts;
+    if (!chain || MODBUS_SPACES[chain.function] !== space) return;
+    state.blocks ??= new FoundBlocks();
+    if (state.blocks.take(address, words)) state.places = new Places({ ...state.blocks.starts, ...this.settings.known }, state.blocks.lasts);
   }
 
   /** Whether an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
-  offByOne({ function: code, address, count }) {
+  offByOne({ unit, function: code, address, count }) {
     const { space } = functionOf(code);
-    const starting = (/** @type {number} */ at) => this.places.at(space, at).filter((spot) => Math.min(...spot.addresses) === at);
+    const starting = (/** @type {number} */ at) => this.placesOf(unit).at(space, at).filter((spot) => Math.min(...spot.addresses) === at);
     if (!address || starting(address).length) return [];
     const below = starting(address - 1).find((spot) => spot.addresses.length <= count);
     if (!below) return [];
     const at = device.numberings.findIndex((_, place) => below.point.numbers[place] === address);
     const named = at >= 0 ? `${address} is its ${capital(device.numberings[at])} number; ` : "";
     return [`no point starts at ${shortAddress(address)}, but one less, ${shortAddress(address - 1)}, is ${pointLabel(below.point)}: ${named}on the wire addresses count from 0, so this frame may be one too high`];
+  }
+}
+
+const MOST_WALKED = 256; // no device has as many blocks
+
+/** Finds blocks in the replies of one unit, as its master finds them: the marker, then the head of each block in turn. */
+class FoundBlocks {
+  constructor() {
+    /** Where the first block is, once the marker was seen. @type {number | undefined} */
+    this.first = undefined;
+    /** The words of heads, and those that say how much is before a base. @type {Map<number, number>} */
+    this.words = new Map();
+    /** @type {Record<string, number>} */
+    this.starts = {};
+    /** The last addresses of the blocks, by the bases in them. @type {Record<string, number>} */
+    this.lasts = {};
+  }
+
+  /** Take words that the unit reported; return whether they move a base. @param {number} address @param {number[]} words */
+  take(address, words) {
+    const { chain, bases } = generatedCode().Device.table.facts;
+    const kept = (/** @type {number} */ at) => {
+      if (words[at - address] !== undefined) this.words.set(at, words[at - address]);
+      return this.words.get(at);
+    };
+    const place = chain.places.find((/** @type {number} */ start) => chain.marker.every((/** @type {number} */ word, /** @type {number} */ at) => words[start + at - address] === word));
+    if (place !== undefined) this.first ??= place + chain.marker.length;
+    const before = JSON.stringify(this.starts);
+    /** @type {Map<number, [number, number]>} */
+    const blocks = new Map();
+    for (let head = this.first, walked = 0; head !== undefined && walked < MOST_WALKED; walked += 1) {
+      const [block, length] = [kept(head), kept(head + 1)];
+      if (block === undefined || length === undefined || block === chain.end) break;
+      if (!blocks.has(block)) blocks.set(block, [head, head + 1 + length]);
+      head += 2 + length;
+    }
+    for (const [name, { block, offset, counts }] of Object.entries(bases)) {
+      const [start, last] = blocks.get(block) ?? [NaN, NaN];
+      const behind = Object.entries(counts).map(([at, factor]) => (kept(start + Number(at)) ?? NaN) * /** @type {number} */ (factor));
+      const sum = behind.reduce((one, other) => one + other, start + offset);
+      if (Number.isNaN(sum)) continue;
+      this.starts[name] = sum;
+      this.lasts[name] = last;
+    }
+    return JSON.stringify(this.starts) !== before;
   }
 }
 

@@ -7,13 +7,13 @@
  * @typedef {{ point: any, codec: any, addresses: number[], reads: boolean, writes: boolean }} Spot */
 
 /** What the frames of a unit brought: raw numbers that scales and limits need, and words of parameters.
- * @typedef {{ raws: Record<string, any>, words: Map<number, number> }} UnitState */
+ * @typedef {{ raws: Record<string, any>, words: Map<number, number>, blocks?: any, places?: Places }} UnitState */
 
 /** Finds points by their addresses; `known` has what the reader gives: raw numbers of points, values of floats, and numbers
  * that addresses depend on. */
 class Places {
-  /** @param {Record<string, number>} known */
-  constructor(known) {
+  /** @param {Record<string, number>} known @param {Record<string, number>} [lasts] the last addresses of bases */
+  constructor(known, lasts = {}) {
     /** @type {Map<string, Spot[]>} */
     this.spots = new Map();
     /** The points that scales and limits need. @type {Set<string>} */
@@ -22,11 +22,11 @@ class Places {
     this.unplaced = new Set();
     /** @type {Record<string, any>} */
     this.given = {};
-    for (const point of device.points.filter(hasVariant)) this.add(point, known);
+    for (const point of device.points.filter(hasVariant)) this.add(point, known, lasts);
   }
 
-  /** @param {any} point @param {Record<string, number>} known */
-  add(point, known) {
+  /** @param {any} point @param {Record<string, number>} known @param {Record<string, number>} lasts */
+  add(point, known, lasts) {
     const codec = codecOf(point);
     for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? [])] : []) this.needed.add(name);
     const given = known[point.name] ?? known[point.code];
@@ -37,6 +37,7 @@ class Places {
       for (const name of Object.keys(baseNumbers(base))) if (known[name] === undefined) this.unplaced.add(name);
       return;
     }
+    if (base && start + Math.max(...point.addresses) > lasts[base]) return; // the block is shorter
     const read = codec?.at ?? { space: point.shared.space, telegram: point.shared.telegram, addresses: point.addresses };
     const write = codec?.facts.writeAt ?? read;
     const can = { reads: !codec || Boolean(codec.decode), writes: !codec || Boolean(codec.encode) };

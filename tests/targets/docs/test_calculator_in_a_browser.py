@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,7 @@ from random import Random
 from typing import Any, NamedTuple
 
 import pytest
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Point
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import html_files
@@ -93,6 +95,30 @@ WORDS = {
 }
 FOREIGN_UNIT = {"point": "generator_frequency", "then": {"Unit": "300"}}
 OF_FLOATS = {"decode": "02 06 01 04 7F 20 00 5E", "known": {"P2009": 0, "P2000": 50.0}}
+
+
+def _reads(unit: int, address: int, *words: int) -> str:
+    """The request and the reply that read these words, as two lines."""
+    pdus = (
+        struct.pack(">BBHH", unit, 3, address, len(words)),
+        struct.pack(f">BBB{len(words)}H", unit, 3, 2 * len(words), *words),
+    )
+    return "\n".join((pdu + crc16(pdu).to_bytes(2, "little")).hex() for pdu in pdus)
+
+
+_MARKER, _CURRENT = (0x5375, 0x6E53), (18, 0xFFFF)
+_HEADS = [_reads(1, 50000, *_MARKER), _reads(1, 50002, 103, 8), _reads(1, 50012, 160, 10), _reads(1, 50024, 705, 20)]
+IN_BLOCKS = {
+    "\n".join(lines): names
+    for lines, names in (
+        ([_reads(1, 50004, *_CURRENT)], []),
+        ([*_HEADS, _reads(1, 50004, *_CURRENT)], ["current", "current_sf"]),
+        ([*_HEADS, _reads(2, 50004, *_CURRENT)], []),
+        ([*_HEADS, _reads(1, 50022, 7, 40, 8)], ["module_id_index_3", "module_limit_index_3"]),
+        ([*_HEADS, _reads(1, 50026, 3, 1), _reads(1, 50036, 0, 9)], ["curve_time"]),
+    )
+}
+"""Frames of the chain of blocks, with the points that the page names in the last reply."""
 IN_SLOT = {"decode": "01 06 0B CD 01 90 1B ED", "known": {"slot": 3, "half": 1}}
 NO_WORD = {"point": "control_word", "field": "Raw", "text": "none"}
 REPLIES = [
@@ -152,10 +178,12 @@ def _steps(device_id: str) -> list[dict[str, Any]]:
     samples = _samples(device_id) if device_id in DEVICES else []
     l200 = [*REPLIES, *REFUSED, ROUNDED, *map(_words, WORDS)] if device_id == "hitachi_l200" else []
     bits = [NO_WORD] if device_id == "siemens_mm4" else []
-    last = {"woodward_mpu2s": [FOREIGN_UNIT], "kitchen_blocks": [IN_SLOT], "siemens_mm4": [OF_FLOATS]}.get(
-        device_id, []
-    )
-    return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps()), *last]
+    last: dict[str, list[dict[str, Any]]] = {
+        "woodward_mpu2s": [FOREIGN_UNIT],
+        "kitchen_blocks": [IN_SLOT, *({"decode": text} for text in IN_BLOCKS)],
+        "siemens_mm4": [OF_FLOATS],
+    }
+    return [*by_hand, *l200, *bits, *(step for sample in samples for step in sample.steps()), *last.get(device_id, [])]
 
 
 def _words(text: str) -> dict[str, Any]:
@@ -279,3 +307,10 @@ def test_the_decoder_takes_numbers_that_addresses_depend_on(typed: Typed) -> Non
 def test_the_decoder_takes_values_of_floats(typed: Typed) -> None:
     """2000h is half of the reference frequency."""
     assert any(each.startswith("main_setpoint = 25 Hz") for each in typed("siemens_mm4", OF_FLOATS))
+
+
+@pytest.mark.parametrize("text", IN_BLOCKS)
+def test_the_decoder_finds_blocks_where_replies_show_them(text: str, typed: Typed) -> None:
+    said = typed("kitchen_blocks", {"decode": text})
+    names = [each.partition(" = ")[0] for each in said if " = " in each]
+    assert names[-len(IN_BLOCKS[text]) :] == IN_BLOCKS[text] if IN_BLOCKS[text] else "current" not in names
