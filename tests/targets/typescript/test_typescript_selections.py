@@ -1,0 +1,45 @@
+"""Addresses whose meaning a page and an index select, in TypeScript."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from support.blocks import served
+from support.described import kitchen_sink
+from support.node_device import NodeDevice, installed, node_device
+from support.typescript_packages import install
+from support.windows import INDEX, PAGE, WINDOW, Windowed
+
+pytestmark = pytest.mark.full(4)
+
+
+@pytest.fixture
+def line() -> Windowed:
+    return Windowed()
+
+
+@pytest.fixture
+def node(line: Windowed, tmp_path: Path) -> Iterator[NodeDevice]:
+    folder = installed(tmp_path)
+    install(folder, [kitchen_sink()])
+    with (
+        served(line) as port,
+        node_device(folder, "kitchen_sink", {"kind": "tcp", "port": port, "framing": "rtu"}, unit=1) as device,
+    ):
+        yield device
+
+
+def test_what_does_not_stand_is_written_before(line: Windowed, node: NodeDevice) -> None:
+    assert node("input_delay_index_2", "read") == 2
+    node("input_delay_index_3", "write", 4.5)
+    assert line.sent == [(PAGE, 1), (INDEX, 11), (INDEX, 12), (WINDOW, 45)]
+    node("page", "write", 0)
+    assert node("input_delay_index_3", "read") == 4.5
+    assert line.sent[4:] == [(PAGE, 0), (PAGE, 1)]
+    line.sent.clear()
+    counted = {f"inputCounterIndex{index}": 100 + index for index in (1, 2, 3)}
+    delays = {"inputDelayIndex1": 1, "inputDelayIndex2": 2, "inputDelayIndex3": 4.5}
+    assert node(None, "readMany", "window") == delays | counted
+    assert line.sent == [(INDEX, 10), (INDEX, 11), (INDEX, 12)]
