@@ -64,3 +64,12 @@ def test_with_await(package: Any) -> None:
         "output_mode": 1,
     }
     assert line.sent == [(PAGE, 1), (INDEX, 11), (PAGE, 2)]
+
+
+def test_one_request_has_one_selection(package: Any) -> None:
+    line = Windowed()
+    device = package.KitchenSink(line, 1)
+    device.write_together({"input_delay_index_2": 3.0})
+    assert line.sent == [(PAGE, 1), (INDEX, 11), (WINDOW, 30)]
+    both = {"input_delay_index_2": 3.0, "input_delay_index_3": 3.0}
+    assert status(lambda: device.write_together(both))[0] == "not_together"

@@ -8,7 +8,7 @@ travel is the family's part: a subclass with `_get_steps` and `_store_steps`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from itertools import groupby
@@ -339,8 +339,7 @@ class Session(NamedPoints, ABC):
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
         words: dict[int, int] = {}
-        for point in points:
-            yield from self._select_steps(point)
+        yield from self._select_steps(next(iter(points)))
         with About(self.traffic, *points):
             for point in points:
                 raw, addresses = raws[point.facts.item], sorted((point.facts.write_at or point.facts.at).addresses)
@@ -358,7 +357,7 @@ class Session(NamedPoints, ABC):
             raise AccessError(f"{point.label} cannot be written")
         return point
 
-    def _joint_place(self, points: Iterable[Point]) -> Place:
+    def _joint_place(self, points: Collection[Point]) -> Place:
         """Return the place of points that one request writes; raises RequestError (not_together)."""
         names = {point.facts.name for point in points}
         for point in points:
@@ -367,7 +366,9 @@ class Session(NamedPoints, ABC):
                 raise RequestError("not_together", text)
         places = [point.facts.write_at or point.facts.at for point in points]
         addresses = sorted({address for place in places for address in place.addresses})
-        kinds = {place.replaced(addresses=()) for place in places}
+        kinds = {
+            (place.replaced(addresses=()), point.facts.selects) for point, place in zip(points, places, strict=True)
+        }
         if len(kinds) != 1 or places[0].space not in _JOINT or addresses[-1] - addresses[0] >= len(addresses):
             raise RequestError("not_together", "takes points that one request can write: side by side, in one space")
         return places[0].replaced(addresses=tuple(addresses))
