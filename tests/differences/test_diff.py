@@ -246,7 +246,7 @@ FOREIGN = "model.json does not follow the schema of exported models"
         ('{"format": ' + "9" * 5000 + "}", "it is not JSON"),
         ("NaN", "it is not an exported model"),
         ("[]", "it is not an exported model"),
-        ('{"format": 3, "device": "a"}', "its format is not 6"),
+        ('{"format": 3, "device": "a"}', "its format is not 7"),
         (lambda model: model.pop("points"), "`points` is missing"),
         (lambda model: model.update(points={}), "`points` is missing or no list"),
         (lambda model: model["points"].append({}), FOREIGN),
