@@ -106,6 +106,29 @@ def test_loop_back_and_exceptions(modbus: Any, profile: Any) -> None:
     assert getattr(caught.value, "code", None) == 2
 
 
+@pytest.mark.parametrize(
+    ("function", "values", "answer", "text"),
+    [
+        (6, (500,), (40, 7), "500 was written to 0028h, and the device answered 7"),
+        (6, (500,), (41, 500), "01F4h was written to 0028h, and the reply repeats 01F4h at 0029h"),
+        (5, (1,), (40, 0), "FF00h was written to 0028h, and the reply repeats 0000h at 0028h"),
+        (16, (1, 2), (40, 3), "0002h was written to 0028h, and the reply repeats 0003h at 0028h"),
+    ],
+)
+def test_other_echoes_tell_both_numbers(
+    modbus: Any, function: int, values: tuple[int, ...], answer: tuple[int, int], text: str
+) -> None:
+    profile = modbus.Profile(functions={function: 2})
+    reply = bytes((5, function)) + b"".join(word.to_bytes(2, "big") for word in answer)
+    reply += modbus.crc(reply).to_bytes(2, "little")
+    with pytest.raises(Exception, match=f"^{text}$") as caught:
+        modbus.parse(modbus.Request(5, function, 40, values=values), reply, profile)
+    error: Any = caught.value
+    assert (error.status, error.lost) == ("echo_mismatch", False)
+    if "answered" in text:
+        assert (error.written, error.answered) == ((500,), (7,))
+
+
 def test_padding_of_coils(modbus: Any) -> None:
     """Some devices want an even number of data bytes, which pymodbus does not do."""
     padded = modbus.Profile(functions={15: 32}, pad_coil_bytes_even=True)
@@ -137,5 +160,5 @@ def test_answers_to_requests_that_cannot_be_sent(modbus: Any, profile: Any, func
     """More values than a frame holds, and none, are no reason for another error than ours."""
     body = bytes((9, function, 0, 0, 0, 0))
     request = modbus.Request(9, function, 0, values=values)
-    with pytest.raises(sys.modules["fieldscribe_runtime.errors"].FrameError, match="repeat"):
+    with pytest.raises(sys.modules["fieldscribe_runtime.errors"].FrameError, match="repeat|answered 0"):
         modbus.parse(request, body + modbus.crc(body).to_bytes(2, "little"), profile)

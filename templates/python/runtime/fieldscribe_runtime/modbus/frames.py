@@ -7,7 +7,13 @@ import struct
 from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
-from ..errors import ExceptionReplyError, FrameError, RequestError, WrongTypeError
+from ..errors import (
+    EchoError,
+    ExceptionReplyError,
+    FrameError,
+    RequestError,
+    WrongTypeError,
+)
 from ..receiving import Framing
 from ..receiving import receive as receive_reply
 from ..records import Record
@@ -287,6 +293,21 @@ def _answer(request: Request, pdu: bytes) -> tuple[int, ...]:
         if bits:
             return tuple(data[place >> 3] >> (place & 7) & 1 for place in range(request.count))
         return struct.unpack(f">{request.count}H", data)
-    if not request.values or pdu != _head(request):
-        raise FrameError("echo_mismatch", "the reply does not repeat the request")
+    if not request.values:
+        raise FrameError("echo_mismatch", "the reply repeats a request without values")
+    head = _head(request)
+    if pdu != head:
+        raise _other_echo(request, head, pdu)
     return request.values if request.function in ECHOES else ()
+
+
+def _other_echo(request: Request, head: bytes, pdu: bytes) -> FrameError:
+    """Return the error for a reply that does not repeat a write; of one register it has what the device took."""
+    to, written, at, answered = (
+        int.from_bytes(one[start : start + 2], "big") for one in (head, pdu) for start in (1, 3)
+    )
+    if request.function == WRITE_REGISTER and at == to:
+        text = f"{written} was written to {to:04X}h, and the device answered {answered}"
+        return EchoError(text, (written,), (answered,))
+    text = f"{written:04X}h was written to {to:04X}h, and the reply repeats {answered:04X}h at {at:04X}h"
+    return FrameError("echo_mismatch", text)
