@@ -160,5 +160,5 @@ def test_answers_to_requests_that_cannot_be_sent(modbus: Any, profile: Any, func
     """More values than a frame holds, and none, are no reason for another error than ours."""
     body = bytes((9, function, 0, 0, 0, 0))
     request = modbus.Request(9, function, 0, values=values)
-    with pytest.raises(sys.modules["fieldscribe_runtime.errors"].FrameError, match="repeat|answered 0"):
+    with pytest.raises(sys.modules["fieldscribe_runtime.errors"].FrameError, match=r"repeat|answered 0"):
         modbus.parse(request, body + modbus.crc(body).to_bytes(2, "little"), profile)
