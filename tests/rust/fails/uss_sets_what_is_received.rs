@@ -1,4 +1,4 @@
-// error: E0277
+// error: E0277 E0277
 // says: is not sent in the process data
 // What the drive sends is not set.
 

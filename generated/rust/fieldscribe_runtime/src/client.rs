@@ -237,7 +237,7 @@ macro_rules! write_methods {
         /// What encoding says, and what the bus does.
         pub $($async)? fn $value<P>(&mut self, value: P::Value) -> Result<(), $error>
         where
-            P: Encodable<With: NeedsNothing> + Whole + $reach,
+            P: EncodableAlone + Whole + $reach,
             D: Accepts<P::Device>,
         {
             self.$value_with::<P>(value, NeedsNothing::nothing())$($wait)*

@@ -60,8 +60,8 @@ pub use identification::{Held, Identification};
 pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, NeedsNothing, Point,
-    Readable, Scaled, Space, Whole, Writable,
+    CountWritable, Decoded, Digits, Documented, Encodable, EncodableAlone, FixedScale, Named,
+    NeedsNothing, Point, Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

@@ -10,8 +10,8 @@ use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable, Error, NeedsNothing, PointFacts, PointInfo, Points, Raw, Readable,
-    ReplyError, Whole, Writable,
+    Decoded, Device, Encodable, EncodableAlone, Error, NeedsNothing, PointFacts, PointInfo, Points,
+    Raw, Readable, ReplyError, Whole, Writable,
 };
 
 /// Sends frames and waits for frames.
@@ -455,7 +455,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                P: Readable + EncodableAlone + BitGroup + Parameter,
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;

@@ -3,7 +3,7 @@
 
 use super::{ParseError, Profile};
 use crate::point::{counted, counted_mut, joined, split};
-use crate::{Decoded, Encodable, Error, NeedsNothing, Point, Raw, Readable};
+use crate::{Decoded, EncodableAlone, Error, NeedsNothing, Point, Raw, Readable};
 
 /// Where a signal lies in its message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,7 +164,7 @@ impl<M: Signals> Numbers<M> {
     /// Why the value cannot be written.
     pub fn put<P>(&mut self, value: P::Value) -> Result<(), Error>
     where
-        P: Carried<Message = M> + Encodable<With: NeedsNothing>,
+        P: Carried<Message = M> + EncodableAlone,
     {
         self.put_raw::<P>(P::encode(value)?);
         Ok(())

@@ -15,7 +15,7 @@ use crate::point::{counted, counted_mut, in_reading_order};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable,
+    Decoded, Device, Encodable, EncodableAlone,
 };
 use crate::{
     NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError, Whole, Writable,
@@ -329,7 +329,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With: NeedsNothing> + BitGroup,
+                P: Readable + EncodableAlone + BitGroup,
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;

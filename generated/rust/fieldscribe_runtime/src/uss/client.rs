@@ -12,8 +12,8 @@ use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable, Error, NeedsNothing, PointFacts, PointInfo, Points, Raw, Readable,
-    ReplyError, Whole, Writable,
+    Decoded, Device, Encodable, EncodableAlone, Error, NeedsNothing, PointFacts, PointInfo, Points,
+    Raw, Readable, ReplyError, Whole, Writable,
 };
 
 /// The most words of process data that a client keeps.
@@ -284,7 +284,7 @@ macro_rules! client {
             /// What encoding says; [`Error::BeyondLink`] if the link has not so many words.
             pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
-                P: Encodable<With: NeedsNothing> + BitGroup + Sent,
+                P: EncodableAlone + BitGroup + Sent,
                 D: Accepts<P::Device>,
             {
                 self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
@@ -448,7 +448,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With: NeedsNothing> + BitGroup + Sent,
+                P: EncodableAlone + BitGroup + Sent,
                 D: Accepts<P::Device>,
             {
                 let process = self.drive.with_bits::<P>(P::encode(value)?)?;
@@ -519,7 +519,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                P: Readable + EncodableAlone + BitGroup + Parameter,
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
@@ -536,7 +536,7 @@ macro_rules! client {
                 value: P::Value,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                P: Readable + EncodableAlone + BitGroup + Parameter,
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;

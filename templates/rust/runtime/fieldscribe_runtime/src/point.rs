@@ -383,6 +383,18 @@ pub trait Encodable: Writable {
     }
 }
 
+/// A point whose values can be encoded and that needs no other.
+///
+/// It is a bound of its own, so that the compiler says in one error what is wrong.
+#[diagnostic::on_unimplemented(
+    message = "values of the point `{Self}` are not written",
+    label = "`{Self}` is only read, or no `f64` holds its values",
+    note = "where the point is written all the same, `write_count` and `write_raw` take integers"
+)]
+pub trait EncodableAlone: Encodable<With: NeedsNothing> {}
+
+impl<P: Encodable<With: NeedsNothing>> EncodableAlone for P {}
+
 /// Decoding in integers: the value as a count of the point's smallest decimal step, or the plain raw number.
 #[diagnostic::on_unimplemented(
     message = "the point `{Self}` has no counts that are read",
