@@ -20,8 +20,11 @@ from fieldscribe.model.device import (
     Message,
     Named,
     Role,
+    Step,
+    SteppedCommand,
     Telegram,
     Version,
+    Word,
 )
 from fieldscribe.model.numbers import (
     NOTATIONS,
@@ -42,4 +45,3 @@ from fieldscribe.model.numbers import (
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, bits_of, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Interner, Shape
-from fieldscribe.model.steps import Step, SteppedCommand, Word

@@ -14,7 +14,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Identification, Message, Point
-from fieldscribe.model.steps import SteppedCommand
+from fieldscribe.model.device import SteppedCommand
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, same

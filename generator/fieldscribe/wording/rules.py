@@ -8,7 +8,7 @@ from fractions import Fraction
 from fieldscribe.arithmetic.exact import Line, value_line
 from fieldscribe.conditions import Clause, Comparison, Condition
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point, Step, SteppedCommand, Word
-from fieldscribe.model.steps import WHOLE_WORD
+from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, plus_text, times_text, value_multiple
 
 Points = Mapping[str, Point]

@@ -99,9 +99,9 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
     number = first.identifier + unit if first.adds_unit else first.identifier
     masters = all(message.direction == "request" for message in group)
     kinds = "requests" if masters else f"unit_{unit}_messages" if first.adds_unit else f"messages_{number:X}"
-    titles = "; ".join(f"{message.name}: {message.title['en']}" for message in group)
-    written = _written(device, first, unit)
-    result = DbcMessage(first.name if len(group) == 1 else kinds, written, len(first.roles), masters, line(titles))
+    titles = line("; ".join(f"{message.name}: {message.title['en']}" for message in group))
+    name = first.name if len(group) == 1 else kinds
+    result = DbcMessage(name, _written(device, first, unit), len(first.roles), masters, titles)
     selector = _selector(group) if len(group) > 1 else None
     signals: list[Signal] = []
     if selector is not None:
@@ -114,12 +114,7 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
         switch = None if selector is None else ("message", message.roles[selector].number)
         for signal in (*_head_signals(device, message, unit, selector), *_telegram_signals(device, message)):
             signals.append(signal if signal.switch is not None else replace(signal, switch=switch))
-    names: set[str] = set()
-    shorts: set[str] = set()
-    result.signals = [
-        replace(signal, name=_unique(signal.name, names), short=_unique(signal.name, shorts, _MOST_NAME))
-        for signal in signals
-    ]
+    result.signals = _with_unique_names(signals)
     return result
 
 
@@ -147,14 +142,18 @@ def _of_fields(device: Device, unit: int, message: Message) -> DbcMessage:
         )
         for place, point in named.items()
     ]
-    from_master, names, shorts = message.direction == "request", set[str](), set[str]()
-    title = line(message.title["en"])
-    result = DbcMessage(message.name, _written(device, message, unit), message.length, from_master, title)
-    result.every = message.every
-    result.signals = [
-        replace(each, name=_unique(each.name, names), short=_unique(each.name, shorts, _MOST_NAME)) for each in found
-    ]
+    written, from_master = _written(device, message, unit), message.direction == "request"
+    result = DbcMessage(message.name, written, message.length, from_master, line(message.title["en"]))
+    result.every, result.signals = message.every, _with_unique_names(found)
     return result
+
+
+def _with_unique_names(signals: list[Signal]) -> list[Signal]:
+    """Return the signals of a message with names of their own, whole and short."""
+    names, shorts = set[str](), set[str]()
+    return [
+        replace(each, name=_unique(each.name, names), short=_unique(each.name, shorts, _MOST_NAME)) for each in signals
+    ]
 
 
 def _switch(message: Message, placed: Field, named: Mapping[int, Point]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ To add a key:
 from __future__ import annotations
 
 from fieldscribe.families import Family, families
-from fieldscribe.language.keys import behaviour, bus, files, frames, meaning, nested_keys, points
+from fieldscribe.language.keys import bus, files, frames, meaning, nested_keys, points
 from fieldscribe.schema_types import Items, Key, Place
 
 
@@ -36,7 +36,7 @@ TABLE: tuple[Key, ...] = (
     *nested_keys.KEYS,
     *bus.KEYS,
     *frames.KEYS,
-    *behaviour.KEYS,
+    *files.MOVING,
     *(key for bus_family in families() for key in keys_of_family(bus_family)),
 )
 """All keys, in the order of KEYS.md; those of one family alone come last."""

@@ -1,12 +1,12 @@
-"""The keys at the top of a file: of device.yaml, of parts and of groups, and the sections that declare things."""
+"""The keys at the top of a file (device.yaml, parts, groups), of sections that declare things, of behaviour.yaml."""
 
 from __future__ import annotations
 
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import DEVICE, FILES, GROUP
+from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
-from fieldscribe.schema_types import NUMBER, Items, Key, Place, Places, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import BOOLEAN, NUMBER, Items, Key, Place, Places, Shape, Text, Whole, by, one_of
 
 _DOCUMENT = Place().means("One manual.", [{"title": "ModBus", "language": "de"}])
 _AXIS = Place().means("One axis.", [{"values": {"200V": {}}}])
@@ -182,3 +182,47 @@ SECTIONS = (
     _listed("looked_through", places.LOOKED_THROUGH, "Lines of the manual that hold no facts; the audit ignores them."),
 )
 """The sections in which a file declares things."""
+
+
+_QUANTITY = Place(before=(NUMBER,)).means("One quantity.", [{"start": 40, "unit": "%"}])
+_MOVE = Shape("A move.", ["set 1 while external_trip == trip"], Text(2000))
+
+MOVING = (
+    Key("behaviour", BEHAVIOUR, "The device that it belongs to.", required=True).takes(["hitachi_l200"], A_NAME),
+    Key(
+        "plant",
+        BEHAVIOUR,
+        "Quantities that no point holds, by name: of the machine, its surroundings, or a state inside the device.",
+    ).takes([{"load": {"start": 40, "unit": "%"}, "emergency_stop": 0}], by(forms.NAME, _QUANTITY.shape)),
+    Key("start", _QUANTITY, "What it is when the simulation starts; 0 unless it is another number.").takes(
+        [40], NUMBER
+    ),
+    Key("unit", _QUANTITY, "Its unit.").takes(["%"], Text(20)),
+    Key("title", _QUANTITY, TITLE),
+    Key(
+        "start",
+        BEHAVIOUR,
+        "What points hold when the simulation starts, in the unit or as the name of an enum entry. Other points hold "
+        "their default, or a plausible number.",
+    ).takes(
+        [{"F002": 10.0, "A001": "network"}],
+        by(forms.ANY, Shape("The value in the unit, or a name.", [10.0], Text(80), NUMBER, BOOLEAN)),
+    ),
+    Key(
+        "moves",
+        BEHAVIOUR,
+        "What points and quantities do, by name, code, or `point.flag`: one move or several. Of those whose condition "
+        "holds (`while`), the first one counts; without one, the number stays. `when` happens once, each time that its "
+        "condition becomes true.",
+        required=True,
+    ).takes(
+        [
+            {
+                "output_frequency": "ramp to A020 at 10 Hz/s while run_command == run",
+                "alarm": ["set 1 while external_trip == trip after 2 s", "set 0 while trip_reset == reset"],
+                "trip_count": "set trip_count + 1 when alarm == tripped",
+            }
+        ],
+        by(forms.ANY, Shape("What it does.", ["set load"], Text(2000), Items(_MOVE, 1)), least=1),
+    ),
+)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from fieldscribe.conditions import Condition
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
-from fieldscribe.model.steps import WHOLE_WORD
+from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, PointName, Scope, call
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
