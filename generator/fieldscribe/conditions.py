@@ -4,8 +4,6 @@ A condition compares single numbers and names with constants. A few samples deci
 constant, its neighbours, and the ends of what can occur. Between these no comparison changes its result.
 """
 
-from __future__ import annotations
-
 import operator
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -4,8 +4,6 @@ It stands between the model and the views of C, Rust and Python: the integers of
 known of the points that a rule needs. A view asks it and writes the answer in its own language.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Reads bytes and numbers as users paste them: with blanks, commas, colons, dashes, `0x`, or none of these."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 

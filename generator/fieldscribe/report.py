@@ -4,8 +4,6 @@ A line of text is a list of (style, text), so that the command line can colour i
 are shown as their numbers.
 """
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence

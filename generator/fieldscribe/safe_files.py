@@ -3,8 +3,6 @@
 Flags that the system lacks (Windows has no O_NONBLOCK) are left out.
 """
 
-from __future__ import annotations
-
 import os
 import stat
 from errno import EFBIG, EINVAL, ENOENT

@@ -4,8 +4,6 @@ Descriptions come from anybody. Whatever a title holds, the result stays inside 
 laid out once, with placeholders for fields, and filled for each point.
 """
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Callable, Hashable, Iterable, Sequence

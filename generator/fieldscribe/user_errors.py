@@ -1,7 +1,5 @@
 """The errors for a request of a user that cannot be met, and hints with near names."""
 
-from __future__ import annotations
-
 from fieldscribe.text import line
 
 

@@ -3,8 +3,6 @@
 It knows neither words on the wire nor buses. A CodecError names other points whose raw numbers are needed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction

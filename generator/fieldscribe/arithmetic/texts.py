@@ -1,7 +1,5 @@
 """Texts and the words that hold them; bytes in the notation that people use for them, and dates that count seconds."""
 
-from __future__ import annotations
-
 import re
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Raw numbers in 16-bit words (high part first), in bits of a word that points share, and in other codings."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from struct import unpack_from

@@ -4,8 +4,6 @@ Lines that are unique in both texts are aligned first, then what lies between th
 the texts, also where every line changed, which difflib alone would not end.
 """
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_left
 from collections import Counter

@@ -3,8 +3,6 @@
 `ClaimMaker` makes the claims of one subject: a point, a message, a code of the bus, a frame.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """All claims of a description, what its errata say that the manual prints, and the lines that it passes over."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Whether a passage has the evidence for a claim: one function for each kind of evidence."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The claims of a word's flags: their bits, their titles, and what each of their values means."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any

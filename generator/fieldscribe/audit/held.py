@@ -1,7 +1,5 @@
 """A description held against a text: where each of its claims stands, and which numbers of the text they use."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable

@@ -1,7 +1,5 @@
 """The text of a manual: its lines, and the section and table row around each line."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence

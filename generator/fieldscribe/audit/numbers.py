@@ -3,8 +3,6 @@
 The documents of a description say which notation a manual has.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The plain audit: what a description cites and a text does not print, and what cited places print beside that."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field

@@ -1,7 +1,5 @@
 """The claims of a point: its code, section, address, title, access, numbers, labels, and what `printed` says."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Writes what a new edition changes into the files of a description: the numbers of cited lines, and its checksum."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The audit for people: lines of text for a terminal, and a page that stands alone."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import NamedTuple

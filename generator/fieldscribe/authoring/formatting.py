@@ -1,7 +1,5 @@
 """Formats descriptions, if their meaning and comments stay the same; replaces files of one: all of them, or none."""
 
-from __future__ import annotations
-
 import os
 import re
 import stat

@@ -1,7 +1,5 @@
 """Starts a description: its questions, its files, which compile at once, and the schema for editors."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from contextlib import suppress

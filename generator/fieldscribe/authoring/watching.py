@@ -4,8 +4,6 @@ The files are polled a few times a second. That works on every file system and w
 thousandth of a processor.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field

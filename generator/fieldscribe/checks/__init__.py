@@ -12,8 +12,6 @@ To add a check:
    the environment `pytest tests/checks/test_bad.py` writes these comments; read what it wrote.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 
 from fieldscribe.resolve.analysis import Analysis

@@ -1,7 +1,5 @@
 """No two points take the same bits of one address, none lies in a gap, and no command stands on a point."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The device fulfils what its family checks itself."""
 
-from __future__ import annotations
-
 from fieldscribe.resolve.analysis import Analysis
 
 

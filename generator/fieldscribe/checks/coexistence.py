@@ -1,7 +1,5 @@
 """Tells which points share a word, which can exist in the same device, and which no frame of it can read or write."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Every point can exist: its `when` can be true and does not need itself, and `until` does not precede `since`."""
 
-from __future__ import annotations
-
 from fieldscribe import wording
 from fieldscribe.checks.coexistence import Coexistence, clauses
 from fieldscribe.conditions import Clause, Domain, ends_before

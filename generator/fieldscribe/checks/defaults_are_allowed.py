@@ -1,7 +1,5 @@
 """The factory setting of a point can be written to it."""
 
-from __future__ import annotations
-
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint

@@ -1,7 +1,5 @@
 """No operating system, runtime or target language uses the name of the device."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.resolve.analysis import Analysis

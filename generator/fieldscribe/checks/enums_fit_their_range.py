@@ -1,7 +1,5 @@
 """Every entry of an enum can occur: it lies in the range and the type, and it is no special code."""
 
-from __future__ import annotations
-
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import is_whole_number, parse_integer

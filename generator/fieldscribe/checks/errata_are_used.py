@@ -1,7 +1,5 @@
 """Every erratum with printed values explains a disagreement that is really there."""
 
-from __future__ import annotations
-
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
 from fieldscribe.resolve.analysis import Analysis

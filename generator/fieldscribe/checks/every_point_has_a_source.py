@@ -1,7 +1,5 @@
 """Every point cites its section or page, and its line too if the document has a text file."""
 
-from __future__ import annotations
-
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.point_facts import PointFacts

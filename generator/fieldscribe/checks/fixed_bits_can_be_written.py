@@ -1,7 +1,5 @@
 """Bits that are always written as a constant leave a number to write and belong to no other point."""
 
-from __future__ import annotations
-
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
 from fieldscribe.model import Fixed, Point

@@ -1,7 +1,5 @@
 """The manual's worked examples are frames of this device and mean what the description says, or errata explain them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any

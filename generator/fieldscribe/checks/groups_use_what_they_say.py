@@ -1,7 +1,5 @@
 """The `telegram` or `message`, the `block` and the `addressing` of a group apply to points of it."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from fieldscribe.language.nodes import Map

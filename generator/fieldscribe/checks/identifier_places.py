@@ -1,7 +1,5 @@
 """Names the owners of identifiers for messages and finds their places in the description."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Intervals of cited lines run upwards."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A point is one thing: a named number, a word of flags, a quantity with a scale, or a floating-point number."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 from fieldscribe.language.keys import facts_of

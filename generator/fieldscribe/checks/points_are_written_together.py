@@ -1,7 +1,5 @@
 """Points that the device takes together alone can be written in one request."""
 
-from __future__ import annotations
-
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 

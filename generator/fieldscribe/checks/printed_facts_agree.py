@@ -1,7 +1,5 @@
 """What the manual prints redundantly about a point agrees with its facts, or an erratum says why not."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any

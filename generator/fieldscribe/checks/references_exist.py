@@ -1,7 +1,5 @@
 """Names refer to what exists: `keep_with` to a command, `busy` of a command to a point."""
 
-from __future__ import annotations
-
 from fieldscribe.families import families
 from fieldscribe.resolve.analysis import Analysis
 

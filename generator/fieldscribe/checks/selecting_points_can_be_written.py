@@ -1,7 +1,5 @@
 """What selects the meaning of addresses can be written, by itself."""
 
-from __future__ import annotations
-
 from fieldscribe.resolve.analysis import Analysis
 
 

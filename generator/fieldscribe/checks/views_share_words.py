@@ -1,7 +1,5 @@
 """A point that is a view of another one shares words with it."""
 
-from __future__ import annotations
-
 from fieldscribe.checks.coexistence import WordKey, word_key
 from fieldscribe.model import Point, bits_of
 from fieldscribe.resolve.analysis import Analysis

@@ -1,7 +1,5 @@
 """A write address differs from the read address, in a family that can write elsewhere."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.resolve.analysis import Analysis

@@ -1,7 +1,5 @@
 """`fieldscribe audit`: hold what a description cites against the text of its manual, or compare two editions of it."""
 
-from __future__ import annotations
-
 import re
 from argparse import ArgumentParser, Namespace
 from hashlib import sha256

@@ -1,7 +1,5 @@
 """`fieldscribe check`: validate descriptions."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from collections import Counter

@@ -1,7 +1,5 @@
 """`fieldscribe compare`: what differs between two snapshots, or between one and the manual's defaults."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`fieldscribe completion`: shell scripts that complete commands, options, devices and points, and their answers."""
 
-from __future__ import annotations
-
 import re
 import sys
 from argparse import Action, ArgumentParser, Namespace

@@ -1,7 +1,5 @@
 """`fieldscribe diff`: what changed between two descriptions, and whom it breaks."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """`fieldscribe docs`: the documentation of devices as a workbook, as CSV, in Markdown, and an index of it as pages."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from functools import partial
 from itertools import chain

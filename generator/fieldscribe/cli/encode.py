@@ -1,7 +1,5 @@
 """`fieldscribe encode`: a value into its raw number, or into the whole request frame."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """`fieldscribe explain`: everything about one address, code or name."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from contextlib import suppress
 

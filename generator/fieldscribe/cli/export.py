@@ -1,7 +1,5 @@
 """`fieldscribe export`: a device for other tools."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 

@@ -1,7 +1,5 @@
 """`fieldscribe fmt`: bring descriptions into their canonical form."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The options of `decode` and `encode` about frames and other points; families declare those that only they take."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """`fieldscribe generate`: compile descriptions into files."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`fieldscribe identify`: which device a unit is, by what descriptions say of that."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 

@@ -1,8 +1,6 @@
 # ruff: noqa: N999  # a command's module has the command's name
 """`fieldscribe import`: draft a description from a file of another kind; each kind has a module `import_<kind>`."""
 
-from __future__ import annotations
-
 import re
 from argparse import ArgumentParser, Namespace
 from types import ModuleType

@@ -1,7 +1,5 @@
 """`fieldscribe init`: start a description."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Mapping

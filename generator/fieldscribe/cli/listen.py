@@ -1,7 +1,5 @@
 """`fieldscribe listen`: what devices and their masters say, from a capture or on a line, without sending."""
 
-from __future__ import annotations
-
 import gc
 import json
 import sys

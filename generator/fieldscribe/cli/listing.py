@@ -1,7 +1,5 @@
 """`fieldscribe list`: the known devices, or the points of one."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase

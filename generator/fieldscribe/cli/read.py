@@ -1,7 +1,5 @@
 """`fieldscribe read`: what points of a device hold now."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.common import add_format, print_json

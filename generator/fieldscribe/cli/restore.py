@@ -1,7 +1,5 @@
 """`fieldscribe restore`: write the settings of a snapshot back, in an order that the device allows."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable

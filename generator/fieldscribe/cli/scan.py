@@ -1,7 +1,5 @@
 """`fieldscribe scan`: which units answer on a line, and with what."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.common import add_format, print_json

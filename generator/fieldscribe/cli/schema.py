@@ -1,7 +1,5 @@
 """`fieldscribe schema`: the keys of descriptions for editors and for people, and those of exported models."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 

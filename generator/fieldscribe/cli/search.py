@@ -1,7 +1,5 @@
 """`fieldscribe search`: words in everything that descriptions name."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """`fieldscribe simulate`: devices that answer on a line, made from their descriptions alone."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import os

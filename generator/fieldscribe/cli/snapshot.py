@@ -1,7 +1,5 @@
 """`fieldscribe snapshot`: all that a device holds now, in a file."""
 
-from __future__ import annotations
-
 import os
 import sys
 from argparse import ArgumentParser, Namespace

@@ -1,7 +1,5 @@
 """`fieldscribe units`: the units that need no declaration."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 

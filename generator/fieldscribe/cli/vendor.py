@@ -1,7 +1,5 @@
 """`fieldscribe vendor`: deliver exactly the files that a project needs."""
 
-from __future__ import annotations
-
 import re
 from argparse import SUPPRESS, ArgumentParser, Namespace
 from collections.abc import Sequence

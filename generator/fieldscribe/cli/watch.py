@@ -1,7 +1,5 @@
 """`fieldscribe watch`: compile descriptions whenever they are saved."""
 
-from __future__ import annotations
-
 import gc
 import json
 import sys

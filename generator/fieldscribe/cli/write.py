@@ -1,7 +1,5 @@
 """`fieldscribe write`: write points of a device, or give a command, once the user agrees."""
 
-from __future__ import annotations
-
 import sys
 from argparse import ArgumentParser, Namespace
 

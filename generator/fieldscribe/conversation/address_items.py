@@ -1,7 +1,5 @@
 """Items of what a frame carries at consecutive addresses, and of elements and words of parameters."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """What decoding knows of points: their addresses, their texts, and the numbers that frames have brought so far."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Decodes frames one after the other: each with what the frames before it have brought, and with warnings."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Turns a typed value into a raw number, and a raw number into the frames that write it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Explains what is no point: commands, errata, messages, codes, units, and addresses that the manual closes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from fieldscribe import wording

@@ -1,7 +1,5 @@
 """Explains one point: a heading and rows with all its facts, for the `explain` command."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial

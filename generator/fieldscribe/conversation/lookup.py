@@ -1,7 +1,5 @@
 """Finds points by a code, a name, or an address in any notation and numbering."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Says in words why a value cannot be written, or a raw number cannot be read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from fractions import Fraction
 

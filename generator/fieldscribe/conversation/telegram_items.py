@@ -1,7 +1,5 @@
 """Items of telegrams: process data and their masks, and telegrams that come in several frames."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple

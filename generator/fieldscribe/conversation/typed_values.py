@@ -1,7 +1,5 @@
 """Reads the values that users type: a number with or without its unit, a name, on or off, flags, digits, a text."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Keeps old names as deprecated aliases: writes `was: [old_name]` to renamed points, where a person would."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Mapping

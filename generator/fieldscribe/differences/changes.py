@@ -1,7 +1,5 @@
 """The differences of two sides, device by device, with their places, their names in code, and the version step."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any

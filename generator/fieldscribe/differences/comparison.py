@@ -1,7 +1,5 @@
 """Two exported models in, their differences out: each with its class, the thing and the fact, old and new."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias

@@ -1,7 +1,5 @@
 """A description as one side of a comparison: its model, the places of its facts, and its names in generated code."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache, cached_property
 

@@ -1,7 +1,5 @@
 """Differences for people: as text, and as the changelog of a release in Markdown."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """The two sides of a comparison: descriptions, exported models, or one of these in a git revision."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

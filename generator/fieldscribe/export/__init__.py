@@ -3,8 +3,6 @@
 Its shape changes only with its `format` number. JSON numbers are integers; every other exact number is text.
 """
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The facts of a device and of its things other than points."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, partial

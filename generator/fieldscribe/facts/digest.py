@@ -4,8 +4,6 @@ Only facts that differ from their usual value count, under their published keys,
 change of the compiler's own data structures nor an optional key that nobody uses changes a digest.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace

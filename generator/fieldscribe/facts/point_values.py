@@ -1,7 +1,5 @@
 """The values of the facts of a point: as they are exported (scales and limits last), and as `diff` compares them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any

@@ -1,7 +1,5 @@
 """The facts of a point, in the order in which people read them."""
 
-from __future__ import annotations
-
 from functools import partial
 from operator import itemgetter
 

@@ -1,7 +1,5 @@
 """JSON Schemas of the values of facts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 

@@ -1,7 +1,5 @@
 """The facts of commands with steps."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from operator import itemgetter
 

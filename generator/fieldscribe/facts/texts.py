@@ -3,8 +3,6 @@
 Other points are called as the context says.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from fieldscribe import wording

@@ -4,8 +4,6 @@ A family's `frame_decoder` turns bytes into a `DecodedFrame`; `conversation` mat
 device and makes a `FrameResult` of it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol

@@ -5,8 +5,6 @@ What is not certain is no fact of the draft but a question in it, and the compil
 replaces each fact that it rejects by a question.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path

@@ -3,8 +3,6 @@
 A function returns None (or nothing) for a cell that it does not understand as a whole: nothing is guessed.
 """
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Mapping

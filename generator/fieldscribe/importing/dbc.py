@@ -4,8 +4,6 @@ A signal whose name several messages have gets the message's name in front. The 
 where no other signal has it.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Turns the rows of a table into draft points: YAML facts for what the cells print, questions for the rest."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Reads a file into tables: CSV and TSV, workbooks (XLSX), Markdown, HTML, the text of a manual; and their limits."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

@@ -5,8 +5,6 @@ The dashes of a list stand below its key, further lines in brackets below the fi
 quotes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Reads the files of a description and checks their shape: device.yaml, then its parts."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Texts for findings about the shape of a file: how a value is named, and what to write instead."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """Writes the table of keys as JSON Schema (draft 7) for editors, and as a page, descriptions/KEYS.md."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator

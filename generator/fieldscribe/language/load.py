@@ -4,8 +4,6 @@ Mappings and lists become `Map` and `Seq`, plain scalars what the core rules of 
 number of values and expansion of aliases are limited.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from decimal import Decimal

@@ -4,8 +4,6 @@
 could be read in two ways (`4E20`, `1,5`, `1FF`) are refused with a hint.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from fractions import Fraction

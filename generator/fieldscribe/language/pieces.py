@@ -1,7 +1,5 @@
 """Splits a YAML text into pieces for `canonical.py`: signs, scalars and marks, each with the comments before it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from typing import Any, NamedTuple

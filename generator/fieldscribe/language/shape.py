@@ -4,8 +4,6 @@ The checks are built from the table, each when a value first needs it. A test co
 description and every bad input.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Reads the text files of a description, within limits, and finds where keys, values and items stand in them."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_right
 from contextlib import suppress

@@ -5,8 +5,6 @@ in `formula/suggestions.py`.
 `tests/language/test_hints.py` holds that what a hint says to write passes.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Collection, Mapping
 from decimal import Decimal

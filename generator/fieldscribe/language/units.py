@@ -1,7 +1,5 @@
 """The shipped units: their symbols, the factors between them, and hints for unknown symbols."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

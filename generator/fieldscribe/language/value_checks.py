@@ -1,7 +1,5 @@
 """The checks of single values: each reports a value that is wrong, with what was probably meant."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Opens captures, whatever they are: packets (pcap, pcapng), messages (BLF, ASC), or lines of text."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from io import SEEK_END, BufferedReader, TextIOWrapper

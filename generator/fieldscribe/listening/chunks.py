@@ -3,8 +3,6 @@
 On a serial line only the length of a frame and its check tell where it ends.
 """
 
-from __future__ import annotations
-
 import re
 import time
 from collections import OrderedDict

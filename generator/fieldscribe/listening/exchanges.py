@@ -4,8 +4,6 @@ Who polls what, how often and how fast it is answered, which errors there are, a
 have limits, so that hostile captures do not fill the memory; what no longer fits is counted together.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Gives each frame to the decoder of its device, and pairs requests with their answers."""
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from types import MappingProxyType

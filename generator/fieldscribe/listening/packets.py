@@ -3,8 +3,6 @@
 Captures come from anywhere: lengths that cannot be are an error that names the packet, and nothing large is read.
 """
 
-from __future__ import annotations
-
 import struct
 from collections import OrderedDict
 from collections.abc import Container, Iterator

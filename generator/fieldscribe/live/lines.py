@@ -13,8 +13,6 @@ variant = {voltage_class = "400V"}
 with = {slot = 3}             # numbers that addresses depend on
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches

@@ -4,8 +4,6 @@ The journal has a line before and after each write, on the disk before the next 
 what was written: the next start reads it.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping

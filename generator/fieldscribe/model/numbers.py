@@ -1,7 +1,5 @@
 """What raw numbers mean: wire types, names, flags, special codes, characters."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Scales and limits: exact linear rules, which may depend on other points."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property

@@ -1,7 +1,5 @@
 """What many points share: everything about their raw numbers, but not their names and addresses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Runs a function in a child process while the run goes on, where the system can fork."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import threading

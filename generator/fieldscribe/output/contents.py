@@ -1,7 +1,5 @@
 """Holds the contents of a device's files until all are made: large ones on disk, not in memory."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from hashlib import sha256
 from os import SEEK_END

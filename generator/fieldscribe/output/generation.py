@@ -3,8 +3,6 @@
 A device with an error in its description or in a target, or with a foreign file in its way, keeps its old outputs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field

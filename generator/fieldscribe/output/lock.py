@@ -5,8 +5,6 @@ file is removed by this run, or by the next if this one is killed. Without `floc
 runs do not exclude each other.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import signal

@@ -5,8 +5,6 @@ description with the digest of its facts. What is vendored lies flat, beside `<d
 writes, a manifest also holds the new checksums under `pending`: after a killed run all files are still known as ours.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Container, Iterator, Mapping

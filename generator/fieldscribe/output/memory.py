@@ -5,8 +5,6 @@ compiler. A file is read only if its state is too new to be trusted. Any differe
 does not use the record. The cache holds plain data; nothing in it is executed.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

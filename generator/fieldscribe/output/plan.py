@@ -1,7 +1,5 @@
 """Plans what writing a device would change in an output folder; reads the folder and writes nothing."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field

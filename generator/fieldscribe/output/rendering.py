@@ -1,7 +1,5 @@
 """Renders the files of devices for a target: here, or in a child process for all devices."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator
 from typing import NamedTuple
 

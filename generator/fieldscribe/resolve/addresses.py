@@ -1,7 +1,5 @@
 """Where each point is: its words on the wire in order, and the numbers that the manual prints for people."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace

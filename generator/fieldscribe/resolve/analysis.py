@@ -3,8 +3,6 @@
 `pipeline` makes it; checks and the audit read it, because the model itself knows no places in the text.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property

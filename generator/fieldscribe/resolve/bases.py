@@ -1,7 +1,5 @@
 """Resolves what addresses count from: `given` and `found` at the head, `base` and `block` at groups."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import prod

@@ -1,7 +1,5 @@
 """How a manual numbers the bits of a word: from 0 or 1, at the lowest or the highest one. The model counts from 0."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from fieldscribe.diagnostics import Report, Span

@@ -1,7 +1,5 @@
 """The least and the greatest number that a point, or a formula of points, can be."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction

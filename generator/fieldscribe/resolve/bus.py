@@ -1,7 +1,5 @@
 """Reads the facts under `bus`, and defines how a family reads the keys that only it has."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any

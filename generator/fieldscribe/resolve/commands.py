@@ -1,7 +1,5 @@
 """Resolves commands (a constant under a name, or several requests in order), and what identifies a device."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.arithmetic.texts import fits

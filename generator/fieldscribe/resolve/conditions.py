@@ -1,7 +1,5 @@
 """Resolves `when`: from the author's condition to comparisons of raw numbers and of variants."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import ceil, floor
 

@@ -1,7 +1,5 @@
 """Finds how the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import BCD, MAGNITUDE, coded_ends, ends_of

@@ -1,7 +1,5 @@
 """Resolves errata, and compares what the manual prints redundantly with the facts taken."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction

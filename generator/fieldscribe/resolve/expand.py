@@ -1,7 +1,5 @@
 """Expands the rows of all groups into points: every record, set, index and variant written out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 

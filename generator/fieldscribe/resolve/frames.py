@@ -1,7 +1,5 @@
 """Resolves the manual's worked examples: their bytes, what they answer, and what they mean in raw numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction

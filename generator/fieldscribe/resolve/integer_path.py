@@ -1,7 +1,5 @@
 """Decides which ways to compute a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Facts that follow from the YAML of a point: worked out once for all points whose YAML states the same."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from decimal import Decimal
 from typing import Generic, TypeVar

@@ -3,8 +3,6 @@
 Also sets and arrays: which points a row stands for if it has `sets`, `indices` or both.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Makes the model's points from their facts: places, shapes, limits, and what points of a group share."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction

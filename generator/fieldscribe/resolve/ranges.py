@@ -1,7 +1,5 @@
 """Resolves which raw numbers a point allows: by ranges, enums and types, with limits that other points set."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from decimal import Decimal

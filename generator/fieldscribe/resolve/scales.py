@@ -1,7 +1,5 @@
 """Resolves scales: from the author's formula to the exact rule `raw = value * ratio * factors + offset`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 

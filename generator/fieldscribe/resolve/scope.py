@@ -3,8 +3,6 @@
 `open_scope` makes the scope from the files; every later step of `resolve` asks it by name and reports through it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 

@@ -3,8 +3,6 @@
 Points of one kind share their shape, and points with the same limits share these: both are computed once.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Resolves special codes: a point's own, those of its format, group and device, and those of its type."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace

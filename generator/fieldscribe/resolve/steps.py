@@ -1,7 +1,5 @@
 """Resolves `steps`: requests in order, from values of points and formulas of arguments to words."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

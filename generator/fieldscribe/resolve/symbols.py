@@ -1,7 +1,5 @@
 """The symbol table: finds points by name, code and item."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Resolves telegrams: cyclic layouts of words, and the messages whose frames carry them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from fieldscribe.language.nodes import Map

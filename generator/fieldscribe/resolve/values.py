@@ -1,7 +1,5 @@
 """Reads numbers, bits and intervals from YAML values; reports findings instead of raising exceptions."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Mapping
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """What words hold beside plain numbers: enums, texts, decimal digits, flags, and bits that are written as constants."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import date

@@ -1,7 +1,5 @@
 """Reads behaviour.yaml, the file beside device.yaml that says what a simulated device does, and checks it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The rules of a behaviour as data: what moves, what conditions compare, and how fast and when."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

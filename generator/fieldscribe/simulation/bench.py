@@ -3,8 +3,6 @@
 A mapping that comes from a file has the place of each key, which messages then begin with.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from decimal import Decimal
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Which words of which area each point of a device takes; equal for all devices of a kind, and shared by them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 

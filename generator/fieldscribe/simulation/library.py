@@ -1,7 +1,5 @@
 """Simulated devices for tests: `with simulated("hitachi_l200") as drive:`, one line a device, free ports."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
 from collections.abc import Callable, Iterable, Iterator

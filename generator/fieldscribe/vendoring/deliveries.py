@@ -1,7 +1,5 @@
 """Compares the files of a request with the folder of a project, or writes them to it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -8,8 +8,6 @@ device = "hitachi_l200"      # an id, or the path of a description below this fi
 points = ["A001", "status"]  # codes, names, groups, patterns (default: all)
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator, Mapping

@@ -7,8 +7,6 @@ names as a word, or if a text that uses the runtime has, also in a comment below
 means all names that begin so.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Reduces a device to chosen points, and to the points that these depend on."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches

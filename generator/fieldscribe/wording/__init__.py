@@ -4,8 +4,6 @@ The texts are plain; targets escape them (text.py). Another point is written as 
 `name` for its value if `points` is given and the rule uses the value. A text is empty if the point has no such fact.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """Texts of exact numbers, and the rule from the raw numbers of a point to its values."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd

@@ -1,7 +1,5 @@
 """Texts that all families use: about units, addresses, bytes and words, and replies that do not fit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from fieldscribe.model import Bus, Code, Frame

@@ -1,7 +1,5 @@
 """Texts of scales, ranges, conditions, and steps of commands."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """The CAN family: a maker's own messages, laid out byte by byte in the description, and multiplexed telegrams."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fieldscribe.families import BusKeys, Codes, Family, Option

@@ -1,7 +1,5 @@
 """The facts of a bus and of frames that only this family has, and what people must know about the line."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.facts.schema import ADDRESS, INTEGER, null_or

@@ -1,7 +1,5 @@
 """What only a CAN device can get wrong: messages that look the same, missing messages, its worked frames."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 

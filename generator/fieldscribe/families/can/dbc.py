@@ -4,8 +4,6 @@ Messages that share an identifier become one message of the database, whose firs
 (extended multiplexing). The text is Latin-1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe import __version__

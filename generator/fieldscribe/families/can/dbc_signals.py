@@ -3,8 +3,6 @@
 `messages_of` returns what `dbc.py` writes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Builds the CAN frames that read and write points, for `encode` and as examples for `explain`."""
 
-from __future__ import annotations
-
 from fieldscribe import wording
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of

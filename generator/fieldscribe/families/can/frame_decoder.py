@@ -1,7 +1,5 @@
 """Decodes CAN frames: cyclic telegrams, requests, and answers to the last request of each unit."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Messages of a CAN device: builds their frames, reads frames as messages, and collects those of a telegram. No I/O."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import itemgetter

@@ -1,7 +1,5 @@
 """Reads and writes CAN frames as text: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Reads the facts that only CAN has from the description: bit rate, identifiers, and the layout of messages."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace

@@ -4,8 +4,6 @@ Signals under the same condition are neighbours in the telegram: those that alwa
 a selector brings.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby

@@ -1,7 +1,5 @@
 """The Modbus family: its facts, the functions of the protocol, and the requests that a device accepts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The facts of a bus that only this family has, and what people and pages must know beside them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.facts.schema import STRING, null_or

@@ -1,7 +1,5 @@
 """What only a Modbus device can get wrong: too few functions or items for its points, and its worked frames."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Modbus requests and replies: builds requests, reads bytes as a request or as its reply. Pure functions, no I/O."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fieldscribe.arithmetic.words import words_in

@@ -1,7 +1,5 @@
 """Builds the Modbus requests that read and write a point, for `encode` and as examples for `explain`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.arithmetic import words

@@ -1,7 +1,5 @@
 """Decodes Modbus frames: requests, replies, echoes and exceptions. The request before a reply tells what it holds."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache

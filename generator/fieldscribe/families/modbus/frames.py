@@ -1,7 +1,5 @@
 """Modbus frames: wrap a PDU for a serial line or for TCP, unwrap it, and compute its length. Pure functions, no I/O."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Reads the facts that only Modbus has from the description, and plans the batched reads of a group."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace

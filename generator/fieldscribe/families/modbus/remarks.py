@@ -1,7 +1,5 @@
 """Sentences about Modbus frames: names of functions and exceptions, faults, findings and notes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 

@@ -1,7 +1,5 @@
 """The USS family: telegrams with a parameter part (PKW) and process data (PZD)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fieldscribe.families import BusKeys, Codes, Family, Option

@@ -1,7 +1,5 @@
 """The facts of a bus and of frames that only this family has, and the tasks that read or write a point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or

@@ -1,7 +1,5 @@
 """What only a USS device can get wrong: codes that disagree, parameters that no task reaches, its worked frames."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The keys that only this family has, and what a new description of a device starts with."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from fieldscribe.language.keys.bus import CODES

@@ -1,7 +1,5 @@
 """Builds the telegrams that read and write points, for `encode` and as examples for `explain`."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from fieldscribe.arithmetic.codec import Settings

@@ -1,7 +1,5 @@
 """Decodes USS telegrams: requests, responses, broadcasts, or only the words of one part."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -3,8 +3,6 @@
 Tasks and responses of the protocol are listed here once; frames, checks and targets read these tables.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Reads the facts that only USS has from the description, and reports what its telegrams cannot carry."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from fieldscribe.diagnostics import Report

@@ -1,7 +1,5 @@
 """Sentences about USS telegrams: names of tasks and responses, faults, findings and notes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 
 from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE, Link, Part

@@ -1,7 +1,5 @@
 """The end of a USS line where devices answer: takes process data, carries out tasks, builds replies. No I/O."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """USS telegrams: builds their bytes, and reads bytes as responses. Pure functions, no I/O."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce

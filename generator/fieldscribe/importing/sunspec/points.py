@@ -1,7 +1,5 @@
 """The facts of points of SunSpec in a draft; what a description cannot say is a question at the point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 

@@ -4,8 +4,6 @@
 concerns the whole device, and repeats become one row. What is not carried is a question in the draft.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence

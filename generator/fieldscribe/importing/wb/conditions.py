@@ -1,7 +1,5 @@
 """Turns conditions of templates into those of descriptions: `isDefined(a)==0||b!=2`, `not exists(a) or b != 2`."""
 
-from __future__ import annotations
-
 import ast
 import operator
 import re

@@ -1,7 +1,5 @@
 """What a template says about the whole device: bus, slots, identification, and what is written to set it up."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from fractions import Fraction

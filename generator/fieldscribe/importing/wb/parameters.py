@@ -1,7 +1,5 @@
 """What the names of parameters mean in conditions: a point, or the choice of a person, which becomes a variant."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 

@@ -5,8 +5,6 @@ folder of the file. The sandbox lets a template read values and call what has no
 lists. What it must not do, or cannot, ends in a message on standard error and exit code 3.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Turns the channels and parameters of a template into draft points."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Reads a template of wb-mqtt-serial (JSON with comments, or rendered from Jinja), and the values in it."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

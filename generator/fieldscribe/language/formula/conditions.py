@@ -1,7 +1,5 @@
 """Parses conditions: comparisons of a name with constants and `exists(name)`, joined by and, or, not; no arithmetic."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace

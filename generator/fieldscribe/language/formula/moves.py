@@ -3,8 +3,6 @@
 Between the words of a move stand expressions, a condition and a time.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import dataclass

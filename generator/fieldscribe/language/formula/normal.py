@@ -1,7 +1,5 @@
 """Turns formulas into rules of the model, exactly: result = argument * ratio * product(factors) + offset."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Parses expressions, scales and ranges by recursive descent. Nesting is limited; results are cached by their text."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from functools import lru_cache

@@ -3,8 +3,6 @@
 And decimals that were cut off, with the fractions that they stand for.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction

@@ -14,8 +14,6 @@ To add a key:
 5. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
 """
 
-from __future__ import annotations
-
 from fieldscribe.families import Family, families
 from fieldscribe.language.keys import bus, files, frames, meaning, nested_keys, points
 from fieldscribe.schema_types import Items, Key, Place

@@ -1,7 +1,5 @@
 """The keys under `bus`, and the keys of its codes."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, CODE
 from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER

@@ -1,7 +1,5 @@
 """The keys at the top of a file (device.yaml, parts, groups), of sections that declare things, of behaviour.yaml."""
 
-from __future__ import annotations
-
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, FILES, GROUP

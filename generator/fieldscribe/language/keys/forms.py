@@ -1,7 +1,5 @@
 """The forms of texts and of keys: a pattern, its name in messages, a hint, and its sign in KEYS.md."""
 
-from __future__ import annotations
-
 from fieldscribe.model import NOTATIONS, TYPE_PATTERN
 from fieldscribe.schema_types import Form
 

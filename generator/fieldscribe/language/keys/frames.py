@@ -1,7 +1,5 @@
 """The keys of telegrams, messages, commands, worked examples and errata."""
 
-from __future__ import annotations
-
 from fieldscribe.families import families
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, STEP, TELEGRAM

@@ -1,7 +1,5 @@
 """The keys that say what the number of a point means: type, scale, unit, limits, names."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import FACTS, GROUP
 from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER

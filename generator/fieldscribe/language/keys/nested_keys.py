@@ -1,7 +1,5 @@
 """The keys nested inside facts of points: of enums, flags, special codes, printed facts and sources."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.shapes import LINES_OF, NAMED, PRINTED_NUMBER, in_words
 from fieldscribe.model import TYPES

@@ -1,7 +1,5 @@
 """The places where keys stand, in the order of KEYS.md."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.shapes import A_NAME, ANYTHING, PRINTED_NUMBER, in_language
 from fieldscribe.schema_types import NOTHING, Items, Place, Shape, Text, Whole

@@ -1,7 +1,5 @@
 """The keys of points: what identifies a point, and how it may be used; `meaning.py` has what its number means."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import CITED, DEVICE, FACTS, GROUP, MEMBER, POINT, POINTS, SET, USE, VARIANT
 from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, PRINTED_NUMBER, TITLE

@@ -1,7 +1,5 @@
 """The shapes of values that several keys share."""
 
-from __future__ import annotations
-
 from fieldscribe.language.keys import forms
 from fieldscribe.schema_types import NUMBER, Items, Place, Shape, Text, Whole, by, one_of
 

@@ -1,7 +1,5 @@
 """The C target: a header of the points, a header of the frames, and a conformance program."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from io import StringIO
 from itertools import chain

@@ -1,7 +1,5 @@
 """The functions that read or write a point in one call: the runtime's macros are their bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 

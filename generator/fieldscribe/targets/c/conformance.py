@@ -1,7 +1,5 @@
 """The conformance program of a device: its context, and the macros by which each point answers vectors."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from fieldscribe.families import family

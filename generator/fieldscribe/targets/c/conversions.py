@@ -1,7 +1,5 @@
 """The check, encode and decode functions of points that are numbers: each calls the cores in a single expression."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """What stands above the functions of a point: its comment, and the macros of its place, its limits and its masks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe import wording

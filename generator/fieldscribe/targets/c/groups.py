@@ -1,7 +1,5 @@
 """Structs with a member for each point of a group or telegram, what fills one, and rows of a user's table."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """The header of a device: its view, the text of its points, and several headers joined in one file."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product

@@ -1,7 +1,5 @@
 """All identifiers in the headers of a device, which share one namespace in C."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from fieldscribe.lowered import named_numbers

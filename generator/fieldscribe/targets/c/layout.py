@@ -1,7 +1,5 @@
 """The layout of functions in headers: on one line if it fits, else on two, else on as many as needed."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple

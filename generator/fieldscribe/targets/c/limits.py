@@ -1,7 +1,5 @@
 """Which raw numbers may be written, and scales and limits whose factors are read at run time, as C expressions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from math import prod
 from operator import attrgetter

@@ -4,8 +4,6 @@ A header says the same of many points but for a few words. These words are the f
 rest is laid out once for all points with the same view, with placeholders for the fields.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from functools import partial
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The view of one point: its macros, tables and enumerators, and the functions that convert it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.arithmetic.words import mask_of

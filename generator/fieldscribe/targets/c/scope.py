@@ -1,7 +1,5 @@
 """The state of a header while it is built: prefixes, points by name, what is emitted already; and literals of C."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Special codes in C: macros and three functions for each set of codes, and their use in the functions of points."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from fieldscribe.arithmetic.words import INT64

@@ -1,7 +1,5 @@
 """Functions between raw numbers and the words on the wire, and those of texts and of digits in one word."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.arithmetic.words import group_mask, mask_of

@@ -1,7 +1,5 @@
 """The bus section: functions, exceptions, serial settings, timing, gaps and commands."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """Texts, links and sources as cells of a table: in Markdown, and what another form of the page must offer."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """The tables of a device that are not of its points or its bus, in the form that a page wants."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from fieldscribe import wording

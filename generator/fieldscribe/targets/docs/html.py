@@ -1,7 +1,5 @@
 """The HTML page of a device: its data as one structure, and the files of the page in one."""
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping

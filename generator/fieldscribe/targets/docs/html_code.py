@@ -4,8 +4,6 @@ All modules of the runtime share one scope, as their names differ; those of the 
 may be called like a part of the runtime. Nothing runs before the page asks for the code.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from functools import cache

@@ -1,7 +1,5 @@
 """What the HTML page knows of points: short rows of numbers and texts, and once what many of them share."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from operator import attrgetter

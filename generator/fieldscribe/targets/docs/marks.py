@@ -4,8 +4,6 @@ The marks are private characters, which `line` takes out of every text of a desc
 text nodes of what stands between them, so that no text can become markup.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from fieldscribe.model import Source

@@ -1,7 +1,5 @@
 """The view of the Markdown reference of a device: its facts, and the map of each space by address."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """What all rows of a device share: its points by name, the cells with addresses, and the remarks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from operator import attrgetter
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The table of points: a row for each, with a column for each fact that can be counted, sorted or looked up."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise, starmap

@@ -1,7 +1,5 @@
 """The cells of a point in the table of points, a function for each group of neighbouring columns."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Tables for spreadsheets and programs, as CSV; the table of meanings and the table of errata."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias

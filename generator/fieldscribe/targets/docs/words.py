@@ -1,7 +1,5 @@
 """Words of bits, drawn as a row of bits, and the flags in them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass

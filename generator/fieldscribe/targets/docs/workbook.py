@@ -1,7 +1,5 @@
 """The tables of a device as a workbook (XLSX): typed cells, a head that stays, filters, and no date in its bytes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from datetime import datetime

@@ -1,7 +1,5 @@
 """The Python target: a typed package per device with all its identifiers, and the runtime that all of them share."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Iterator
 from keyword import iskeyword

@@ -1,7 +1,5 @@
 """The view of the device module, with its two device classes, and what the Python target asks of a bus family."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from operator import attrgetter
 from typing import NamedTuple

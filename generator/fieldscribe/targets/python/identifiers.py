@@ -1,7 +1,5 @@
 """The final Python identifiers of a device."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Python expressions laid out as by a formatter: on one line if they fit, else with a line for each item."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Sequence
 

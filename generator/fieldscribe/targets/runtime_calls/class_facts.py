@@ -1,7 +1,5 @@
 """What the class of points says beside its points: profile, blocks, variants, identifications, commands."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 

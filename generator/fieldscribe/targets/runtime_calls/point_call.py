@@ -1,7 +1,5 @@
 """The call that makes a point: its form, and all facts about it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The expressions for the facts of points: forms, rules, limits and places."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 

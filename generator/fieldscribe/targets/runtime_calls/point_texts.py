@@ -3,8 +3,6 @@
 And what the documentation in code says of points beside their titles, of named numbers and of flags.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from fieldscribe.model import Entry, Flag, Point

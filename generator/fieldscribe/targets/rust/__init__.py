@@ -1,7 +1,5 @@
 """The Rust target: a `no_std` crate per device, and one for its vectors, on top of a small runtime crate."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from fieldscribe.model import Device

@@ -1,7 +1,5 @@
 """The view of the conformance program: for each kind of vector a table of points with their calls."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Iterator
 from functools import partial
 

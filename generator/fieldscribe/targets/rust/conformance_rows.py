@@ -1,7 +1,5 @@
 """The rows of one point in the tables of the conformance program."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The view of a whole device: points, enums, words of flags, and the description of the crate."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 

@@ -3,8 +3,6 @@
 So a corrected title changes neither code nor digest.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 

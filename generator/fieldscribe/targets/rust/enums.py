@@ -1,7 +1,5 @@
 """Enums, and words of flags."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """All identifiers of a generated crate by namespace."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.model import Device, Enum, Special

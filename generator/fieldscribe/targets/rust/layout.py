@@ -1,7 +1,5 @@
 """Lines broken as by rustfmt, for the places where the length of names decides."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Rust types and literals, with digits grouped as clippy wants."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 from fieldscribe.arithmetic.exact import float_of, pattern_of

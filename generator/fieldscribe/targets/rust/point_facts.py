@@ -1,7 +1,5 @@
 """The facts of a point for the runtime's macro: reading and writing it, its limits, its special codes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.model import Bound, Limit, Point, Special

@@ -1,7 +1,5 @@
 """The text of each point, as facts for the runtime's macro: laid out once for all points with the same template."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The result of decoding a point: its type, its form in the runtime, and rules that need the values of other points."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import groupby, takewhile

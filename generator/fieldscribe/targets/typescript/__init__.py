@@ -1,7 +1,5 @@
 """The TypeScript target: a package of ES modules with types per device, and the runtime that all of them share."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from itertools import chain
 from operator import eq

@@ -1,7 +1,5 @@
 """The view of the module of enums: names for numbers, and words of flags."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The final TypeScript identifiers of a device, by namespace, and what the target asks of a bus family."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Calls laid out as JavaScript: on one line if they fit, else with a line for each item."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Callable, Mapping

@@ -3,8 +3,6 @@
 A constant for each point and command, with its type; and the class of the device, with its constructor's options.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 

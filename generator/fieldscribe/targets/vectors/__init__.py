@@ -3,8 +3,6 @@
 This target shares no code with the others, so that a mistake in one of them cannot be in its test too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from operator import eq
 

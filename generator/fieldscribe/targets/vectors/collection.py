@@ -1,7 +1,5 @@
 """All vectors of a device: its identity point by point, conversions and exchanges, then those of its family."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping, Sequence
 from operator import attrgetter
 from types import MappingProxyType

@@ -1,7 +1,5 @@
 """Vectors of whole exchanges: the requests that read or write a point, the answers, and the result."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, Protocol
 

@@ -1,7 +1,5 @@
 """Vectors of points that travel as binary32 or binary64 patterns."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import inf, isfinite, isnan, nan, nextafter, pi
 from sys import float_info

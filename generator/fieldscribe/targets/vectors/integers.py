@@ -1,7 +1,5 @@
 """Vectors of points whose raw number is the value (integers, enums, flags, bits), names and bit groups."""
 
-from __future__ import annotations
-
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples

@@ -1,7 +1,5 @@
 """Exact numbers for the oracle: rounding, and binary64 and binary32 patterns."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Mapping, Sequence

@@ -4,8 +4,6 @@ Points with the same encoding share their vectors. Of all that are computed in t
 depth, the others only with their limits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Vectors of points with a scale: values in binary64, and counts of 10^-decimals units."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache

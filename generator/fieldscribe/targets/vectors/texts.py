@@ -1,7 +1,5 @@
 """Vectors of texts, of words whose decimal digits each have a meaning, and of values as people see them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from math import inf, isfinite, nan
 from operator import mul

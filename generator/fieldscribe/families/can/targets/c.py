@@ -1,7 +1,5 @@
 """The view of the CAN header: messages, cyclic telegrams, and frames point by point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 And what generated Python and TypeScript import for it.
 """
 
-from __future__ import annotations
-
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily

@@ -1,7 +1,5 @@
 """CAN in generated Rust: messages, telegrams, and the points that they carry."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from fieldscribe.families.can import identifier_bits, of_bus

@@ -1,7 +1,5 @@
 """Vectors of CAN frames: messages built and read, and telegrams that come in frame by frame."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
 

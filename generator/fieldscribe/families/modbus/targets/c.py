@@ -1,7 +1,5 @@
 """The view of the Modbus header: the device's profile, reads block by block, requests point by point, commands."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass

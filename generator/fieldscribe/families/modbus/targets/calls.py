@@ -3,8 +3,6 @@
 And what generated Python and TypeScript import for it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of

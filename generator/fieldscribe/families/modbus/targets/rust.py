@@ -1,7 +1,5 @@
 """Modbus in generated Rust: the profile, block reads, commands and exceptions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.families.modbus import SPACES, framings_of, of_bus, profile_of

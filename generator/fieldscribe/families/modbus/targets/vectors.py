@@ -1,7 +1,5 @@
 """Vectors of Modbus frames: requests to build, good and bad replies, the manual's own examples, and batched reads."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The view of the USS header: tasks, responses and errors, requests point by point, words of process data."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from fieldscribe.families import Codes

@@ -3,8 +3,6 @@
 And what generated Python and TypeScript import for it.
 """
 
-from __future__ import annotations
-
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily

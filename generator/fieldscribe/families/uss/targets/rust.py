@@ -1,7 +1,5 @@
 """USS in generated Rust: tasks, lengths, named codes, and how each point travels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fieldscribe.families.uss import of_bus

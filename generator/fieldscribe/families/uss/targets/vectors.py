@@ -1,7 +1,5 @@
 """Vectors of USS telegrams: requests, broadcasts, good and bad responses, and the manual's own examples."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 
