@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace, _ArgumentGroup
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from difflib import get_close_matches
@@ -23,11 +23,9 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
-    from argparse import _ArgumentGroup
-
     from fieldscribe.model import Device
 
-    Parser = ArgumentParser | _ArgumentGroup
+Parser = ArgumentParser | _ArgumentGroup
 
 _LONGEST = 1e8
 """The most seconds that an option takes: three years."""

@@ -15,6 +15,7 @@ from fieldscribe.cli.live_options import (
     print_requests,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.lines import families_of
 from fieldscribe.model import Device
 from fieldscribe.report import Line, visible
@@ -40,8 +41,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Compare a unit with descriptions and print which fit; return the exit code."""
-    from fieldscribe_runtime import FieldscribeError
-
     line = line_of(arguments)
     fits: dict[str, dict[str, str]] = {}
     others: dict[str, str] = {}

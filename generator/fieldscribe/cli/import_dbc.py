@@ -1,13 +1,11 @@
 """`fieldscribe import dbc`: draft a description from a CAN database."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.cli.common import StopError, write_draft
+from fieldscribe.cli.common import Parser, StopError, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
 from fieldscribe.importing.dbc import DbcDraft
@@ -16,9 +14,6 @@ from fieldscribe.importing.readers import MOST_BYTES, UnreadableError
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from fieldscribe.cli.common import Parser
 
 
 def add_arguments(parser: Parser) -> None:

@@ -1,13 +1,10 @@
 """`fieldscribe import sunspec`: draft the description of a device from models of SunSpec."""
 
-from __future__ import annotations
-
 import re
 import sys
 from argparse import ArgumentTypeError, Namespace
-from typing import TYPE_CHECKING
 
-from fieldscribe.cli.common import StopError, add_repeated, write_draft
+from fieldscribe.cli.common import Parser, StopError, add_repeated, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
 from fieldscribe.importing.readers import UnreadableError
@@ -15,9 +12,6 @@ from fieldscribe.importing.sunspec import Imported, draft_models
 from fieldscribe.importing.sunspec.models import read_models
 from fieldscribe.report import visible
 from fieldscribe.text import counted
-
-if TYPE_CHECKING:
-    from fieldscribe.cli.common import Parser
 
 
 def add_arguments(parser: Parser) -> None:

@@ -1,15 +1,12 @@
 """`fieldscribe import table`: draft a description from the tables of a file."""
 
-from __future__ import annotations
-
 import re
 import sys
 from argparse import ArgumentTypeError, Namespace
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from fieldscribe.cli.common import StopError, add_repeated, write_draft
+from fieldscribe.cli.common import Parser, StopError, add_repeated, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.families import FAMILIES, families
 from fieldscribe.importing import Draft, compilable, draft
@@ -19,9 +16,6 @@ from fieldscribe.importing.headings import ROLES
 from fieldscribe.importing.readers import FORMATS, MOST_BYTES, UnreadableError, read_tables
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
-
-if TYPE_CHECKING:
-    from fieldscribe.cli.common import Parser
 
 
 def add_arguments(parser: Parser) -> None:

@@ -1,21 +1,15 @@
 """`fieldscribe import wb`: draft the description of a device from a template of wb-mqtt-serial."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
-from typing import TYPE_CHECKING
 
-from fieldscribe.cli.common import StopError, write_draft
+from fieldscribe.cli.common import Parser, StopError, write_draft
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing import compilable
 from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.wb import draft
 from fieldscribe.report import visible
 from fieldscribe.text import counted
-
-if TYPE_CHECKING:
-    from fieldscribe.cli.common import Parser
 
 
 def add_arguments(parser: Parser) -> None:

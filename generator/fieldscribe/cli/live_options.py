@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, USAGE
-from fieldscribe.live.connection import Connection, advice
+from fieldscribe.live.connection import AnyDevice, Connection, FieldscribeError, advice
 from fieldscribe.live.lines import NAME, LineAddress, Project, Station, read_line, read_project
 from fieldscribe.live.readings import in_words
 from fieldscribe.model import Device
@@ -24,8 +24,6 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
 
 if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
-
     from fieldscribe.live.snapshots import Snapshot
 
 LINES = """lines: tcp://HOST[:PORT], rtu:///dev/ttyUSB0, rtu+tcp://HOST:PORT, uss:///dev/ttyUSB0, can://INTERFACE/CHANNEL
@@ -194,8 +192,6 @@ def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connect
 
     Frames are printed where `--verbose` asks for it. Raises StopError.
     """
-    from fieldscribe_runtime import FieldscribeError
-
     connection, work = Connection(line, arguments.timeout), Work()
     try:
         with _frames_printed() if arguments.verbose else nullcontext():

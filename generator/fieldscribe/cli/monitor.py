@@ -1,24 +1,19 @@
 """`fieldscribe monitor`: read points of a device again and again, and show what changes."""
 
-from __future__ import annotations
-
 import gc
 import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from datetime import datetime
-from typing import TYPE_CHECKING
 
 from fieldscribe.cli.common import period, times
 from fieldscribe.cli.live_options import LINES, Live, add_live, add_points, add_unit, opened
 from fieldscribe.cli.read import style_of
 from fieldscribe.cli.terminal import FINE, is_coloured, print_lines, terminal_size
+from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.readings import Reader, Reading, chosen
 from fieldscribe.report import Line, visible
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import FieldscribeError
 
 EXAMPLE = f"""examples:
   fieldscribe monitor hitachi_l200 status --line tcp://192.168.0.20
@@ -63,8 +58,6 @@ def run(arguments: Namespace) -> int:
 
 def _samples(live: Live, arguments: Namespace) -> Iterator[list[Reading]]:
     """Yield the readings, once each period; of a line that is lost meanwhile, the next that come. Raises at first."""
-    from fieldscribe_runtime import FieldscribeError
-
     reader, what = Reader(live.model, live.device), chosen(live.model, arguments.points)
     yield reader.read(what)
     due, left, is_lost = time.monotonic(), arguments.count, False

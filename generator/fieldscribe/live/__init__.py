@@ -7,3 +7,7 @@
 - `readings.py` and `writing.py` do the work of the commands; they print nothing.
 - `snapshots.py` keeps what a device holds in a file; `restoring.py` finds the order of writes, and notes them.
 """
+
+from fieldscribe.resources import use_python_runtime
+
+use_python_runtime()

@@ -1,24 +1,19 @@
 """Opens a line, makes devices of the Python runtime on it from the model, and finds out which units answer."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
+
+from fieldscribe_runtime import AnyDevice, FieldscribeError, LineError, NoReplyError, OtherDeviceError, RequestError
 
 from fieldscribe.live.devices import device_class
 from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_line
 from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device
-from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.identifiers import parameter
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
-use_python_runtime()
-
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice, FieldscribeError
+__all__ = ["AnyDevice", "Answer", "Connection", "FieldscribeError", "Scanner", "advice", "read_units"]
 
 
 class Connection:
@@ -26,8 +21,6 @@ class Connection:
 
     def __init__(self, line: LineAddress, timeout: float | None) -> None:
         """Raises UnclearError for a line that cannot be opened."""
-        from fieldscribe_runtime import FieldscribeError
-
         self.line = line
         self._part = families_of(line)[0].part("lines")
         try:
@@ -59,8 +52,6 @@ class Connection:
 
     def device(self, model: Device, unit: int, retries: int = 0) -> AnyDevice:
         """Return a device of the runtime on this line. Raises UnclearError for what the line or the device cannot."""
-        from fieldscribe_runtime import FieldscribeError
-
         require_line(self.line, model)
         if model.id not in self._classes:
             self._classes[model.id] = device_class(model)
@@ -143,8 +134,6 @@ class Scanner:
             silent = None if answer.answers else unit
 
     def _answer(self, unit: int) -> Answer:
-        from fieldscribe_runtime import FieldscribeError, LineError, NoReplyError, OtherDeviceError, RequestError
-
         device = self._connection.device(self._model, unit) if self._model else self._connection.any_device(unit)
         try:
             return Answer(unit, True, self._asked(device))

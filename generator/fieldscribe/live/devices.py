@@ -1,16 +1,16 @@
 """The device of the Python runtime for a description, made from the model as the generated class is."""
 
-from __future__ import annotations
-
 import enum
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from types import new_class
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, Literal, overload
+
+import fieldscribe_runtime as runtime
+from fieldscribe_runtime import AnyAsyncDevice, AnyDevice
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Point
-from fieldscribe.resources import use_python_runtime
 from fieldscribe.targets.python.device import in_python
 from fieldscribe.targets.python.enums import reader
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of, word_attribute
@@ -25,13 +25,6 @@ from fieldscribe.targets.runtime_calls.point_call import (
 )
 from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope
 from fieldscribe.text import upper
-
-use_python_runtime()
-
-import fieldscribe_runtime as runtime  # noqa: E402 - it is found from here on
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyAsyncDevice, AnyDevice
 
 
 def evaluated(node: Node, names: Mapping[str, Any]) -> Any:
@@ -124,7 +117,6 @@ def device_class(
 
 def points_class(device: Device) -> type[runtime.PointTable]:
     """Return the class of a device's points, without a line: pure codecs."""
-    use_python_runtime()
     bus, scope = in_python(device), scope_of(device, Identifiers(device))
     module: Any = import_module(bus.module)
     names = {**vars(runtime), **{name: getattr(module, name) for name in bus.exports}}

@@ -1,26 +1,17 @@
 """Reads points of a device, and says their values with names and units."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+from fieldscribe_runtime import AnyDevice, FieldscribeError, LineError
 
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.model import Device, Point
-from fieldscribe.resources import use_python_runtime
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
-
-use_python_runtime()
-
-from fieldscribe_runtime import FieldscribeError, LineError  # noqa: E402 - they are found from here on
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
-
 
 _MOST_SILENT = 2
 """How many points may stay without an answer before any has one."""

@@ -1,30 +1,22 @@
 """What a device held at one time, as a file: names, values with units, and the raw numbers that restore them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
 from datetime import UTC, datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+from fieldscribe_runtime import AnyDevice, CodecError, FieldscribeError
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.live.readings import NOT_THERE, PartialReads, in_words, may_be_read
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
-from fieldscribe.resources import use_python_runtime
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
-
-use_python_runtime()
-
-from fieldscribe_runtime import CodecError, FieldscribeError  # noqa: E402 - they are found from here on
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
 
 DEFAULTS = "defaults"
 """Where a snapshot is from that is no file: the manual."""

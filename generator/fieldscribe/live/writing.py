@@ -1,11 +1,12 @@
 """Plans what a command writes to a device, with all that a person should know before, and carries it out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from fieldscribe_runtime import AnyDevice
+from fieldscribe_runtime.commands import carried_out_once
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
@@ -16,17 +17,9 @@ from fieldscribe.families import family
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.live.readings import Reading
 from fieldscribe.model import Device, Point
-from fieldscribe.resources import use_python_runtime
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label, title_text
-
-use_python_runtime()
-
-from fieldscribe_runtime.commands import carried_out_once  # noqa: E402 - it is found from here on
-
-if TYPE_CHECKING:
-    from fieldscribe_runtime import AnyDevice
 
 
 @dataclass(frozen=True, slots=True)
