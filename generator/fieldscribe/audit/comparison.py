@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.audit.alignment import Alignment, changed_words
 from fieldscribe.audit.claims import Cited, Claim, Word
@@ -13,8 +12,7 @@ from fieldscribe.audit.claims_of_device import PrintedErratum
 from fieldscribe.audit.held import Citations, Held
 from fieldscribe.diagnostics import Span
 
-if TYPE_CHECKING:
-    _Mapping = Callable[[Cited], tuple[int, int] | None]
+_Mapping = Callable[[Cited], tuple[int, int] | None]
 
 
 @dataclass(frozen=True, slots=True)

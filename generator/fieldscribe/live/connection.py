@@ -13,7 +13,7 @@ from fieldscribe.targets.python.identifiers import parameter
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
-__all__ = ["AnyDevice", "Answer", "Connection", "FieldscribeError", "Scanner", "advice", "read_units"]
+__all__ = ["Answer", "AnyDevice", "Connection", "FieldscribeError", "Scanner", "advice", "read_units"]
 
 
 class Connection:

@@ -4,21 +4,16 @@ Numbers move in straight lines between events, so that the times of the next eve
 a number that reaches what a condition compares it with, a delay that ends. Time counts in whole milliseconds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import floor
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.codec import CodecError, encode, rule_in_force, setting_of
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Amount, Pair, Ref, Rule, Rules, Step
-
-if TYPE_CHECKING:
-    from fieldscribe.simulation.device import SimulatedDevice
-    from fieldscribe.simulation.memory import Memory
+from fieldscribe.simulation.device import SimulatedDevice
+from fieldscribe.simulation.memory import Memory
 
 SAMPLE = 10
 """How many milliseconds a moving number may be old when a request reads it."""
