@@ -1,7 +1,5 @@
 """Two editions of a manual: every line that differs, with the facts that cite it and whether they still stand."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass

@@ -7,14 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import NamedTuple, Self
 
+from fieldscribe.conditions import Condition
 from fieldscribe.model.numbers import Enum, Titles
 from fieldscribe.model.point import Point, Source, Variant, message_bits
-
-if TYPE_CHECKING:
-    from fieldscribe.conditions import Condition
-
 
 WHOLE_WORD = 0xFFFF
 

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from fieldscribe.conditions import Condition
 from fieldscribe.model.numbers import Special, Titles
 from fieldscribe.model.rules import Allowed
 from fieldscribe.model.shape import Shape
-
-if TYPE_CHECKING:
-    from fieldscribe.conditions import Condition
 
 Fact = TypeVar("Fact")
 
