@@ -291,7 +291,7 @@ fn answers_are_held_against_what_was_written() {
     assert_eq!(client.store::<points::Source>(4), mismatch(4, "source"));
     assert_eq!(client.update::<points::LowBits>(3), mismatch(0x80F3, "low_bits"));
     let far = client.write::<points::Reference>(60.0).unwrap_err();
-    assert_eq!(far.to_string(), "reference: 1114636288 was written, the device answered 0");
+    assert_eq!(far.to_string(), "reference: 60 was written, the device answered 0");
     // 33.33 is 0x420551EC; a drive may round: 0x4205_47AE is 33.32, 0x4204_0000 is 33.
     client.transport().changes = Some(0x4205);
     assert_eq!(client.write::<points::Reference>(33.33), Ok(()));

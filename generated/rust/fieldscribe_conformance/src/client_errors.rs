@@ -274,6 +274,14 @@ fn replies() {
                 "echo_mismatch",
                 "8 was written, the device answered nothing",
             ),
+            (
+                ReplyError::OtherFloat {
+                    written: 60.0_f32.to_bits(),
+                    answered: 59.5_f32.to_bits(),
+                },
+                "echo_mismatch",
+                "60 was written, the device answered 59.5",
+            ),
         ],
     );
 }
@@ -356,6 +364,10 @@ fn lost() {
     for error in [
         ReplyError::EchoMismatch { expected, received },
         ReplyError::OtherNumber { written, answered },
+        ReplyError::OtherFloat {
+            written,
+            answered: 7,
+        },
         ReplyError::Refused { error, name },
         ReplyError::NoRights,
         ReplyError::BadFunction,

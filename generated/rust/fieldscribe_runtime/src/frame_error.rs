@@ -171,6 +171,13 @@ pub enum ReplyError {
         /// What the device answered.
         answered: Option<u32>,
     },
+    /// The same, where both are the patterns of binary32 numbers.
+    OtherFloat {
+        /// What was written.
+        written: u32,
+        /// What the device answered.
+        answered: u32,
+    },
     /// The device did not answer what was asked, or not yet: the same request may be sent again.
     NoAnswer,
     /// There are no bytes, or the first is not the start of a telegram.
@@ -209,7 +216,9 @@ impl ReplyError {
             Self::WrongFunction { .. } => "wrong_function",
             Self::Exception { .. } => "exception",
             Self::BadByteCount { .. } => "bad_byte_count",
-            Self::EchoMismatch { .. } | Self::OtherNumber { .. } => "echo_mismatch",
+            Self::EchoMismatch { .. } | Self::OtherNumber { .. } | Self::OtherFloat { .. } => {
+                "echo_mismatch"
+            }
             Self::NoAnswer => "no_answer",
             Self::WrongStart => "wrong_start",
             Self::WrongLength => "wrong_length",
@@ -230,6 +239,7 @@ impl ReplyError {
             Self::BadFunction
             | Self::EchoMismatch { .. }
             | Self::OtherNumber { .. }
+            | Self::OtherFloat { .. }
             | Self::Refused { .. }
             | Self::NoRights => false,
             _ => true,
@@ -285,6 +295,13 @@ impl fmt::Display for ReplyError {
                     Some(number) => number.fmt(formatter),
                     None => formatter.write_str("nothing"),
                 }
+            }
+            Self::OtherFloat { written, answered } => {
+                let [written, answered] = [*written, *answered].map(f32::from_bits);
+                write!(
+                    formatter,
+                    "{written} was written, the device answered {answered}"
+                )
             }
             Self::NoAnswer => formatter.write_str("the device did not answer what was asked"),
             Self::WrongStart => formatter.write_str("the telegram does not start as one"),

@@ -553,7 +553,7 @@ macro_rules! client {
                 if request.is_confirmed::<P>(&reply) {
                     Ok(())
                 } else {
-                    Err(ClientError::from(request.other_number(reply.value())).of::<P>())
+                    Err(ClientError::from(request.other_number(reply.value(), P::FLOATING)).of::<P>())
                 }
             }
 
@@ -605,7 +605,7 @@ macro_rules! client {
                 if request.is_answered(answer, point.is_floating()) {
                     Ok(())
                 } else {
-                    Err(request.other_number(answer).into())
+                    Err(request.other_number(answer, point.is_floating()).into())
                 }
             }
 

@@ -169,11 +169,12 @@ impl Request {
         }
     }
 
-    /// The error that an answer with another value is.
-    pub(super) fn other_number(&self, answer: Value) -> ReplyError {
-        ReplyError::OtherNumber {
-            written: self.value.number().unwrap_or_default(),
-            answered: answer.number(),
+    /// The error that an answer with another value is, by whether the raw number is a floating-point pattern.
+    pub(super) fn other_number(&self, answer: Value, is_floating: bool) -> ReplyError {
+        let (written, answered) = (self.value.number().unwrap_or_default(), answer.number());
+        match answered {
+            Some(answered) if is_floating => ReplyError::OtherFloat { written, answered },
+            _ => ReplyError::OtherNumber { written, answered },
         }
     }
 
