@@ -37,7 +37,7 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
     owners, device = IdentifierPlaces(analysis), analysis.code_device
     kinds = PointKinds(device, lower(device).template_keys)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
-        if kinds.are_distinct(language.identifiers, language.BEFORE_POINTS):
+        if kinds.saves_time and kinds.are_distinct(language.identifiers, language.BEFORE_POINTS):
             continue
         listed = list(language.identifiers(device))
         for clash in clashes(listed):
