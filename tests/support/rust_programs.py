@@ -13,7 +13,8 @@ from fieldscribe.cli import main
 
 from support.made_once import made_once
 from support.places import ROOT, TESTS
-from support.toolchains import crates, succeed, tool
+from support.rust_workspace import config
+from support.toolchains import crates, run, tool
 
 PAGE = "\n".join(
     (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("rust", "rust-transports", "rust-builds")
@@ -111,11 +112,15 @@ def write_project(target: Path | None, out: Path) -> None:
         chosen = ("--points", ",".join(points)) if points else ()
         assert main(["vendor", "rust", device, "--out", str(project / "drivers"), *chosen]) == 0
     write_pages(project / "src/bin/pages")
+    (project / ".cargo").mkdir()
+    settings = {"build.rustdoc": str(TESTS / "rust/rustdoc.sh")}
     if target:
-        (project / ".cargo").mkdir()
-        (project / ".cargo/config.toml").write_text(f"build.target-dir = {str(target)!r}\n", "utf-8")
+        settings["build.target-dir"] = str(target)
+    (project / ".cargo/config.toml").write_text(config(settings), "utf-8")
     crates(project)
-    succeed([tool("cargo"), "build", "--offline", "--quiet", "--bins"], cwd=project)
+    done = run([tool("cargo"), "build", "--offline", "--quiet", "--bins"], cwd=project)
+    (out / "stderr").write_text(done.stderr, "utf-8")
+    assert done.returncode == 0, done.stderr
     shutil.copytree(target / "debug" if target else project / "target/debug", out / "built", ignore=only_programs)
 
 

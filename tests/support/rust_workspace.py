@@ -5,23 +5,20 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
 import pytest
 from fieldscribe.model import Device
 
-from support.described import kitchen_sink, made, shipped
+from support.described import SHIPPED, kitchen_sink, made, shipped
 from support.files import write_files
 from support.made_once import made_once
 from support.models import sample_device, trip_device
 from support.places import ROOT
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
 from support.toolchains import run, succeed, tool
-
-SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
-
 
 MODELS: dict[str, Callable[[], Device]] = {
     "sample_drive": sample_device,
@@ -50,10 +47,6 @@ WORKSPACE = """\
 [workspace]
 resolver = "2"
 members = @MEMBERS@
-
-[profile.dev]
-debug = false
-incremental = false
 """
 
 
@@ -67,15 +60,22 @@ def write_workspace(out: Path) -> None:
     devices = [*MODELS, *SHIPPED]
     without_registry(out / "rust")
     members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
-    config = (
-        f"build.rustc-workspace-wrapper = {json.dumps(tool('clippy-driver'))}\nenv.CLIPPY_ARGS = {json.dumps(LINTS)}\n"
-    )
-    texts = {"Cargo.toml": WORKSPACE.replace("@MEMBERS@", members), ".cargo/config.toml": config}
+    texts = {"Cargo.toml": WORKSPACE.replace("@MEMBERS@", members), ".cargo/config.toml": config({})}
     write_files(texts, out / "rust")
 
 
 LINTS = "".join(f"-Wclippy::{group}__CLIPPY_HACKERY__" for group in ("pedantic", "incompatible_msrv"))
 """What clippy looks for beside its usual lints, as `cargo clippy` passes it to the compiler that warns as it builds."""
+
+
+QUICK = "profile.dev.debug = false\nprofile.dev.incremental = false\n"
+"""How cargo builds what is run once."""
+
+
+def config(settings: Mapping[str, str]) -> str:
+    """Cargo's settings, with which it builds quickly and the compiler warns as it builds."""
+    clippy = {"build.rustc-workspace-wrapper": tool("clippy-driver"), "env.CLIPPY_ARGS": LINTS}
+    return QUICK + "".join(f"{key} = {json.dumps(value)}\n" for key, value in {**clippy, **settings}.items())
 
 
 def made_workspace(factory: pytest.TempPathFactory, config: pytest.Config) -> Path:
