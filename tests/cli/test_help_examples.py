@@ -6,18 +6,13 @@ import re
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from fieldscribe import pipeline
-from fieldscribe.cli import COMMANDS, command_module, live_options, scan, search
-from fieldscribe.diagnostics import Report
+from fieldscribe.cli import COMMANDS, command_module, live_options, scan
 from fieldscribe.live.lines import LineAddress, read_line
 from fieldscribe.live.snapshots import Held, defaults
-from fieldscribe.model import Device
-from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.simulation import simulated
 from support.described import shipped
 from support.help_examples import (
@@ -31,7 +26,6 @@ from support.help_examples import (
     with_one_device,
     workplace,
 )
-from support.places import ROOT
 
 
 class Claim(NamedTuple):
@@ -340,7 +334,7 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     project = '[lines]\nbench = "tcp://192.168.0.20"\n[stations.pump]\ndescription = "hitachi_l200"\nline = "bench"\n'
     (tmp_path / "fieldscribe.toml").write_text(project, "utf-8")
     monkeypatch.setattr(time, "sleep", _interrupted)
-    monkeypatch.setattr(scan, "_TIMEOUT", 0.01)
+    monkeypatch.setattr(scan, "_TIMEOUT", 0.02)
     with (
         simulated("hitachi_l200", values=values) as on_tcp,
         simulated("hitachi_l200", values=values, unit=3, on="serial") as on_serial,
@@ -390,6 +384,8 @@ FOLDERS = {
     **dict.fromkeys(("fmt", "generate", "watch"), with_one_device),
 }
 """What the folder of a command needs beside the descriptions."""
+CHANGES = ("audit", "diff", "fmt", "generate", "watch", "init", "import")
+"""The commands whose examples, or folders, write to the descriptions."""
 
 
 @pytest.mark.usefixtures("loads_once")
@@ -398,17 +394,13 @@ FOLDERS = {
 def test_examples_do_what_they_show(
     command: str, tmp_path: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder, capsys = workplace(tmp_path), request.getfixturevalue("capsys")
+    folder, capsys = workplace(tmp_path, changes=command in CHANGES), request.getfixturevalue("capsys")
     if command in FOLDERS:
         FOLDERS[command](folder)
     if command in ("diff", "fmt", "watch"):
         drafted(folder, capsys)
     if command in ("simulate", "watch"):
         stops_at_once(monkeypatch)
-    if command in ("decode", "docs", "encode", "explain", "export", "list"):
-        monkeypatch.setattr(pipeline, "load_device", _load_once)
-    if command == "search":
-        monkeypatch.setattr(search, "load_analysis", _analysed_once)
     if command in ON_LINES:
         request.getfixturevalue("lines")
     capsys.readouterr()
@@ -419,16 +411,3 @@ def test_examples_do_what_they_show(
         assert re.search(claim.said, result.said, re.MULTILINE), (example.printed, result)
         assert re.search(claim.told, result.told), (example.printed, result.told)
         assert (folder / claim.made).exists(), example.printed
-
-
-def _load_once(device_file: Path, _report: Report, _inputs: object = None) -> Device:
-    return shipped(device_file.parent.name)
-
-
-@cache
-def _analysed(place: Path) -> Analysis | None:
-    return pipeline.load_analysis(place, Report())
-
-
-def _analysed_once(device_file: Path, _report: Report) -> Analysis | None:
-    return _analysed(ROOT / "descriptions" / device_file.parent.name / device_file.name)

@@ -192,8 +192,7 @@ def test_warnings_never_drop_an_error() -> None:
     assert (renamed.count, renamed.has_errors) == (run.count, True)
 
 
-@pytest.mark.parametrize("fails", ["description", "target"])
-@pytest.mark.parametrize("form", ["text", "json"])
+@pytest.mark.parametrize(("fails", "form"), [("description", "json"), ("target", "text")])
 def test_a_failing_device_is_told_behind_a_thousand_warnings(
     fails: str, form: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

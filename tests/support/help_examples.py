@@ -76,10 +76,12 @@ def examples_of(epilog: str) -> list[Example]:
     ]
 
 
-def workplace(folder: Path) -> Path:
-    """The descriptions, and the files that examples name."""
-    descriptions = folder / "descriptions"
-    shutil.copytree(ROOT / "descriptions", descriptions)
+def workplace(folder: Path, *, changes: bool) -> Path:
+    """The descriptions, copied if the command changes them, and the files that examples name."""
+    if changes:
+        shutil.copytree(ROOT / "descriptions", folder / "descriptions")
+    else:
+        (folder / "descriptions").symlink_to(ROOT / "descriptions")
     shutil.copytree(TESTS / "importing/sunspec", folder / "models")
     shutil.copy(TESTS / "importing/wb/heater.json", folder / "config-heater.json")
     for name, text in {
