@@ -10,18 +10,9 @@ from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.lowered import lower
 from fieldscribe.model import Device
 from fieldscribe.targets import knows, target
-from support.described import compile_in, group, head, made, shipped, together
+from support.described import SHIPPED, compile_in, group, head, made, shipped, together
 
 LANGUAGES = ("c", "python", "rust", "typescript")
-SHIPPED = (
-    "eastron_sdm630",
-    "fronius_datamanager",
-    "hitachi_l200",
-    "jumo_controller",
-    "nord_sk5xxe",
-    "siemens_mm4",
-    "woodward_mpu2s",
-)
 MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
 
 

@@ -12,20 +12,11 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.search import Entry, entries_of, near_words, search
+from support.described import SHIPPED
 from support.loaded_once import load_analysis
 from support.places import ROOT
 
 pytestmark = pytest.mark.usefixtures("loads_once")
-
-DEVICES = [
-    "eastron_sdm630",
-    "fronius_datamanager",
-    "hitachi_l200",
-    "jumo_controller",
-    "nord_sk5xxe",
-    "siemens_mm4",
-    "woodward_mpu2s",
-]
 
 
 class Output(NamedTuple):
@@ -44,7 +35,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
 
 @pytest.fixture(scope="module")
 def entries() -> list[Entry]:
-    subjects = [load_analysis(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
+    subjects = [load_analysis(ROOT / "descriptions" / device / "device.yaml", Report()) for device in SHIPPED]
     return [entry for subject in subjects if subject is not None for entry in entries_of(subject)]
 
 
@@ -115,7 +106,7 @@ def test_search(run: Callable[..., Output]) -> None:
 
 def test_the_list_of_devices(run: Callable[..., Output]) -> None:
     told = run("list")
-    assert [line.split()[0] for line in told.out.splitlines()] == ["device", *DEVICES]
+    assert [line.split()[0] for line in told.out.splitlines()] == ["device", *SHIPPED]
     data = json.loads(run("list", "--family", "modbus", "--matching", "*l2*", "--format", "json").out)["devices"]
     assert [" ".join(map(str, device.values())) for device in data] == [
         "hitachi_l200 Hitachi L200 {'en': 'Frequency inverter', 'de': 'Frequenzumrichter'} modbus 1.0.0 256"

@@ -24,7 +24,7 @@ from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
 from fieldscribe.targets.typescript import points as typescript_points
 from fieldscribe.text import MOST_FIELDS, TextTemplate, c_comment, line, placeholders
-from support.described import made, shipped
+from support.described import SHIPPED, made, shipped
 from support.models import (
     CELSIUS,
     HERTZ,
@@ -84,15 +84,6 @@ FILLED = (point_templates, points_module, python_enums, conformance, point_macro
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")
-SHIPPED = (
-    "eastron_sdm630",
-    "fronius_datamanager",
-    "hitachi_l200",
-    "jumo_controller",
-    "nord_sk5xxe",
-    "siemens_mm4",
-    "woodward_mpu2s",
-)
 DEVICES: dict[str, Callable[[], Device]] = {
     **{name: partial(shipped, name) for name in SHIPPED},
     **{

@@ -14,6 +14,8 @@ from support.files import write_files
 from support.places import TESTS
 
 DEVICES = TESTS / "devices"
+SHIPPED = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
+KITCHENS = sorted(path.parent.name for path in DEVICES.glob("kitchen_*/device.yaml"))
 _HEAD = {
     "fieldscribe": "1",
     "device": "made_up",

@@ -6,13 +6,10 @@ import re
 
 import pytest
 from fieldscribe.pipeline import outputs
-from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import TARGETS, knows, target
-from support.described import shipped
+from support.described import SHIPPED, shipped
 from support.models import sample_device
 from support.quick import full_but
-
-SHIPPED = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
 
 
 def test_targets_are_written_in_the_order_that_help_names() -> None:

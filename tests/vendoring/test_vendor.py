@@ -18,22 +18,13 @@ from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select
 from support.c_device import WARNINGS
-from support.described import described, made, shipped, write
+from support.described import SHIPPED, described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
 pytestmark = pytest.mark.usefixtures("loads_once")
 
 RUNTIME = {"fieldscribe.h", "fieldscribe_modbus.h", "fieldscribe_modbus_facts.h"}
-SHIPPED = (
-    "eastron_sdm630",
-    "fronius_datamanager",
-    "hitachi_l200",
-    "jumo_controller",
-    "nord_sk5xxe",
-    "siemens_mm4",
-    "woodward_mpu2s",
-)
 TEN = "A001,A002,A003,A020,D001,D002,F002,F003,run_command,inverter_status"
 TWELVE = "A020,A001,A002,A004,F002,F003,D001,D002,D003,D004,D081,B012"
 LANGUAGES_OF_C = (

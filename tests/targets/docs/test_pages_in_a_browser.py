@@ -10,14 +10,14 @@ from random import Random
 from typing import Any, NamedTuple
 
 import pytest
-from support.described import shipped
+from support.described import SHIPPED, shipped
 from support.made_once import made_once
 from support.places import ROOT
+from support.quick import full_but
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 from support.vector_file import File, Vector, counts_of
 
 NOISE = Random(27).randbytes(500_000).decode("latin-1").replace("\r", "") + "\n(" * 50_000
-DEVICES = sorted(path.stem for path in (ROOT / "generated/vectors").glob("*.txt"))
 SOUND_ALONE = {
     "wrong_function",
     "wrong_unit",
@@ -89,7 +89,7 @@ _LINK = ("pkw", "pzd", "single_first")
 _REQUEST = ("framing", "unit", "transaction", "function", "address", "count", "values")
 _TASK = (*_LINK, "unit", "task", "parameter", "index", "width", "value", "words")
 
-pytestmark = pytest.mark.full(seconds=5)
+pytestmark = pytest.mark.full(seconds=0.2)  # but for the first, which visits all pages
 
 
 class Job(NamedTuple):
@@ -114,7 +114,7 @@ def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
                 "typed": [text for of, text, *_ in TYPED if of == device],
                 "spoil": _spoiled_line(device),
             }
-            for device in DEVICES
+            for device in SHIPPED
         }
         (folder / "jobs.json").write_text(json.dumps(texts), "utf-8")
         program = Path(__file__).with_name("try_pages.mjs")
@@ -225,7 +225,7 @@ def _wrong(job: Job, heard: list[dict[str, Any]]) -> list[str]:
     return [reason for reason, holds in reasons.items() if holds]
 
 
-@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("device", full_but(SHIPPED[1:], SHIPPED, seconds=30))
 def test_every_frame_of_the_vectors(device: str, heard: dict[str, Any]) -> None:
     """Requests, replies and exceptions with their points; those that are spoiled, with what is wrong."""
     jobs = list(_jobs(device))
@@ -243,7 +243,7 @@ def test_what_is_said_of_pasted_text(place: int, heard: dict[str, Any]) -> None:
         assert each in f"{shown['status']}\n{shown['text']}", text[:200]
 
 
-@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("device", SHIPPED)
 def test_a_long_paste_is_decoded_whole_and_shown_in_part(device: str, heard: dict[str, Any]) -> None:
     length, is_fixed, status, *cleared = heard[device]["long"]
     assert (length, is_fixed) == (3 * 2000 - 1, True)
@@ -252,7 +252,7 @@ def test_a_long_paste_is_decoded_whole_and_shown_in_part(device: str, heard: dic
     assert cleared == [0, False]
 
 
-@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("device", SHIPPED)
 def test_the_page_runs_its_vectors(device: str, heard: dict[str, Any]) -> None:
     """As many of each kind as the vectors announce; a spoiled one is shown."""
     good, spoiled = heard[device]["ran"]
@@ -264,7 +264,7 @@ def test_the_page_runs_its_vectors(device: str, heard: dict[str, Any]) -> None:
     assert "address" in spoiled["failures"][0]
 
 
-@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("device", SHIPPED)
 @pytest.mark.parametrize("language", SNIPPETS)
 def test_code_to_copy_has_the_names_of_the_generated_code(language: str, device: str, heard: dict[str, Any]) -> None:
     names, where = SNIPPETS[language]

@@ -19,21 +19,12 @@ from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.docs.tables import no_number
 from openpyxl import load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
-from support.described import shipped
+from support.described import SHIPPED, shipped
 from support.models import HERTZ, allowed, entry, point, sample_device, scaled, titles, units
 
 ROWS: dict[str, dict[str, str]] = json.loads(Path(__file__).with_name("sample_rows.json").read_text("utf-8"))
 """Rows of the sample, as they are written by hand."""
 
-SHIPPED = (
-    "eastron_sdm630",
-    "fronius_datamanager",
-    "hitachi_l200",
-    "jumo_controller",
-    "nord_sk5xxe",
-    "siemens_mm4",
-    "woodward_mpu2s",
-)
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
 KINDS = {
     kind: {column.name: column.is_number for column in columns}

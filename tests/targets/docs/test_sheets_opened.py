@@ -14,7 +14,7 @@ from fieldscribe.model import Device
 from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from openpyxl import load_workbook
-from support.described import DEVICES, made, shipped
+from support.described import KITCHENS, SHIPPED, made, shipped
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
@@ -27,8 +27,7 @@ _DIGITS = 1e-14
 
 
 def _devices() -> list[Device]:
-    kitchens = [made(path.parent.name) for path in sorted(DEVICES.glob("kitchen_*/device.yaml"))]
-    return [*(shipped(path.parent.name) for path in sorted((ROOT / "descriptions").glob("*/device.yaml"))), *kitchens]
+    return [*map(shipped, SHIPPED), *map(made, KITCHENS)]
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +102,7 @@ def _typed(cell: object) -> object:
 @pytest.mark.full(seconds=2)
 def test_pandas_reads_numbers(folder: Path) -> None:
     pandas: Any = importlib.import_module("pandas")
-    for device in sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml")):
+    for device in SHIPPED:
         for path in (folder / f"{device}.csv", folder / f"{device}_meanings.csv"):
             numbers, frame = _numbers(path), pandas.read_csv(path)
             assert list(frame.columns) == list(numbers)

@@ -11,11 +11,9 @@ from typing import NamedTuple
 import pytest
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import outputs
-from support.described import shipped
-from support.places import ROOT
+from support.described import SHIPPED, shipped
 from support.toolchains import succeed, tool
 
-DEVICES = sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml"))
 WIDE = "\n\n| Too wide |\n| --- |\n| " + "x" * 300 + " |\n"
 
 WINDOW = 1280
@@ -59,9 +57,9 @@ def tables_of(body: str, folder: Path) -> list[Table]:
 def test_every_table_fits_a_screen(tmp_path: Path) -> None:
     """A table with one long word, behind all others, shows that widths are really measured."""
     markdown = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
-    pages = [dict(outputs(shipped(name), render))[f"docs/{name}.md"] for name in DEVICES]
+    pages = [dict(outputs(shipped(name), render))[f"docs/{name}.md"] for name in SHIPPED]
     *tables, wide = tables_of(markdown.render("\n\n".join((*pages, WIDE))), tmp_path)
     assert wide.width > WINDOW
-    assert len(DEVICES) == 7
+    assert len(SHIPPED) == 7
     assert len(tables) == sum(page.count("\n| --- |") for page in pages)
     assert [table for table in tables if table.width > WINDOW] == []

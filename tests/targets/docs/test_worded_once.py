@@ -8,9 +8,8 @@ import pytest
 from fieldscribe.model import Device, Place
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import outputs
-from support.described import DEVICES, made, shipped
+from support.described import KITCHENS, SHIPPED, made, shipped
 from support.models import point, sample_device
-from support.places import ROOT
 from support.quick import full_but
 
 
@@ -22,11 +21,7 @@ def _nearly_alike() -> Device:
     return sample_device((first, read_only, lost, bare, replace(bare, name="longer", place=Place((6, 7, 8), {}))))
 
 
-MADE = sorted(path.parent.name for path in DEVICES.glob("kitchen_*/device.yaml"))
-SHIPPED = sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml"))
-
-
-@pytest.mark.parametrize("name", full_but(("", *MADE, SHIPPED[0]), ("", *MADE, *SHIPPED), seconds=0.5))
+@pytest.mark.parametrize("name", full_but(("", *KITCHENS, SHIPPED[0]), ("", *KITCHENS, *SHIPPED), seconds=0.5))
 def test_a_point_that_shares_nothing_reads_the_same(name: str) -> None:
     """Texts of what points share are worked out once: with objects of their own, points have the same rows."""
     device = shipped(name) if name in SHIPPED else made(name) if name else _nearly_alike()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,18 +13,17 @@ from conformance.runtime import CHECKS
 from fieldscribe.model import Device
 from fieldscribe.resources import render
 from fieldscribe.targets import vectors
-from support.c_device import rare_device
-from support.described import kitchen_sink, made
+from support.conforming import OTHER_MODELS, generated_vectors, write_vectors
+from support.described import SHIPPED
 from support.models import sample_device
 from support.places import ROOT, TESTS
 from support.python_families import can_device, uss_device
 from support.python_package import imported, write_package
-from support.rust_crates import odd_device
+from support.quick import full_but
 from support.vector_file import counts_of, spoil
 
 GENERATED = ROOT / "generated"
 RUNNER = TESTS / "conformance"
-QUICK = ("siemens_mm4",)
 PROMISES = 1 + len(CHECKS)
 """What the runner holds beside the vectors: the widths of flags, and what the runtime promises for any device."""
 
@@ -38,52 +36,14 @@ def conformance(folder: Path, text: str, device: str = "sample_drive") -> tuple[
     return done.returncode, done.stdout
 
 
-def with_enums(device: Device) -> Device:
-    """The device with the enums that only digits name."""
-    enums = {one.name: one for one in (*device.enums, *(point.digits.enum for point in device.points if point.digits))}
-    return replace(device, enums=tuple(enums.values()))
+@pytest.mark.parametrize("device", full_but(("siemens_mm4",), SHIPPED))
+def test_shipped_devices_pass(device: str) -> None:
+    every_vector_passes(device, GENERATED / "python", generated_vectors(device))
 
 
-@pytest.mark.parametrize(
-    "vectors_file",
-    [
-        pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.full)
-        for path in sorted((GENERATED / "vectors").glob("*.txt"))
-    ],
-)
-def test_shipped_devices_pass(vectors_file: Path) -> None:
-    """As they lie in `generated/`, which is held current elsewhere."""
-    every_vector_passes(vectors_file.stem, GENERATED / "python", vectors_file)
-
-
-@pytest.mark.parametrize(
-    "device",
-    [
-        with_enums(rare_device()),
-        made("kitchen_blocks"),
-        *(
-            pytest.param(device, marks=pytest.mark.full)
-            for device in (
-                made("kitchen_can"),
-                made("kitchen_uss"),
-                odd_device(),
-                kitchen_sink(),
-                made("kitchen_codes"),
-                can_device(),
-                uss_device(),
-            )
-        ),
-    ],
-    ids=lambda device: str(device.id),
-)
+@pytest.mark.parametrize("device", OTHER_MODELS, ids=lambda device: str(device.id))
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:
     every_vector_passes(device.id, write_package(device, tmp_path), write_vectors(device, tmp_path))
-
-
-def write_vectors(device: Device, folder: Path) -> Path:
-    """Write the vectors of a device and return their file."""
-    (folder / "vectors.txt").write_text(next(iter(vectors.outputs(device, render)))[1], encoding="utf-8")
-    return folder / "vectors.txt"
 
 
 def every_vector_passes(device: str, folder: Path, vectors_file: Path) -> None:

@@ -13,7 +13,7 @@ from support.described import made
 from support.node_device import NodeDevice, NodeError, installed, node_device
 from support.typescript_packages import install
 
-pytestmark = pytest.mark.full(2)
+pytestmark = pytest.mark.full(seconds=2)
 
 
 @pytest.fixture(scope="module")

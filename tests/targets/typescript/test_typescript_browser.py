@@ -18,7 +18,7 @@ BOTH = ("modules", "classic")
 PROGRAM = Path(__file__).with_name("programs") / "browser.mjs"
 
 
-@pytest.mark.full(20)
+@pytest.mark.full(seconds=20)
 def test_every_vector_passes_in_a_browser(tmp_path: Path) -> None:
     """The kitchens in both forms, the seven devices as modules: their pages run them as classic scripts."""
     files = {path.stem: path for path in sorted((ROOT / "generated/vectors").glob("*.txt"))}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +10,14 @@ import pytest
 from fieldscribe.model import Device
 from fieldscribe.resources import render
 from fieldscribe.targets import vectors
-from support.c_device import rare_device
-from support.described import kitchen_sink, made
+from support import described
+from support.conforming import OTHER_MODELS, generated_vectors, write_vectors
 from support.models import sample_device
-from support.places import ROOT
 from support.python_families import can_device, uss_device
-from support.rust_crates import odd_device
+from support.quick import full_but
 from support.toolchains import succeed, tool
 from support.typescript_packages import RUNNER, SHIPPED, install, package_name
 from support.vector_file import counts_of, spoil
-
-QUICK = ("jumo_controller",)
 
 
 def results_of(folder: Path, package: str, vectors_file: Path) -> dict[str, Any]:
@@ -39,54 +35,16 @@ def every_vector_passes(folder: Path, package: str, vectors_file: Path) -> None:
     assert found["passed"] == {kind: count for kind, count in expected.items() if count}
 
 
-def vectors_of(device: Device, folder: Path) -> Path:
-    path = folder / "vectors.txt"
-    path.write_text(next(iter(vectors.outputs(device, render)))[1], encoding="utf-8")
-    return path
+@pytest.mark.parametrize("device", full_but(("jumo_controller",), described.SHIPPED))
+def test_shipped_devices_pass(device: str, tmp_path: Path) -> None:
+    install(tmp_path, [SHIPPED / device])
+    every_vector_passes(tmp_path, device.replace("_", "-"), generated_vectors(device))
 
 
-def with_enums(device: Device) -> Device:
-    """The device with the enums that only digits name."""
-    enums = {one.name: one for one in (*device.enums, *(point.digits.enum for point in device.points if point.digits))}
-    return replace(device, enums=tuple(enums.values()))
-
-
-@pytest.mark.parametrize(
-    "vectors_file",
-    [
-        pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.full)
-        for path in sorted((ROOT / "generated/vectors").glob("*.txt"))
-    ],
-)
-def test_shipped_devices_pass(vectors_file: Path, tmp_path: Path) -> None:
-    """As they lie in `generated/`, which is held current elsewhere."""
-    install(tmp_path, [SHIPPED / vectors_file.stem])
-    every_vector_passes(tmp_path, vectors_file.stem.replace("_", "-"), vectors_file)
-
-
-@pytest.mark.parametrize(
-    "device",
-    [
-        with_enums(rare_device()),
-        made("kitchen_blocks"),
-        *(
-            pytest.param(device, marks=pytest.mark.full)
-            for device in (
-                made("kitchen_can"),
-                made("kitchen_uss"),
-                odd_device(),
-                kitchen_sink(),
-                made("kitchen_codes"),
-                can_device(),
-                uss_device(),
-            )
-        ),
-    ],
-    ids=lambda device: str(device.id),
-)
+@pytest.mark.parametrize("device", OTHER_MODELS, ids=lambda device: str(device.id))
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:
     install(tmp_path, [device])
-    every_vector_passes(tmp_path, package_name(device), vectors_of(device, tmp_path))
+    every_vector_passes(tmp_path, package_name(device), write_vectors(device, tmp_path))
 
 
 @pytest.mark.parametrize(

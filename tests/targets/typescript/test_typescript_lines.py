@@ -105,7 +105,7 @@ def value_of(node: NodeDevice, attribute: str) -> Any:
         raise
 
 
-@pytest.mark.full(6)
+@pytest.mark.full(seconds=6)
 @pytest.mark.parametrize(
     ("device", "on", "framing", "kind"), [pytest.param(*line, id=" ".join(line)) for line in LINES]
 )
@@ -144,7 +144,7 @@ def test_points_that_do_not_exist_now_are_left_out_of_groups(folder: Path) -> No
         meter.device.complaints.clear()
 
 
-@pytest.mark.full(6)
+@pytest.mark.full(seconds=6)
 @pytest.mark.parametrize("line", [pytest.param(line, id=" ".join(line)) for line in LINES[:7]])
 def test_every_writable_point(folder: Path, line: tuple[str, str, str, str]) -> None:
     """The device holds what was written, for each point that has another raw number beside that which it holds."""
@@ -201,7 +201,7 @@ FAULTS = {
 """What is wrong once on a line, and the status of the request that it strikes."""
 
 
-@pytest.mark.full(2)
+@pytest.mark.full(seconds=2)
 @pytest.mark.parametrize("line", [pytest.param(line, id=" ".join(line)) for line in FAULTS])
 def test_a_fault_has_its_error_and_passes(folder: Path, line: tuple[str, str, str, str]) -> None:
     """The request that a fault strikes says so, by status; the next one works, and a retry hides the fault."""

@@ -15,7 +15,7 @@ from fieldscribe.text import camel
 from support.node_device import NodeDevice, NodeError, bridged, node_device
 from support.toolchains import succeed, tool
 
-pytestmark = pytest.mark.full(2)
+pytestmark = pytest.mark.full(seconds=2)
 
 L200, FRONIUS, MM4, MPU2S = "hitachi_l200", "fronius_datamanager", "siemens_mm4", "woodward_mpu2s"
 FRAMINGS = {L200: "rtu", FRONIUS: "tcp", MM4: "uss"}

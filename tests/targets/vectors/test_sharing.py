@@ -14,9 +14,8 @@ from fieldscribe.targets.vectors import outputs
 from fieldscribe.targets.vectors.collection import SharedVectors
 from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled
-from support.described import DEVICES, made, shipped
+from support.described import KITCHENS, SHIPPED, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
-from support.places import ROOT
 
 ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "on")), closed=True)
 
@@ -39,8 +38,8 @@ def twins() -> Device:
 
 
 ALL = [
-    *(made(path.parent.name) for path in sorted(DEVICES.glob("kitchen_*/device.yaml"))),
-    *(shipped(path.parent.name) for path in sorted((ROOT / "descriptions").glob("*/device.yaml"))),
+    *map(made, KITCHENS),
+    *map(shipped, SHIPPED),
     twins(),
 ]
 
