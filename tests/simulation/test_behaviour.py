@@ -88,7 +88,7 @@ MPU2S: list[Step] = [
 
 
 @pytest.mark.parametrize(("name", "steps"), [("hitachi_l200", L200), ("siemens_mm4", MM4), ("woodward_mpu2s", MPU2S)])
-@pytest.mark.parametrize("stride", [None, 0.37])
+@pytest.mark.parametrize("stride", [None, pytest.param(0.37, marks=pytest.mark.full(seconds=0.2))])
 def test_shipped_behaviours(name: str, steps: list[Step], stride: float | None) -> None:
     """Each device holds what its steps say, no matter how often it is asked meanwhile."""
     device = running(name)

@@ -24,11 +24,11 @@ def with_enums(device: Device) -> Device:
 
 
 OTHER_MODELS = [
-    with_enums(rare_device()),
     made("kitchen_blocks"),
     *(
         pytest.param(device, marks=pytest.mark.full)
         for device in (
+            with_enums(rare_device()),
             made("kitchen_can"),
             made("kitchen_uss"),
             odd_device(),
