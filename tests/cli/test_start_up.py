@@ -1,4 +1,4 @@
-"""A quick command starts quickly."""
+"""A quick command starts quickly, and so does pytest."""
 
 from __future__ import annotations
 
@@ -39,3 +39,9 @@ def test_a_generate_with_nothing_changed_imports_as_little(tmp_path: Path) -> No
             return
         time.sleep(2.1)
     raise AssertionError(done.stdout)
+
+
+def test_the_plugin_of_pytest_imports_no_simulation() -> None:
+    code = "import sys, fieldscribe.simulation.pytest_plugin\nprint('fieldscribe.model' in sys.modules)"
+    done = subprocess.run([sys.executable, "-I", "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"

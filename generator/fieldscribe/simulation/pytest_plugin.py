@@ -2,16 +2,19 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from fieldscribe.simulation.library import Simulated, simulated
+if TYPE_CHECKING:
+    from fieldscribe.simulation.library import Simulated
 
 
 @pytest.fixture
 def simulated_device() -> Iterator[Callable[..., Simulated]]:
     """Return a function with the arguments of `fieldscribe.simulation.simulated`; each call runs one more device."""
+    from fieldscribe.simulation.library import simulated  # every run of pytest imports this module
+
     with ExitStack() as running:
 
         def run(device: str, **settings: Any) -> Simulated:
