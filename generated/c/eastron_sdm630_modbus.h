@@ -14,30 +14,23 @@
 #ifndef EASTRON_SDM630_MODBUS_H
 #define EASTRON_SDM630_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 4
+#if FIELDSCRIBE_MODBUS_INTERFACE != 5
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if EASTRON_SDM630_DESCRIPTION != 0x2994a4a0U
 #error "eastron_sdm630.h is of another description: take the one that was generated with this header."
 #endif
 
-/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
-static const fieldscribe_modbus_function eastron_sdm630_modbus_functions[] = {
-    {3U, false, 80U}, /* read_holding_registers */
-    {4U, false, 80U}, /* read_input_registers */
-    {8U, false, 1U}, /* diagnostics */
-    {16U, true, 2U}, /* write_registers */
-};
-
 static const fieldscribe_modbus_profile eastron_sdm630_modbus_profile = {
-    eastron_sdm630_modbus_functions,
-    sizeof eastron_sdm630_modbus_functions / sizeof eastron_sdm630_modbus_functions[0],
     1U, /* the first unit */
     247U, /* the last */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
-    false, /* whether 0Fh carries an even number of bytes */
     true, /* whether it speaks RTU */
-    false /* whether it speaks TCP */
+    false, /* whether it speaks TCP */
+    false, /* whether 0Fh carries an even number of bytes */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
+    0x10000U, /* the functions that may go to all units at once, as bits */
+    {0U, 0U, 0U, 80U, 80U, 0U, 0U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 2U} /* how many items a request of function 0, 1,
+        2... carries */
 };
 
 /*

@@ -135,10 +135,11 @@ typedef struct fieldscribe_modbus_receiver {
     size_t length;  /* so many bytes of the answer are in the buffer, all of it when it is `done` */
     size_t dropped; /* so many bytes were no part of it */
     size_t next;    /* with so many bytes there is more to know about the answer */
-    const struct fieldscribe_modbus_wire *wire;
+    size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
     uint16_t transaction;
     uint8_t unit;
     uint8_t function;
+    uint8_t shortest; /* as many bytes has the shortest answer */
     bool done;
 } fieldscribe_modbus_receiver;
 
@@ -596,25 +597,22 @@ static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t 
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
-    const fieldscribe_modbus_function *const functions = profile->functions;
-    const fieldscribe_modbus_function *known = NULL;
-    size_t at;
-    for (at = 0U; (at < profile->function_count) && (known == NULL); ++at) {
-        known = (functions[at].code == request->function) ? &functions[at] : NULL;
-    }
-    if ((known == NULL) || ((request->writer == NULL) && (!fieldscribe_modbus_reads(request->function)))) {
+    const uint32_t function = request->function;
+    const uint8_t end = (request->writer == NULL) ? 0x05U : FIELDSCRIBE_MODBUS_FUNCTIONS; /* 01h to 04h read */
+    if ((function >= end) || (profile->most[function] == 0U)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
     if ((request->unit == profile->broadcast)
-            ? !known->broadcast
+            ? (((profile->to_all >> function) & 1U) == 0U)
             : ((request->unit < profile->first_unit) || (request->unit > profile->last_unit))) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if ((request->count == 0U) || (request->count > known->most)) {
+    if ((request->count == 0U) || (request->count > profile->most[function])) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    return (((uint32_t)request->address + request->count) > 0x10000U) ? FIELDSCRIBE_MODBUS_BAD_ADDRESS
-                                                                      : FIELDSCRIBE_MODBUS_OK;
+    return ((((uint32_t)request->address + request->count - 1U) >> 16) != 0U) /* the last item */
+        ? FIELDSCRIBE_MODBUS_BAD_ADDRESS
+        : FIELDSCRIBE_MODBUS_OK;
 }
 
 /* What requests that write are put and answered with: a program that only reads does not link it. */
@@ -853,46 +851,41 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_items(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const bool bits = request->function <= 0x02U;
-    const uint8_t bytes = pdu[1];
     const uint16_t count = request->count;
+    const uint32_t bytes = fieldscribe_modbus_item_bytes(count, bits);
     uint32_t at;
-    if ((size != (2U + (size_t)bytes)) || (bytes != fieldscribe_modbus_item_bytes(count, bits))) {
+    if ((pdu[1] != bytes) || (size != (2U + (size_t)pdu[1]))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     if (fieldscribe_modbus_room(reply) < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     reply->count = count;
-    if (bits && (count <= (8U * (uint32_t)bytes))) {
-        for (at = 0U; at < count; ++at) {
-            reply->values[at] = (uint16_t)(((uint32_t)pdu[2U + (at / 8U)] >> (at % 8U)) & 1U);
-        }
-    } else if (count <= (bytes / 2U)) {
-        for (at = 0U; at < count; ++at) {
-            reply->values[at] = fieldscribe_modbus_get(&pdu[2U + (2U * at)]);
-        }
-    } else {
-        /* the bytes are enough: the conditions are for proofs */
+    for (at = 0U; at < count; ++at) {
+        const uint32_t byte = pdu[2U + (bits ? (at / 8U) : (2U * at))];
+        reply->values[at] = (uint16_t)(bits ? ((byte >> (at % 8U)) & 1U) : ((byte << 8) | pdu[3U + (2U * at)]));
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer of the right unit, `size` bytes from its code on; 0 if it has not the function of the request. */
+/* Reads an answer of the right unit and function, or a refusal: `size` bytes from its code on. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    if (size == 0U) {
-        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
-    }
     if (pdu[0] != request->function) {
-        if (size > 2U) {
-            return FIELDSCRIBE_MODBUS_LONG_FRAME;
-        }
         reply->exception = pdu[1];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
     return (request->writer != NULL) ? request->writer->take(request, pdu, size, reply)
                                      : fieldscribe_modbus_take_items(request, pdu, size, reply);
+}
+
+/* The same where the head of a frame says how long it is, whatever it brings. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
+{
+    return ((pdu[0] != request->function) && (size > 2U)) ? FIELDSCRIBE_MODBUS_LONG_FRAME
+                                                          : fieldscribe_modbus_take_answer(request, pdu, size, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -913,7 +906,8 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     if (bytes[0] != request->unit) {
         return FIELDSCRIBE_MODBUS_WRONG_UNIT;
     }
-    return fieldscribe_modbus_take_answer(request, &bytes[1], pdu, reply);
+    return (pdu == 0U) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION
+                       : fieldscribe_modbus_take_answer(request, &bytes[1], pdu, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
@@ -940,7 +934,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     if (fieldscribe_modbus_pdu(request->function, bytes[7], bytes[8]) == 0U) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    return fieldscribe_modbus_take_answer(request, &bytes[7], length - 7U, reply);
+    return fieldscribe_modbus_take_tcp(request, &bytes[7], length - 7U, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
@@ -955,7 +949,8 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     if ((expected != 0U) && (length != expected)) {
         return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    return fieldscribe_modbus_take_answer(request, pdu, expected, reply);
+    return (expected == 0U) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION
+                            : fieldscribe_modbus_take_answer(request, pdu, expected, reply);
 }
 
 /* The bytes of a frame beside its PDU: unit and checksum, or a head with the unit. */
@@ -1047,27 +1042,29 @@ static size_t fieldscribe_modbus_begun_tcp(
     return whole;
 }
 
-/* How frames of a kind are built, how answers begin, and the bytes before their PDU and around it. */
+/* How frames of a kind are built, how answers begin and are read, and the bytes before their PDU and around it. */
 struct fieldscribe_modbus_wire {
     fieldscribe_modbus_status (*build)(const fieldscribe_modbus_profile *profile,
         const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
     size_t (*begun)(const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
+    fieldscribe_modbus_status (*take)(
+        const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
     uint8_t before;
     uint8_t around;
 };
 
 static const struct fieldscribe_modbus_wire fieldscribe_modbus_rtu = {
-    &fieldscribe_modbus_build_rtu, &fieldscribe_modbus_begun_rtu, 1U, 3U};
+    &fieldscribe_modbus_build_rtu, &fieldscribe_modbus_begun_rtu, &fieldscribe_modbus_take_answer, 1U, 3U};
 
 static const struct fieldscribe_modbus_wire fieldscribe_modbus_tcp = {
-    &fieldscribe_modbus_build_tcp, &fieldscribe_modbus_begun_tcp, 7U, 7U};
+    &fieldscribe_modbus_build_tcp, &fieldscribe_modbus_begun_tcp, &fieldscribe_modbus_take_tcp, 7U, 7U};
 
 static fieldscribe_modbus_receiver fieldscribe_modbus_await_on(const struct fieldscribe_modbus_wire *wire,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    const size_t shortest = wire->around + 2U;
-    const fieldscribe_modbus_receiver receiver = {
-        buffer, size, 0U, 0U, shortest, wire, request->transaction, request->unit, request->function, false};
+    const uint8_t shortest = (uint8_t)(wire->around + 2U);
+    const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, shortest, wire->begun, request->transaction,
+        request->unit, request->function, shortest, false};
     return receiver;
 }
 
@@ -1093,14 +1090,14 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
 {
     const size_t end = receiver->length;
-    size_t whole = receiver->wire->around + 2U; /* the shortest answer */
+    size_t whole = receiver->shortest;
     size_t begin;
     size_t at = 0U;
     bool whole_only = silence;
     bool again;
     do {
         for (begin = 0U; begin < end; ++begin) {
-            const size_t least = receiver->wire->begun(receiver, &receiver->buffer[begin], end - begin);
+            const size_t least = receiver->begun(receiver, &receiver->buffer[begin], end - begin);
             if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
                 whole = least;
                 break;
@@ -1197,8 +1194,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
     if (receiver.length < receiver.next) {
         return (receiver.dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
-    return fieldscribe_modbus_take_answer(
-        request, &receiver.buffer[wire->before], receiver.length - wire->around, reply);
+    return wire->take(request, &receiver.buffer[wire->before], receiver.length - wire->around, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,

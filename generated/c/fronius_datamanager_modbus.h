@@ -15,29 +15,23 @@
 #ifndef FRONIUS_DATAMANAGER_MODBUS_H
 #define FRONIUS_DATAMANAGER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 4
+#if FIELDSCRIBE_MODBUS_INTERFACE != 5
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if FRONIUS_DATAMANAGER_DESCRIPTION != 0x29107d9aU
 #error "fronius_datamanager.h is of another description: take the one that was generated with this header."
 #endif
 
-/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
-static const fieldscribe_modbus_function fronius_datamanager_modbus_functions[] = {
-    {3U, false, 125U}, /* read_holding_registers */
-    {6U, true, 1U}, /* write_register */
-    {16U, true, 123U}, /* write_registers */
-};
-
 static const fieldscribe_modbus_profile fronius_datamanager_modbus_profile = {
-    fronius_datamanager_modbus_functions,
-    sizeof fronius_datamanager_modbus_functions / sizeof fronius_datamanager_modbus_functions[0],
     1U, /* the first unit */
     247U, /* the last */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
-    false, /* whether 0Fh carries an even number of bytes */
     true, /* whether it speaks RTU */
-    true /* whether it speaks TCP */
+    true, /* whether it speaks TCP */
+    false, /* whether 0Fh carries an even number of bytes */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
+    0x10040U, /* the functions that may go to all units at once, as bits */
+    {0U, 0U, 0U, 125U, 0U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 123U} /* how many items a request of function 0,
+        1, 2... carries */
 };
 
 /*

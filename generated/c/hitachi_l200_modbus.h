@@ -14,33 +14,23 @@
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 4
+#if FIELDSCRIBE_MODBUS_INTERFACE != 5
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0x41c63c2aU
 #error "hitachi_l200.h is of another description: take the one that was generated with this header."
 #endif
 
-/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
-static const fieldscribe_modbus_function hitachi_l200_modbus_functions[] = {
-    {1U, false, 32U}, /* read_coils */
-    {3U, false, 4U}, /* read_holding_registers */
-    {5U, true, 1U}, /* write_coil */
-    {6U, true, 1U}, /* write_register */
-    {8U, false, 1U}, /* diagnostics */
-    {15U, false, 32U}, /* write_coils */
-    {16U, false, 4U}, /* write_registers */
-};
-
 static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
-    hitachi_l200_modbus_functions,
-    sizeof hitachi_l200_modbus_functions / sizeof hitachi_l200_modbus_functions[0],
     1U, /* the first unit */
     32U, /* the last */
-    0U, /* the unit that all listen to */
-    true, /* whether 0Fh carries an even number of bytes */
     true, /* whether it speaks RTU */
-    false /* whether it speaks TCP */
+    false, /* whether it speaks TCP */
+    true, /* whether 0Fh carries an even number of bytes */
+    0U, /* the unit that all listen to */
+    0x0060U, /* the functions that may go to all units at once, as bits */
+    {0U, 32U, 0U, 4U, 0U, 1U, 1U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 32U, 4U} /* how many items a request of function 0, 1,
+        2... carries */
 };
 
 /*

@@ -14,30 +14,23 @@
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 4
+#if FIELDSCRIBE_MODBUS_INTERFACE != 5
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x260af48dU
 #error "jumo_controller.h is of another description: take the one that was generated with this header."
 #endif
 
-/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
-static const fieldscribe_modbus_function jumo_controller_modbus_functions[] = {
-    {3U, false, 32U}, /* read_holding_registers */
-    {4U, false, 32U}, /* read_input_registers */
-    {6U, true, 1U}, /* write_register */
-    {16U, true, 32U}, /* write_registers */
-};
-
 static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
-    jumo_controller_modbus_functions,
-    sizeof jumo_controller_modbus_functions / sizeof jumo_controller_modbus_functions[0],
     1U, /* the first unit */
     254U, /* the last */
-    0U, /* the unit that all listen to */
-    false, /* whether 0Fh carries an even number of bytes */
     true, /* whether it speaks RTU */
-    false /* whether it speaks TCP */
+    false, /* whether it speaks TCP */
+    false, /* whether 0Fh carries an even number of bytes */
+    0U, /* the unit that all listen to */
+    0x10040U, /* the functions that may go to all units at once, as bits */
+    {0U, 0U, 0U, 32U, 32U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 32U} /* how many items a request of function 0,
+        1, 2... carries */
 };
 
 /*

@@ -14,32 +14,23 @@
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 4
+#if FIELDSCRIBE_MODBUS_INTERFACE != 5
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x8a2a4e64U
 #error "nord_sk5xxe.h is of another description: take the one that was generated with this header."
 #endif
 
-/* What the device understands, whether it may go to all units at once, and how many items one request may carry. */
-static const fieldscribe_modbus_function nord_sk5xxe_modbus_functions[] = {
-    {1U, false, 2000U}, /* read_coils */
-    {5U, true, 1U}, /* write_coil */
-    {15U, true, 1968U}, /* write_coils */
-    {3U, false, 125U}, /* read_holding_registers */
-    {6U, true, 1U}, /* write_register */
-    {16U, true, 123U}, /* write_registers */
-};
-
 static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
-    nord_sk5xxe_modbus_functions,
-    sizeof nord_sk5xxe_modbus_functions / sizeof nord_sk5xxe_modbus_functions[0],
     1U, /* the first unit */
     247U, /* the last */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
-    false, /* whether 0Fh carries an even number of bytes */
     true, /* whether it speaks RTU */
-    false /* whether it speaks TCP */
+    false, /* whether it speaks TCP */
+    false, /* whether 0Fh carries an even number of bytes */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
+    0x18060U, /* the functions that may go to all units at once, as bits */
+    {0U, 2000U, 0U, 125U, 0U, 1U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 1968U, 123U} /* how many items a request of
+        function 0, 1, 2... carries */
 };
 
 /*

@@ -6,9 +6,10 @@
 #define FIELDSCRIBE_IMPLEMENTATION
 #include "arbitrary.h"
 #include "fieldscribe_modbus.h"
+#include "modbus_items.h"
 
 #define STEPS 6U /* bytes that a receiver has got: each way through them is followed alone */
-#define KNOWN 3U    /* functions of a profile: each is looked at alone */
+#define KNOWN 3U    /* places of a marker: each is looked at alone */
 #define FRAMES 264U /* longer than the longest frame, of 260 bytes */
 #ifndef SHORT
 #define SHORT 32U   /* where build is followed with exact arrays; put_values, which fills in the data, for all lengths */
@@ -20,7 +21,6 @@ static uint8_t frame[FRAMES];
 static uint8_t long_frame[LARGE];
 static uint16_t items[ITEMS];
 static uint16_t many_items[LARGE / 2U];
-static fieldscribe_modbus_function functions[KNOWN];
 static fieldscribe_modbus_profile profile;
 static fieldscribe_modbus_request request;
 static fieldscribe_modbus_reply reply;
@@ -31,19 +31,12 @@ static fieldscribe_modbus_receiver receiver;
 static fieldscribe_modbus_line line;
 static volatile uint8_t number;
 
-/* A profile that knows any functions; `count` of them, and no room for more. */
-static void know(size_t count)
+/* A profile that knows any functions. */
+static void know(void)
 {
-    size_t at;
-    //@ loop unroll KNOWN;
-    for (at = 0U; at < KNOWN; ++at) {
-        functions[at].broadcast = number % 2U != 0U;
-    }
     profile.pads_coil_bytes = number % 2U != 0U;
     profile.rtu = number % 2U != 0U;
     profile.tcp = number % 2U != 0U;
-    profile.functions = EXACTLY(count, functions);
-    profile.function_count = count;
 }
 
 /* A request that reads, and one that writes. */
@@ -131,19 +124,16 @@ void prove_item_bytes(uint16_t count)
     (void)fieldscribe_modbus_item_bytes(count, number % 2U != 0U);
 }
 
-void prove_allows(size_t count)
+void prove_allows(void)
 {
-    if (count <= KNOWN) {
-        //@ split count;
-        know(count);
-        ask_any();
-        (void)fieldscribe_modbus_allows(&profile, &request);
-    }
+    know();
+    ask_any();
+    (void)fieldscribe_modbus_allows(&profile, &request);
 }
 
 void prove_allows__no_values(void)
 {
-    know(KNOWN);
+    know();
     request.values = NULL;
     of_any_kind();
     if (request.function < 0x05U) {
@@ -158,7 +148,7 @@ void prove_allows__values(uint16_t count)
     if (count <= ITEMS) {
         //@ split count;
         NOT_BETWEEN(count, ITEMS);
-        know(1U);
+        know();
         ask(count);
         (void)fieldscribe_modbus_allows(&profile, &request);
     }
@@ -245,7 +235,7 @@ void prove_put_several(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         put_by_function(&fieldscribe_modbus_put_several, size);
     }
@@ -263,7 +253,7 @@ void prove_put_writing(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         put_by_function(&fieldscribe_modbus_put_writing, size);
     }
@@ -273,7 +263,7 @@ void prove_put_request(size_t size)
 {
     if (size >= 6U && size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         put_by_function(&fieldscribe_modbus_put_request, size);
     }
@@ -283,7 +273,7 @@ void prove_build_rtu(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         build_into(FIELDSCRIBE_MODBUS_RTU, EXACTLY(size, frame), size);
     }
@@ -307,7 +297,7 @@ void prove_build_pdu(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         build_pdu_into(EXACTLY(size, frame), size);
     }
@@ -317,7 +307,7 @@ void prove_build_tcp(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
-        know(1U);
+        know();
         ask_any();
         build_into(FIELDSCRIBE_MODBUS_TCP, EXACTLY(size, frame), size);
     }
@@ -325,7 +315,7 @@ void prove_build_tcp(size_t size)
 
 void prove_build__long_buffer(void)
 {
-    know(KNOWN);
+    know();
     ask_any();
     build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
     build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
@@ -333,7 +323,7 @@ void prove_build__long_buffer(void)
 
 void prove_build__no_values(void)
 {
-    know(KNOWN);
+    know();
     request.values = NULL;
     of_any_kind();
     build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
@@ -344,7 +334,7 @@ void prove_build__values(uint16_t count)
 {
     if (count <= SHORT) {
         //@ split count;
-        know(1U);
+        know();
         ask(count);
         build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES); /* what frames a request does not read them */
     }
@@ -357,7 +347,7 @@ void prove_take_items__data(size_t size, size_t room)
         NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_take_items(&request, EXACTLY(size, frame), size, &reply);
+        BY_ITEMS(size - 2U, fieldscribe_modbus_take_items(&request, EXACTLY(size, frame), size, &reply));
     }
 }
 
@@ -369,7 +359,7 @@ void prove_take_items__values(size_t size, size_t room)
         NOT_BETWEEN(stored, ITEMS);
         ask_any();
         into(EXACTLY(stored, items), stored);
-        (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
+        BY_ITEMS(DATA_MOST, fieldscribe_modbus_take_items(&request, frame, size, &reply));
     }
 }
 
@@ -402,7 +392,18 @@ void prove_take_answer(size_t size, size_t room)
         NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply);
+        BY_ITEMS(size - 2U, fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply));
+    }
+}
+
+void prove_take_tcp(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        //@ split size;
+        NOT_BETWEEN(size, FRAMES);
+        ask_any();
+        into(many_items, room);
+        BY_ITEMS(size - 2U, fieldscribe_modbus_take_tcp(&request, EXACTLY(size, frame), size, &reply));
     }
 }
 
@@ -413,7 +414,7 @@ void prove_parse_rtu(size_t length, size_t room)
         NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, &reply);
+        BY_ITEMS(BEHIND(5U, length), fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, &reply));
     }
 }
 
@@ -424,7 +425,7 @@ void prove_parse_pdu(size_t length, size_t room)
         NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_parse_pdu(&request, EXACTLY(length, frame), length, &reply);
+        BY_ITEMS(BEHIND(2U, length), fieldscribe_modbus_parse_pdu(&request, EXACTLY(length, frame), length, &reply));
     }
 }
 
@@ -435,18 +436,21 @@ void prove_parse_tcp(size_t length, size_t room)
         NOT_BETWEEN(length, FRAMES);
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, &reply);
+        BY_ITEMS(BEHIND(9U, length), fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, &reply));
     }
 }
 
-void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, size_t room)
+void prove_parse__no_values(size_t length, size_t room)
 {
     if (length <= SHORT) {
         //@ split length;
         request.values = NULL; /* an answer is held against the request alone */
         of_any_kind();
         into(many_items, room);
-        (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, &reply);
+        BY_ITEMS(BEHIND(5U, length), fieldscribe_modbus_parse(
+            FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), length, &reply));
+        BY_ITEMS(BEHIND(9U, length), fieldscribe_modbus_parse(
+            FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), length, &reply));
     }
 }
 
@@ -455,7 +459,7 @@ void prove_parse__long_frame(fieldscribe_modbus_framing framing, size_t length, 
     if (length <= LARGE) {
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_parse(framing, &request, long_frame, length, &reply);
+        BY_ITEMS(DATA_MOST, fieldscribe_modbus_parse(framing, &request, long_frame, length, &reply));
     }
 }
 
@@ -467,7 +471,7 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
         NOT_BETWEEN(stored, WORDS);
         ask_any();
         into(EXACTLY(stored, items), stored);
-        (void)fieldscribe_modbus_parse(framing, &request, frame, length, &reply);
+        BY_ITEMS(DATA_MOST, fieldscribe_modbus_parse(framing, &request, frame, length, &reply));
     }
 }
 
@@ -569,7 +573,7 @@ static void has(uint8_t *buffer, size_t size, size_t length)
     receiver.size = size;
     receiver.length = length;
     receiver.done = number % 2U != 0U;
-    receiver.wire = number % 2U != 0U ? &fieldscribe_modbus_tcp : &fieldscribe_modbus_rtu;
+    receiver.begun = number % 2U != 0U ? &fieldscribe_modbus_begun_tcp : &fieldscribe_modbus_begun_rtu;
 }
 
 void prove_begun_rtu(size_t size, size_t length)
@@ -643,7 +647,7 @@ static void link(uint8_t *buffer, size_t size)
     line.send = &send_nothing;
     line.receive = &receive_nothing;
     line.context = NULL;
-    know(KNOWN);
+    know();
     ask_any();
     request.writer = NULL;
     request.late = number % 2U != 0U;
@@ -800,7 +804,7 @@ static fieldscribe_modbus_row row;
 /* Any row for that unit: a number of up to 32 bits in one or two words, on a line with counts of up to 32 bits. */
 static void of_row(void)
 {
-    static const fieldscribe_modbus_profile other = {NULL, 0U, 0U, 0U, 0U, false, false, false};
+    static const fieldscribe_modbus_profile other = {0U, 0U, false, false, false, 0U, 0U, {0U}};
     on_line();
     layout.shares = number % 2U != 0U;
     layout.words = number % 2U != 0U ? 2U : 1U;

@@ -8,6 +8,7 @@
 #include "fieldscribe_can.h"
 #include "fieldscribe_modbus.h"
 #include "fieldscribe_uss.h"
+#include "modbus_items.h"
 
 #include "jumo_controller_modbus.h"
 #include "siemens_mm4_uss.h"
@@ -40,8 +41,8 @@ void prove_jumo_controller(size_t length, size_t room)
                 &jumo_controller_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, bytes, FRAMES, &used);
             //@ split length;
             NOT_BETWEEN(length, FRAMES);
-            (void)fieldscribe_modbus_parse(
-                FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, bytes), length, &reply);
+            BY_ITEMS(BEHIND(5U, length), fieldscribe_modbus_parse(
+                FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, bytes), length, &reply));
         }
     }
 }

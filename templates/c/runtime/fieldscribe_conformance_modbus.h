@@ -666,16 +666,27 @@ static void fieldscribe_run_reply(fieldscribe_vector *v)
     }
 }
 
+/* How many functions the device knows. */
+static uint64_t fieldscribe_known_functions(const fieldscribe_modbus_profile *profile)
+{
+    uint64_t known = 0U;
+    size_t function;
+    for (function = 0U; function < FIELDSCRIBE_MODBUS_FUNCTIONS; ++function) {
+        known += profile->most[function] != 0U ? 1U : 0U;
+    }
+    return known;
+}
+
 /* What the profile says of a function. */
 static void fieldscribe_run_function(fieldscribe_vector *v)
 {
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
-    const uint64_t index = fieldscribe_bits(v, "index");
-    if (index < profile->function_count) {
+    const uint64_t function = fieldscribe_bits(v, "number");
+    fieldscribe_agree(v, fieldscribe_bits(v, "index") < fieldscribe_known_functions(profile));
+    if (function < FIELDSCRIBE_MODBUS_FUNCTIONS) {
         fieldscribe_agree(v, !fieldscribe_modbus_reads(0x00U) && !fieldscribe_modbus_reads(0x05U));
-        fieldscribe_is_number(v, "number", profile->functions[index].code);
-        fieldscribe_is_number(v, "most", profile->functions[index].most);
-        fieldscribe_is_number(v, "broadcast", profile->functions[index].broadcast ? 1U : 0U);
+        fieldscribe_is_number(v, "most", profile->most[function]);
+        fieldscribe_is_number(v, "broadcast", (profile->to_all >> function) & 1U);
     }
 }
 
@@ -685,7 +696,7 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
     fieldscribe_holds_long_numbers(v);
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
-    FIELDSCRIBE_LIMIT("functions", profile->function_count)
+    FIELDSCRIBE_LIMIT("functions", fieldscribe_known_functions(profile))
     FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
     FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_MODBUS_NO_BROADCAST)
     FIELDSCRIBE_LIMIT("rtu_bytes", FIELDSCRIBE_MODBUS_RTU_MOST)

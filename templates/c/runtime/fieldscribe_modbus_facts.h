@@ -9,28 +9,24 @@
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 4
+#define FIELDSCRIBE_MODBUS_INTERFACE 5
 
 /* In a profile: no unit number is a broadcast. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
-/* A function code, whether it may go to all units at once, and how many items one request may carry. */
-typedef struct fieldscribe_modbus_function {
-    uint8_t code;
-    bool broadcast;
-    uint16_t most;
-} fieldscribe_modbus_function;
+/* All functions have codes below this. */
+#define FIELDSCRIBE_MODBUS_FUNCTIONS 17U
 
 /* What a device understands. */
 typedef struct fieldscribe_modbus_profile {
-    const fieldscribe_modbus_function *functions;
-    size_t function_count;
     uint8_t first_unit;
     uint8_t last_unit;
-    uint16_t broadcast;
-    bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
     bool rtu;
     bool tcp;
+    bool pads_coil_bytes;                        /* 0Fh carries an even number of data bytes */
+    uint16_t broadcast;                          /* the unit that all listen to */
+    uint32_t to_all;                             /* bit n: function n may go to all units at once */
+    uint16_t most[FIELDSCRIBE_MODBUS_FUNCTIONS]; /* how many items a request of function n carries; 0: not known */
 } fieldscribe_modbus_profile;
 
 /* Consecutive addresses that one request reads: those of a point, or a block of several points. */

@@ -8,8 +8,8 @@
 #include "fieldscribe_modbus.h"
 #include "fieldscribe_uss.h"
 
-static const fieldscribe_modbus_function functions[] = {{1U, false, 2000U}, {3U, false, 125U}, {6U, true, 1U}};
-static const fieldscribe_modbus_profile profile = {functions, 3U, 1U, 247U, 0U, false, true, true};
+static const fieldscribe_modbus_profile profile = {
+    1U, 247U, true, true, false, 0U, 0x40U, {0U, 2000U, 0U, 125U, 0U, 0U, 1U}};
 
 typedef union either {
     fieldscribe_modbus_receiver modbus;

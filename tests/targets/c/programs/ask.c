@@ -23,8 +23,8 @@ static bool receive(void *context, uint32_t milliseconds, uint8_t *byte)
 }
 int main(void)
 {
-    static const fieldscribe_modbus_function functions[] = {{3U, false, 9U}, {6U, true, 1U}};
-    static const fieldscribe_modbus_profile profile = {functions, 2U, 1U, 9U, 0U, false, true, true};
+    static const fieldscribe_modbus_profile profile = {
+        1U, 9U, true, true, false, 0U, 0x40U, {0U, 0U, 0U, 9U, 0U, 0U, 1U}};
     static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
     static const fieldscribe_modbus_writing to_all = {6U, 100U, 1U};
     uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];

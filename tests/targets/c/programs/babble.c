@@ -38,8 +38,7 @@ static void say(const uint8_t *bytes, size_t count, size_t times)
 }
 int main(void)
 {
-    static const fieldscribe_modbus_function functions[] = {{3U, false, 9U}};
-    static const fieldscribe_modbus_profile profile = {functions, 1U, 1U, 9U, 0U, false, true, true};
+    static const fieldscribe_modbus_profile profile = {1U, 9U, true, true, false, 0U, 0U, {0U, 0U, 0U, 9U}};
     static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
     static const uint8_t good[] = {1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t wrong_crc[] = {1, 3, 2, 0, 1, 0x79, 0x85};
@@ -49,6 +48,7 @@ int main(void)
     static const uint8_t no_words[] = {1, 3, 0, 0x20, 0xF0};
     static const uint8_t behind_noise[] = {1, 3, 200, 1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t tcp[] = {0, 0, 0, 0, 0, 5, 2, 3, 2, 0, 1};
+    static const uint8_t long_refusal[] = {0, 0, 0, 0, 0, 4, 1, 0x83, 2, 9};
     static const uint8_t wrong_check[] = {2, 12, 3, 0x14, 0x3A, 0, 0, 0, 0, 0, 1, 0, 0, 0x23};
     static const uint8_t longer[] = {2, 14, 3, 0x14, 0x3A, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0x20};
     static const struct {
@@ -107,6 +107,10 @@ int main(void)
     if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE ||
         heard > FIELDSCRIBE_MODBUS_ASK_MOST || heard + sizeof tcp < FIELDSCRIBE_MODBUS_ASK_MOST) {
         return 21;
+    }
+    say(long_refusal, sizeof long_refusal, 1U);
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_LONG_FRAME) {
+        return 30;
     }
     say(wrong_check, sizeof wrong_check, 1U);
     if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_NOISE) {

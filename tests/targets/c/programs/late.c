@@ -69,8 +69,7 @@ static bool reads(fieldscribe_modbus_unit *unit, uint16_t address)
 }
 int main(void)
 {
-    static const fieldscribe_modbus_function functions[] = {{3U, false, 9U}};
-    static const fieldscribe_modbus_profile profile = {functions, 1U, 1U, 9U, 0U, false, true, true};
+    static const fieldscribe_modbus_profile profile = {1U, 9U, true, true, false, 0U, 0U, {0U, 0U, 0U, 9U}};
     static uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
     static const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, NULL, 50U, 10U};
     fieldscribe_modbus_unit unit = {&line, &fieldscribe_modbus_ask_rtu, 1U, 0U, 0U, false};

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from fieldscribe.families.modbus import SPACES, Profile, profile_of
+from fieldscribe.families.modbus import FUNCTIONS, SPACES, Profile, profile_of
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import (
@@ -168,14 +168,11 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
-    functions = [
-        (unsigned(code.number), f"{most}U", _bool(code.number in profile.broadcasts), c_comment(code.name))
-        for code in device.bus.functions
-        if (most := profile.most.get(code.number)) is not None
-    ]
+    most = [unsigned(profile.most.get(number, 0)) for number in range(max(FUNCTIONS) + 1)] if profile.most else []
+    to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
 
     def identifiers() -> Iterator[Named]:
-        target = [f"{scope.prefix}_{name}" for name in ("modbus_functions", "modbus_profile", "device")]
+        target = [f"{scope.prefix}_{name}" for name in ("modbus_profile", "device")]
         yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
@@ -197,7 +194,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         layouts,
         {"frames": frames},
         identifiers(),
-        functions=functions,
+        most=", ".join(most),
+        to_all=hexadecimal(to_all),
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if profile.broadcast is None else f"{profile.broadcast}U",
         pads=_bool(profile.pad_coil_bytes_even),
         rtu=_bool("rtu" in profile.framings),
