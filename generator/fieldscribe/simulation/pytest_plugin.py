@@ -1,5 +1,7 @@
 """A fixture for pytest: `simulated_device("hitachi_l200")` runs a device until the end of the test."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
