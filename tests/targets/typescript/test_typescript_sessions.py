@@ -187,6 +187,23 @@ def test_process_data_falls_back_to_nothing_after_a_failure(folder: Path) -> Non
         assert node(None, "readAt", "task", 1) == [0]
 
 
+def test_a_broadcast_counts_for_the_words_of_its_mask(folder: Path) -> None:
+    """Bit 10 of the control word is always 1, so the mask may not leave it out."""
+    with running(folder, MM4, link={"pkw": 127, "pzd": 2}) as (drive, node):
+        node(None, "broadcast", [4, 0xFFFF, 0, 0], [0x0400, 0x2000])
+        assert (drive.values["control_word"], drive.values["main_setpoint"]) == (0x0400, 25)
+        for mask, words in (([6, 0xFBFF, 0, 0], [0x0400, 0x1000]), ([6, 0xFFFF, 0, 0], [0, 0x1000])):
+            assert status_of(node, None, "broadcast", mask, words) == "bad_value"
+        assert drive.values["main_setpoint"] == 25
+
+
+@pytest.mark.parametrize(("offset", "expected"), [(0, 0.5), (2, 2), (3, "wrong_length"), (-1, "wrong_length")])
+def test_a_value_anywhere_in_bytes(offset: int, expected: Any, l200: tuple[Simulated, NodeDevice]) -> None:
+    _, node = l200
+    call = ("baseFrequency", "decodeBytes", [0, 5, 0, 20], offset)
+    assert (status_of(node, *call) if isinstance(expected, str) else node(*call)) == expected
+
+
 def test_a_telegram_that_nobody_sends_is_told(folder: Path) -> None:
     with (
         simulated(MPU2S, on="can") as drive,
