@@ -1169,21 +1169,19 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fields
     const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
     fieldscribe_modbus_receiver receiver;
-    uint32_t whole = 0U; /* nobody answers */
     size_t length;
-    fieldscribe_modbus_status status = wire->build(line->profile, request, line->buffer, line->size, &length);
+    fieldscribe_modbus_status status;
     fieldscribe_modbus_clear(reply);
+    status = wire->build(line->profile, request, line->buffer, line->size, &length);
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
-    if (request->unit != line->profile->broadcast) {
-        whole = wire->around + fieldscribe_modbus_answer(request);
-    }
-    if ((whole > line->size) || ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count))) {
+    if (((wire->around + fieldscribe_modbus_answer(request)) > line->size) ||
+        ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    if (whole == 0U) {
+    if (request->unit == line->profile->broadcast) { /* nobody answers */
         return status;
     }
     receiver = fieldscribe_modbus_await_on(wire, request, line->buffer, line->size);
