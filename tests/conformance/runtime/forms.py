@@ -116,6 +116,8 @@ def check_names(package: Package) -> None:
     refuses(runtime.UnknownValueError, "A1 one: 2 V is none of 1 red, 3 blue", closed.encode, 2)
     refuses(runtime.UnknownValueError, "A1 one: raw 2 is none of 1 red, 3 blue", closed.check, 2)
     refuses(runtime.UnknownValueError, f"A1 one: {Other.ONE!r} is no Color", closed.encode, Other.ONE)
+    refuses(runtime.WrongTypeError, "A1 one: takes Color.RED, not 'red'", closed.encode, "red")
+    refuses(runtime.WrongTypeError, "A1 one: takes Color.RED or Color.BLUE, not True", closed.encode, True)
     bounded = _point(package, runtime.Named(runtime.U16, color, closed=True), allowed=((0, 2),))
     assert bounded.encode(1) == 1
     assert refusal(bounded.encode, 3).status == "unknown_value"
