@@ -142,6 +142,7 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
             seen = device if loaded.SEES_TITLES else (plain := plain or for_code(device))
             for path, text in loaded.outputs(seen, render):
                 yield name, path, text
+                del text  # perhaps megabytes, while the next one is made
             for path, template in loaded.runtime(seen):
                 yield name, path, (templates_dir() / template).read_text("utf-8")
         except Exception as error:

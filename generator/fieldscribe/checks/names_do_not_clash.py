@@ -35,6 +35,7 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
     from fieldscribe.targets.identifiers import clashes, resemblances
 
     owners, device = IdentifierPlaces(analysis), analysis.code_device
+    warned: set[tuple[str, int]] = set()
     kinds = PointKinds(device, lower(device).template_keys)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
         if kinds.saves_time and kinds.are_distinct(language.identifiers, language.BEFORE_POINTS):
@@ -44,7 +45,7 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", reported)
         for alike in resemblances(listed):
-            _warn(analysis, alike, owners.thing(alike.first), owners.thing(alike.second), reported)
+            _warn(analysis, alike, owners.thing(alike.first), owners.thing(alike.second), warned)
 
 
 def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reported: set[frozenset[Thing]]) -> None:
@@ -63,12 +64,12 @@ def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reporte
     analysis.report.error("name-clash", message, second.place, hint, related)
 
 
-def _warn(analysis: Analysis, alike: Resemblance, first: Thing, second: Thing, reported: set[frozenset[Thing]]) -> None:
-    """Warn of names that a compiler need not tell apart; once for all names of two things."""
-    pair, place = frozenset((first, second)), second.place or first.place
-    if pair in reported or place is None:
+def _warn(analysis: Analysis, alike: Resemblance, first: Thing, second: Thing, warned: set[tuple[str, int]]) -> None:
+    """Warn of names that a compiler need not tell apart; once for all names of what is described in one place."""
+    place = second.place or first.place
+    if place is None or (place.file, place.line) in warned:
         return
-    reported.add(pair)
+    warned.add((place.file, place.line))
     names = " and ".join(f"`{name}`" for name in alike.names)
     message = f"{names} are equal in their first {alike.significant} characters, and C compilers need not compare more"
     analysis.report.warning("long-names", message, place, "give it a shorter name")

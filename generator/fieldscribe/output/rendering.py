@@ -1,6 +1,7 @@
 """Renders the files of devices for a target: here, or in a child process for all devices."""
 
 from collections.abc import Callable, Collection, Iterator
+from itertools import starmap
 from typing import NamedTuple
 
 from fieldscribe.diagnostics import show_traceback
@@ -51,7 +52,8 @@ def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
     """Return the files of a device for a target."""
     try:
-        return {path: keep(text) for _, path, text in outputs(models.whole, [target], models.plain)}
+        found = outputs(models.whole, [target], models.plain)
+        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text outlives its turn
     except TargetError as error:
         return failure(f"target {error}", error.__cause__ or error)
     except UnicodeEncodeError as error:

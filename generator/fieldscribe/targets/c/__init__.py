@@ -48,6 +48,7 @@ def outputs(
     frames_text = framed(render, f"c/{device.family}.h.j2", context, texts)
     del texts  # megabytes of a large device, which are in the text above
     yield f"c/{device.id}_{device.family}.h", frames_text
+    del frames_text
     if rows and (macros := "".join(section.rows(scope) for section in sections.values())):
         yield f"c/{device.id}_rows.h", framed(render, f"c/{device.family}_rows.h.j2", context, {"rows": macros})
     if tests:
