@@ -60,8 +60,16 @@ class Point:
         """The highest and the lowest bit of a group inside its word."""
         if "bits" not in self.row:
             return None
-        high, _, low = self.row["bits"].partition("..")
-        return number(high), number(low or high)
+        return self._numbered(self.row["bits"])
+
+    def _numbered(self, key: str) -> tuple[int, int]:
+        """The highest and the lowest bit of a key, counted from 0 at the lowest, however the row counts them."""
+        said = self.row.get("bit_numbers", "")
+        first, _, last = key.partition("..")
+        one, other = (number(end) - said.startswith("from 1") for end in (first, last or first))
+        if said.endswith("at the top"):
+            one, other = (_width_of(self.type) - 1 - bit for bit in (one, other))
+        return max(one, other), min(one, other)
 
     @cached_property
     def width(self) -> int:
@@ -149,12 +157,11 @@ class Point:
         """Of each flag: lowest bit, width, the value that means its name, names of its numbers."""
         found = {}
         for key, entry in self.row.get("flags", {}).items():
-            high, _, low = key.partition("..")
-            lowest = number(low or high) - (self.bits[1] if self.bits else 0)
+            high, low = self._numbered(key)
+            lowest = low - (self.bits[1] if self.bits else 0)
             facts = {} if isinstance(entry, str) else entry
             values = self.device_entries(facts["values"]) if "values" in facts else {}
-            width = number(high) - number(low or high) + 1
-            found[_name(entry)] = (lowest, width, int(facts.get("active", 1)), values)
+            found[_name(entry)] = (lowest, high - low + 1, int(facts.get("active", 1)), values)
         return found
 
     # ---- raw and value ----
@@ -231,10 +238,9 @@ class Point:
         """The mask of the bits that are always written as a constant, and the constant."""
         mask = constant = 0
         for key, value in self.row.get("fixed", {}).items():
-            high, _, low = key.partition("..")
-            lowest = number(low or high)
-            ones = (1 << number(high) - lowest + 1) - 1
-            mask, constant = mask | ones << lowest, constant | number(value) << lowest
+            high, low = self._numbered(key)
+            ones = (1 << high - low + 1) - 1
+            mask, constant = mask | ones << low, constant | number(value) << low
         return mask, constant
 
     @cached_property

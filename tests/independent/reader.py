@@ -18,7 +18,7 @@ Row = dict[str, Any]
 
 NOTHING = ("", "~", "null")
 _CHOICES = {"set": "sets", "index": "indices"}
-_INHERITED = ("space", "access", "type", "telegram", "numbering", "addressing", "bytes", "coding")
+_INHERITED = ("space", "access", "type", "telegram", "numbering", "addressing", "bytes", "coding", "bit_numbers")
 
 
 @dataclass
