@@ -11,7 +11,8 @@ use std::task::{Context, Poll, Wake, Waker};
 use fieldscribe_runtime::can::{
     AsyncTransport, Content, Frame, Hears, Listener, LocalTransport, ParseError, Receiver, Transport,
 };
-use fieldscribe_runtime::{About, BuildError, ClientError, ReplyError, Text};
+use fieldscribe_runtime::{identifications, About, BuildError, ClientError, Identification, OtherDevice, ReplyError, Text};
+use odd_can::OddCan;
 use odd_can::{enums, flags, messages, points, telegrams, with, AsyncClient, Client, Error, LocalClient, PROFILE};
 
 /// A device that answers from its memory, with other frames before each answer.
@@ -337,6 +338,27 @@ fn a_late_answer_is_not_taken_for_the_next() {
     assert_eq!(finish(client.read::<points::Actual>()), Ok(2));
 }
 
+const ROWS: &[Identification<OddCan>] = identifications! { points:
+    Actual holds Raw 3;
+    Actual holds Raw 7;
+    Name of "model" "small" holds Text "Pump";
+    Name of "model" "large" holds Text "Pump 12";
+};
+
+fn a_device_is_identified_by_numbers_and_texts() {
+    let words = [(739, 0x5075), (738, 0x6D70), (737, 0x2031), (736, 0x3220)];
+    let memory: Vec<(u16, u16)> = words.into_iter().chain((732..736).map(|address| (address, 0x2020))).collect();
+    let mut bus = Bus::new(&memory, vec![part(0, [5000, 0, 0])]);
+    bus.memory.insert(407, 7);
+    assert_eq!(Client::new(&mut bus, 5).identify(ROWS).unwrap().unwrap().value("model"), Some("large"));
+    assert_eq!(bus.sent.len(), 1 + 8); // each word once
+    bus.memory.insert(407, 8);
+    assert_eq!(Client::new(&mut bus, 5).identify(ROWS), Ok(Err(OtherDevice("actual"))));
+    bus.memory.remove(&407);
+    let silent = Client::new(&mut bus, 5).identify(ROWS).unwrap_err();
+    assert_eq!((silent.name(), silent.point()), ("line", Some("actual")));
+}
+
 /// Executors of several threads take the futures over any transport; this would not compile if they did not.
 #[allow(dead_code, reason = "it only has to compile")]
 fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
@@ -345,6 +367,7 @@ fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
     send(client.write::<points::Target>(45.0));
     send(client.update::<points::Mode>(0));
     send(client.listen());
+    send(client.identify(ROWS));
 }
 
 fn main() {
@@ -357,6 +380,7 @@ fn main() {
     units_are_checked();
     a_listener_of_several_telegrams_waits_for_each();
     wrong_bytes_are_of_no_telegram();
+    a_device_is_identified_by_numbers_and_texts();
     waits_without_blocking();
     a_transport_may_stay_on_its_thread();
 }

@@ -10,7 +10,8 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
 use fieldscribe_runtime::uss::{check_byte, Link, Request, Value};
-use fieldscribe_runtime::{About, BuildError, ClientError, ReplyError};
+use fieldscribe_runtime::{identifications, About, BuildError, ClientError, Identification, OtherDevice, ReplyError};
+use odd_uss::OddUss;
 use odd_uss::{exceptions, flags, points, tasks, with, AsyncClient, Client, Error, LocalClient};
 
 /// A drive with one or two words for each element, which sends its process data and refuses what it does not have.
@@ -351,6 +352,23 @@ fn a_transport_may_stay_on_its_thread() {
     assert_eq!((line.borrow().sent.len(), line.borrow().kept.len()), (3, 1));
 }
 
+fn a_drive_is_identified_by_its_numbers() {
+    let rows: &[Identification<OddUss>] = identifications! { points:
+        StatusWord holds Raw 0x0331;
+        Source of "model" "small" holds Raw 5;
+        Source of "model" "large" holds Raw 6;
+        Source of "model" "larger" holds Raw 6;
+    };
+    let mut client = Client::new(Drive::new(&[((700, 0), &[6])]), LINK, 3);
+    let found: Vec<_> = client.identify(rows).unwrap().unwrap().iter().collect();
+    assert_eq!(found, [("model", "large")]); // the first that fits
+    client.transport().memory.clear();
+    let refused = client.identify(rows).unwrap_err(); // the drive may refuse for now: it need not be another
+    assert_eq!((refused.name(), refused.point()), ("refused", Some("source")));
+    client.transport().actual[0] = 0;
+    assert_eq!(client.identify(rows), Ok(Err(OtherDevice("status_word"))));
+}
+
 /// A drive whose answers nobody waits for.
 struct Silent(Drive, bool);
 
@@ -394,6 +412,7 @@ fn main() {
     constant_bits_come_with_their_own_word();
     answers_are_held_against_what_was_written();
     all_units_are_sent_valid_words();
+    a_drive_is_identified_by_its_numbers();
     a_dropped_exchange_is_a_failed_one();
     waits_without_blocking();
     a_transport_may_stay_on_its_thread();

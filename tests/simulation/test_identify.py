@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from itertools import product
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import simulated
 from support.places import TESTS
 from support.quick import full_but
+from support.rust_workspace import rust_program
+from support.toolchains import succeed
 
 SINK = TESTS / "devices/kitchen_sink"
 TOLD = ("fronius_datamanager",)
@@ -36,3 +40,33 @@ def test_variants_are_what_was_simulated(voltage: str, model: str, capsys: pytes
     with simulated(SINK, on="tcp", variants=[f"voltage={voltage}", f"model={model}"]) as device:
         assert main(["identify", str(SINK), "--line", device.url]) == 0
     assert capsys.readouterr().out == f"it is kitchen_sink, voltage={voltage}, model={model}\n"
+
+
+@pytest.fixture(scope="module")
+def in_rust(rust_libraries: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[int], list[str]]:
+    """What the clients in Rust say of the device at a port: how many requests it took, and who it is."""
+    crates = [rust_libraries / f"lib{crate}.rlib" for crate in ("fieldscribe_runtime", SINK.name)]
+    program = rust_program(TESTS / "rust/identify.rs", tmp_path_factory.mktemp("rust") / "identify", *crates)
+    return lambda port: succeed([program, f"127.0.0.1:{port}"]).splitlines()
+
+
+@pytest.mark.full(seconds=1)
+@pytest.mark.parametrize(
+    ("voltage", "model", "requests"), [("230V", "small", 4), ("230V", "large", 4), ("400V", "large", 5)]
+)
+def test_rust_finds_variants(in_rust: Callable[[int], list[str]], voltage: str, model: str, requests: int) -> None:
+    """The client that blocks and those that do not; a point with several rows in turn is read once."""
+    with simulated(SINK, on="tcp", variants=[f"voltage={voltage}", f"model={model}"]) as device:
+        assert in_rust(device.port) == 3 * [f"{requests} voltage={voltage} model={model}"]
+
+
+@pytest.mark.full(seconds=1)
+def test_rust_knows_another_device(in_rust: Callable[[int], list[str]]) -> None:
+    """By what a point holds, or by the refusal to read it; a variant that does not fit is left out."""
+    with simulated(SINK, on="tcp", variants=["voltage=400V", "model=large"]) as device:
+        device.values["control_mode"] = "idle"
+        assert in_rust(device.port) == 3 * ["5 model=large"]
+        device.values["model_name"] = "KS-3"
+        assert in_rust(device.port) == 3 * ["2 it is another device by its model_name"]
+    with simulated("hitachi_l200", on="tcp") as device:
+        assert in_rust(device.port) == 3 * ["1 it is another device by its maker"]

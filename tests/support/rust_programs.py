@@ -57,7 +57,13 @@ CALLS = {
 }
 """How a block that only declares a function or a type is used."""
 
-PLACES = {"192.168.0.20:4001": "RTU", "192.168.0.20:502": "TCP", "/dev/ttyUSB0": "TTY", "points.txt": "POINTS"}
+PLACES = {
+    "192.168.0.20:4001": "RTU",
+    "192.168.0.20:502": "TCP",
+    "192.168.0.21:502": "INVERTER",
+    "/dev/ttyUSB0": "TTY",
+    "points.txt": "POINTS",
+}
 """The addresses and the file on the page, and where a program finds those of the test."""
 
 

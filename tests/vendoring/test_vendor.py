@@ -65,6 +65,8 @@ def names(device: Device, *words: str) -> list[str]:
         ("hitachi_l200", ("monitor_d",), None),
         ("woodward_mpu2s", ("generator_active_power",), ["generator_active_power", "generator_power_exponent"]),
         ("nord_sk5xxe", ("P050[2]",), ["setpoint_1"]),
+        # clients identify the device by any choice of points
+        ("fronius_datamanager", ("SN",), ["manufacturer", "serial_number"]),
     ],
 )
 def test_points_are_chosen_with_what_they_need(device: str, words: tuple[str, ...], points: list[str] | None) -> None:

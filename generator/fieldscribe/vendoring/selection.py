@@ -40,6 +40,7 @@ def select(device: Device, words: Sequence[str]) -> Device:
     stepped = tuple(command for command in device.stepped_commands if command.name in commands)
     asked = [command.busy for command in kept if command.busy is not None]
     asked += [name for command in stepped for step in command.steps if step.when for name in step.when.names]
+    asked += [identification.point for identification in device.identifications]
     return _reduced(device, tuple(_with_dependencies(device, items, asked)), kept, stepped)
 
 

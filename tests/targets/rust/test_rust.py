@@ -320,7 +320,6 @@ impl Transport for Line {
     type Error = ();
     fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
 }
-use @DEVICE@::@TYPE@ as Device;
 pub fn command(client: &mut Client<Line>, command: &Command<Device>) -> bool { client.command(command).is_ok() }
 pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
     "can": """use @DEVICE@::{Client, Frame, Receiver, Transport};
@@ -339,14 +338,17 @@ impl Transport for Line {
 }""",
 }
 """What the probes of a family need beside the points."""
+IDENTIFY = """use runtime::Identification;
+pub fn identify(client: &mut Client<Line>, rows: &[Identification<Device>]) -> bool { client.identify(rows).is_ok() }"""
 
 
 def probe_source(device: str) -> str:
     """A crate that calls every function of every point, and those of a client for one point of each kind."""
     model = MODELS[device]()
     names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
-    client = CLIENTS.get(model.family, "").replace("@DEVICE@", device).replace("@TYPE@", type_name(device))
-    lines = ["#![no_std]", f"use {device}::{{{names}}};", client]
+    client = CLIENTS.get(model.family, "").replace("@DEVICE@", device)
+    lines = ["#![no_std]", f"use {device}::{{{names}, {type_name(device)} as Device}};", client]
+    lines += [IDENTIFY] if client else []
     scope, known = scope_of(model), set()
     for subject in scope.subjects:
         name, point = f"{device}::points::{subject.name}", subject.point
@@ -417,6 +419,8 @@ def probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
     read, write = f"<{name} as Readable>", f"<{name} as Writable>"
     counted = is_counted(subject)
     if subject.point.readable:
+        if subject.point.text is not None and not subject.point.text.is_bytes:
+            yield "is(held: &runtime::HeldWords, text: &str) -> bool", f"runtime::is_text::<{name}>(held, text).is_ok()"
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"
         if counted:

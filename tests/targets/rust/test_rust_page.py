@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.simulation import simulated
 from pymodbus import FramerType
 from support.modbus_server import server
 from support.places import ROOT, TESTS
@@ -86,9 +87,10 @@ def test_transports(project: Path, name: str) -> None:
 @pytest.mark.full(seconds=1)
 def test_the_programs_of_the_page_run(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     printed = []
-    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp:
+    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp, simulated("fronius_datamanager") as inverter:
         monkeypatch.setenv("RTU", f"127.0.0.1:{rtu}")
         monkeypatch.setenv("TCP", f"127.0.0.1:{tcp}")
+        monkeypatch.setenv("INVERTER", f"127.0.0.1:{inverter.port}")
         monkeypatch.setenv("POINTS", str(tmp_path / "points.txt"))
         (tmp_path / "points.txt").write_text("A020\nrun_source\n", encoding="utf-8")
         for number in range(len(BLOCKS["rust"])):
@@ -96,7 +98,14 @@ def test_the_programs_of_the_page_run(project: Path, tmp_path: Path, monkeypatch
             with serial_line(rtu) as path:  # programs keep a port to themselves
                 monkeypatch.setenv("TTY", path)
                 printed.append(succeed([project.parent / "built/pages"]).splitlines())
-    first, serial, many, values, by_address, from_file, by_name, chosen, failing, gateway, *printed = printed
+        monkeypatch.setenv("PAGE", str(next(at for at, found in enumerate(printed) if "it is one: None" in found)))
+        inverter.values["manufacturer"] = "Another"
+        for port in (inverter.port, tcp):  # of another maker, and without a block
+            monkeypatch.setenv("INVERTER", f"127.0.0.1:{port}")
+            assert succeed([project.parent / "built/pages"]) == "it is another device\n"
+    first, serial, many, values, by_address, from_file, by_name, chosen, identified, failing, gateway, *printed = (
+        printed
+    )
     shared, own, tokio, anew, uart, genset = printed
     assert first == serial == anew == ["0.1 Hz"]
     assert shared == ["0.1", "0.1"]
@@ -109,6 +118,7 @@ def test_the_programs_of_the_page_run(project: Path, tmp_path: Path, monkeypatch
     assert by_name[:2] == ["base_frequency at 1028h: Some((0.0, 400.0)) Hz", "Number(50.0) 500"]
     assert {"output_frequency 0.1", "motor_current 0.1", "trip_count 1"} < set(by_name)
     assert chosen == ["base_frequency: 50"]
+    assert identified == ["it is one: None"]
     assert failing[0] == "0.1"
     assert f"// {failing[1]}\n" in PAGE
     assert failing[2].endswith(" A")

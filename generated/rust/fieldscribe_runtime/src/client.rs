@@ -306,7 +306,7 @@ macro_rules! write_methods {
     };
 }
 
-/// Methods that read and write points as data by `$get` and `$put`, which take the facts of a point.
+/// Methods that read and write points as data by `$get`, which gives the words of a point in reading order, and `$put`.
 macro_rules! data_methods {
     ([$($async:ident)?], [$($wait:tt)*], $get:ident $put:ident) => {
         /// The value of a point as data; what its scale needs of other points is read first.
@@ -357,8 +357,55 @@ macro_rules! data_methods {
         /// The raw number of a point.
         $($async)? fn raw_of(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
             point.readable()?;
-            let raw = self.$get(point)$($wait)*;
-            raw.map_err(|error| error.named(point.name))
+            let words = self.$get(point)$($wait)*;
+            Ok(point.raw_of(words.map_err(|error| error.named(point.name))?))
+        }
+
+        /// Reads what tells the device, and then each of its variants, from others: `IDENTIFICATIONS` of its crate.
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells; that it is another device is no error of the bus: `identify(rows)??`.
+        pub $($async)? fn identify<P>(
+            &mut self,
+            rows: &[Identification<P>],
+        ) -> Result<Result<Variants, OtherDevice>, ClientError<T::Error>>
+        where
+            D: Accepts<P>,
+        {
+            let (mut found, mut words, mut read) = (Variants::default(), NOTHING_HELD, None);
+            let mut left = rows;
+            while let Some(first) = left.first() {
+                let (mut rows, others) = divided(left, |row| row.variant == first.variant);
+                left = others;
+                if first.variant.is_some_and(|(axis, _)| found.value(axis).is_some()) {
+                    continue;
+                }
+                let mut misfit = None;
+                while let (Some(row), None) = (rows.first(), misfit) {
+                    let point = row.point.facts;
+                    let (alternatives, others) = divided(rows, |row| row.point.facts == point);
+                    rows = others;
+                    if read != Some(point) {
+                        read = match self.$get(point)$($wait)* {
+                            Ok(held) => {
+                                words = held;
+                                Some(point)
+                            }
+                            Err(ClientError::Reply(ReplyError::Exception { .. }, _)) => None,
+                            Err(error) => return Err(error.named(point.name)),
+                        };
+                    }
+                    if read.is_none() || !holds(alternatives, &words)? {
+                        misfit = Some(point.name);
+                    }
+                }
+                match (first.variant, misfit) {
+                    (None, Some(point)) => return Ok(Err(OtherDevice(point))),
+                    (Some(variant), None) => found.add(variant)?,
+                    _ => {}
+                }
+            }
+            Ok(Ok(found))
         }
     };
 }

@@ -56,7 +56,7 @@ pub use flags::{Flag, Flags};
 pub use form::Count;
 pub use frame_error::{BuildError, ReplyError};
 pub use given::Given;
-pub use identification::{Held, Identification};
+pub use identification::{is_text, Held, HeldWords, Identification, OtherDevice, Variants};
 pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,

@@ -314,8 +314,8 @@ pub const POINTS: runtime::Points<FroniusDatamanager> = runtime::point_table! { 
 };
 
 /// What tells the device, and each of its variants, from others: what these points hold, in the order of reading.
-pub const IDENTIFICATIONS: &[runtime::Identification] = runtime::identifications! {
-    "manufacturer" holds Text "Fronius";
+pub const IDENTIFICATIONS: &[runtime::Identification<FroniusDatamanager>] = runtime::identifications! { points:
+    Manufacturer holds Text "Fronius";
 };
 
 /// A point of the device as data.

@@ -32,8 +32,9 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     return point.item, binding(4, item, f"runtime::Documented::new({where})")
 
 
-def _identifications(device: Device) -> Iterator[str]:
+def _identifications(device: Device, scope: CrateScope) -> Iterator[str]:
     """Yield the rows of what identifies the device and its variants."""
+    names = {subject.point.name: subject.name for subject in scope.subjects}
     for identification in device.identifications:
         variant = identification.variant
         axis = "" if variant is None else f" of {rust_string(variant.axis)} {rust_string(variant.value)}"
@@ -41,7 +42,7 @@ def _identifications(device: Device) -> Iterator[str]:
             *(f"Raw {raw}" for raw in identification.raws),
             *(f"Text {rust_string(text)}" for text in identification.texts),
         ]
-        yield from (f"{rust_string(identification.point)}{axis} holds {each};" for each in held)
+        yield from (f"{names[identification.point]}{axis} holds {each};" for each in held)
 
 
 def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
@@ -67,7 +68,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     return {
         "head": head(device, "//"),
         "table": tuple(subject.name for subject in scope.subjects),
-        "identifications": tuple(_identifications(device)),
+        "identifications": tuple(_identifications(device, scope)),
         "left_out": left_out(device, scope.lowered),
         "doubts": [tuple(wrapped(text)) for text in wording.open_texts(device.doubts, rust_code)],
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),

@@ -6,12 +6,13 @@ use core::marker::PhantomData;
 
 use super::{Dialogue, Frame, Message, Parameter, Profile, Received, Receiver, Telegram};
 use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
+use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable, EncodableAlone, Error, NeedsNothing, PointFacts, PointInfo, Points,
-    Raw, Readable, ReplyError, Whole, Writable,
+    Decoded, Device, Encodable, EncodableAlone, Error, Identification, NeedsNothing, OtherDevice,
+    PointFacts, PointInfo, Points, Raw, Readable, ReplyError, Variants, Whole, Writable,
 };
 
 /// Sends frames and waits for frames.
@@ -464,16 +465,19 @@ macro_rules! client {
                 written.map_err(ClientError::of::<P>)
             }
 
-            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
+            data_methods! { [$($async)?], [$($wait)*], words_of put_data }
 
-            /// The raw number of a parameter as data.
-            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
+            /// The words of a parameter as data.
+            $($async)? fn words_of<const N: usize>(
+                &mut self,
+                point: &PointFacts,
+            ) -> Result<[u16; N], ClientError<T::Error>> {
                 point.outside_telegrams()?;
-                let mut words = [0; 4];
+                let mut words = [0; N];
                 for (place, address) in words.iter_mut().zip(point.addresses) {
                     *place = self.read_word(*address)$($wait)*?;
                 }
-                Ok(point.raw_of(words))
+                Ok(words)
             }
 
             /// Writes a raw number that was checked to a parameter as data, word by word.

@@ -8,12 +8,13 @@ use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
     MOST_NEEDS,
 };
+use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{joined, split};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable, EncodableAlone, Error, NeedsNothing, PointFacts, PointInfo, Points,
-    Raw, Readable, ReplyError, Whole, Writable,
+    Decoded, Device, Encodable, EncodableAlone, Error, Identification, NeedsNothing, OtherDevice,
+    PointFacts, PointInfo, Points, Raw, Readable, ReplyError, Variants, Whole, Writable,
 };
 
 /// The most words of process data that a client keeps.
@@ -567,11 +568,14 @@ macro_rules! client {
                 Ok(reply.word().map_err(Error::of::<P>)?)
             }
 
-            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
+            data_methods! { [$($async)?], [$($wait)*], words_of put_data }
 
-            /// The raw number of a point as data: of the process data that the drive is asked for, or of a parameter.
-            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
-                let mut words = [0; 4];
+            /// The words of a point as data: of the process data that the drive is asked for, or of a parameter.
+            $($async)? fn words_of<const N: usize>(
+                &mut self,
+                point: &PointFacts,
+            ) -> Result<[u16; N], ClientError<T::Error>> {
+                let mut words = [0; N];
                 if point.telegram.is_some() {
                     self.cycle()$($wait)*?;
                     for (place, position) in words.iter_mut().zip(point.addresses) {
@@ -582,7 +586,7 @@ macro_rules! client {
                     let places = words.get_mut(..usize::from(point.words));
                     value.fill(places.unwrap_or_default())?;
                 }
-                Ok(point.raw_of(words))
+                Ok(words)
             }
 
             /// Sends a raw number that was checked in the process data, or changes a parameter until the power is off.

@@ -722,19 +722,20 @@ pub fn documented(vector: &Vector, found: &Documented) -> Outcome {
 }
 
 /// What identifies the device or a variant, an alternative at a time.
-pub fn identification(vector: &Vector, rows: &[Identification]) -> Option<Outcome> {
+pub fn identification<D>(vector: &Vector, rows: &[Identification<D>]) -> Option<Outcome> {
     let axis = vector.pairs("variant");
-    let is_row = |row: &&Identification| {
+    let is_row = |row: &&Identification<D>| {
         let (axis_of_row, value) = row.variant.unzip();
         let held = match row.holds {
             Held::Raw(raw) => vector.number("raw") == Some(raw),
-            Held::Text(text) => vector.said("text").as_deref() == Some(text),
+            Held::Text(text, _) => vector.said("text").as_deref() == Some(text),
         };
         let variant = axis
             .first()
             .map(|(axis, value)| (axis.as_str(), value.as_str()));
-        let named = vector.text("name").contains(row.point); // the name of a macro of C
-        named && held && variant.unzip() == (axis_of_row, value) && row.point == vector.text("of")
+        let point = row.point.name;
+        let named = vector.text("name").contains(point); // the name of a macro of C
+        named && held && variant.unzip() == (axis_of_row, value) && point == vector.text("of")
     };
     Some(same(rows.iter().filter(is_row).count(), 1))
 }

@@ -11,14 +11,16 @@ use crate::client::{
     data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
     MOST_NEEDS,
 };
+use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{counted, counted_mut, in_reading_order};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
-    Decoded, Device, Encodable, EncodableAlone,
+    Decoded, Device, Encodable, EncodableAlone, Identification,
 };
 use crate::{
-    NeedsNothing, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError, Whole, Writable,
+    NeedsNothing, OtherDevice, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError,
+    Variants, Whole, Writable,
 };
 
 /// One unit of a bus: numbers the requests and keeps the frames.
@@ -281,13 +283,7 @@ macro_rules! client {
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
 
-            data_methods! { [$($async)?], [$($wait)*], get_data put_data }
-
-            /// The raw number of a point as data.
-            $($async)? fn get_data(&mut self, point: &PointFacts) -> Result<i128, ClientError<T::Error>> {
-                let words = self.words_of(point)$($wait)*?;
-                Ok(point.raw_of(in_reading_order(words, point.addresses)))
-            }
+            data_methods! { [$($async)?], [$($wait)*], words_of put_data }
 
             /// Writes a raw number that was checked to a point as data.
             $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
@@ -303,14 +299,17 @@ macro_rules! client {
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
             }
 
-            /// The words of a point as data, in the order of their addresses.
-            $($async)? fn words_of(&mut self, point: &PointFacts) -> Result<[u16; 4], ClientError<T::Error>> {
-                let (function, mut words) = (read_function(point.space), [0; 4]);
+            /// The words of a point as data, in reading order.
+            $($async)? fn words_of<const N: usize>(
+                &mut self,
+                point: &PointFacts,
+            ) -> Result<[u16; N], ClientError<T::Error>> {
+                let (function, mut words) = (read_function(point.space), [0; N]);
                 let mut request = Request::new(self.unit.number, function, point.address, point.span())
                     .counted_from(point.base);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
                 self.unit.copy(&request, &mut words);
-                Ok(words)
+                Ok(in_reading_order(words, point.addresses))
             }
 
             /// Gives a command, one of `commands`.
