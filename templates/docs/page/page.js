@@ -39,7 +39,7 @@ function titlesOf(title) {
 /** Return what a search finds beside points: places with a title, a text and an address after #. */
 function placesOf() {
   const places = [];
-  for (const erratum of device.errata) places.push({ title: erratum.id, kind: "Erratum", text: [erratum.printed, erratum.taken, erratum.why, ...erratum.open].join(" "), hash: `erratum=${erratum.id}` });
+  for (const erratum of device.errata) places.push({ title: erratum.id, kind: "Erratum", text: [erratum.printed, erratum.taken, erratum.why, ...erratum.open.map(([, text]) => text)].join(" "), hash: `erratum=${erratum.id}` });
   for (const [section, parts] of Object.entries(device.sections)) {
     for (const [heading, table] of parts) {
       const [, ...rows] = table.split("\ue004");

@@ -12,7 +12,7 @@ function pointArticle(device, point, width) {
   const about = element("p", { className: "soft" }, element("code", {}, point.name), ...others.flatMap((title) => [" · ", element("bdi", {}, title)]), ` · ${titlesOf(device.groups[point.group]?.[1] ?? "")[0] ?? ""}`, point.variant ? ` · only ${point.variant}` : "");
   const article = element("article", { className: "point" }, heading, about);
   article.append(...[
-    factColumns(point), addressTable(device, point), errataOf(device, point), noteOf(point),
+    factColumns(device, point), addressTable(device, point), errataOf(device, point), noteOf(point),
     element("section", { id: "calculator", hidden: true, ariaLabel: "Calculator" }),
     bitsOf(device, point, width), meaningsOf(device, point), remarksOf(device, point), sharedWord(device, point, width),
     codeOf(device, point), sourceOf(device, point),
@@ -43,14 +43,18 @@ function allRows(point) {
   return [...point.rows, ...point.shared.rows].sort((a, b) => a[0] - b[0]);
 }
 
-/** @param {Point} point */
-function factColumns(point) {
+/** Return the facts that stand as columns, each with what the manual leaves open of it.
+ * @param {PageDevice} device @param {Point} point */
+function factColumns(device, point) {
   const texts = Object.fromEntries(allRows(point).filter((row) => IN_COLUMNS.has(row[1])).map((row) => [row[1], row[2]]));
   texts.Range = point.allowed.range ?? "";
   texts["Raw range"] = point.allowed.raw ?? "";
   texts.Default = point.default;
-  const heads = COLUMNS.filter((head) => texts[head]);
-  return tableOf(heads, [heads.map((head) => texts[head])], "Type, limits and unit", "facts");
+  const doubts = point.errata.flatMap((at) => device.errata[at].open);
+  const open = Object.fromEntries(COLUMNS.map((head) => [head, doubts.filter(([fact]) => capital(fact) === head).map(([, text]) => element("small", { className: "open" }, `open: ${text}`))]));
+  const heads = COLUMNS.filter((head) => texts[head] || open[head].length);
+  const cells = heads.map((head) => (open[head].length ? element("div", {}, texts[head] ?? "", ...open[head]) : texts[head]));
+  return tableOf(heads, [cells], "Type, limits and unit", "facts");
 }
 
 /** @param {PageDevice} device @param {Point} point */
@@ -77,7 +81,7 @@ function errataOf(device, point) {
 /** Return an erratum as a box: what is taken, and opened, what is printed, why, and where.
  * @param {PageDevice} device @param {Erratum} erratum @param {boolean} [withPoints] */
 function erratumBox(device, erratum, withPoints = false) {
-  const open = erratum.open.map((text) => `the manual leaves open ${text}`).join("; ");
+  const open = erratum.open.map(([, text]) => `the manual leaves open ${text}`).join("; ");
   const rows = [["Printed", erratum.printed], ["Taken", erratum.taken], ["Why", erratum.why], ["Open", open], ["Place", placeText(device, erratum.source)]];
   const about = erratum.points.length ? listed(erratum.points.map((name) => pointLink(name))) : [erratum.where];
   if (withPoints) rows.unshift(["About", ...about]);

@@ -73,7 +73,8 @@ interface Erratum {
   taken: string;
   why: string;
   certainty: string;
-  open: string[];
+  /** The facts that the manual leaves open, each with what is open. */
+  open: [fact: string, text: string][];
   source: ManualPlace;
 }
 

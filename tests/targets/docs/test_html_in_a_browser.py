@@ -112,6 +112,7 @@ def test_a_link_to_a_group_lists_it_alone(seen: dict[str, Any]) -> None:
 
 
 def test_a_link_to_a_point_that_is_gone_says_so(seen: dict[str, Any]) -> None:
+    assert seen["doubts"] == ["0..5open: whether 5 may be written in a 200 V unit"]
     assert seen["unknown"] == "There is no point gone: 256 of 256 points"
 
 

@@ -85,6 +85,8 @@ seen.typed = [await page.inputValue("#find")];
 await page.keyboard.press("ArrowDown");
 seen.typed.push(await page.evaluate("document.activeElement.closest('tr')?.dataset.point"));
 for (const hash of STRANGE) await open(hash);
+await open("#point=motor_voltage");
+seen.doubts = await page.$$eval(".facts .open", (all) => all.map((each) => each.closest("td").textContent));
 await open("#point=gone");
 seen.unknown = await page.textContent(".status");
 seen.ranges = await page.evaluate(() => Object.fromEntries(device.points.map((point) => [point.name, listRow(point).querySelector(".range").textContent])));

@@ -131,7 +131,7 @@ def _erratum(erratum: Erratum, points: Points, items: Mapping[str, list[str]]) -
         "points": about,
         "where": "" if about else line(str(erratum.where)),
         **{key: line(text) for key, text in texts.items()},
-        "open": [line(text) for _, text in erratum.leaves_open],
+        "open": [[line(fact), line(text)] for fact, text in erratum.leaves_open],
         "source": points.source(erratum.source),
     }
 
