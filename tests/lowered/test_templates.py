@@ -18,12 +18,13 @@ from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Specia
 from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript
 from fieldscribe.targets.c import point_templates
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python import enums as python_enums
 from fieldscribe.targets.python import points_module
 from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
 from fieldscribe.targets.typescript import points as typescript_points
-from fieldscribe.text import MOST_FIELDS, TextTemplate, c_comment, line, placeholders
+from fieldscribe.text import c_comment, line
 from support.described import SHIPPED, made, shipped
 from support.models import (
     CELSIUS,

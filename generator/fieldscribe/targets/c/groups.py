@@ -16,7 +16,8 @@ from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, raw_type
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
-from fieldscribe.text import TextTemplates, c_comment, c_string, placeholders
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
+from fieldscribe.text import c_comment, c_string
 
 _ITSELF = Line(1, 0, 1)
 """The line from a raw number to itself."""

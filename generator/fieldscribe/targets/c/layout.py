@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.resources import Render
-from fieldscribe.text import placeholders
+from fieldscribe.targets.placeholders import placeholders
 
 WIDTH = 120
 """No line is longer."""

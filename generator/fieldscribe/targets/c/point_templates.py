@@ -16,7 +16,8 @@ from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.targets.c.scope import HeaderScope, bare, hexadecimal, signed
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields, PointView
-from fieldscribe.text import MOST_FIELDS, TextTemplates, c_comment, c_string, placeholders, upper
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
+from fieldscribe.text import c_comment, c_string, upper
 
 
 class LimitFields(NamedTuple):

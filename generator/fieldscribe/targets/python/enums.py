@@ -8,11 +8,12 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point, Titles
 from fieldscribe.resources import Render
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import docstring, laid_out
 from fieldscribe.targets.runtime_calls.point_texts import entry_text, flag_text, sentence
 from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, call
-from fieldscribe.text import TextTemplates, placeholders, python_doc, upper
+from fieldscribe.text import python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from fieldscribe.model import Command, Device, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, scope_of, sorted_imports
 from fieldscribe.targets.python.layout import DOC, WIDTH, arguments, comment, docstring, laid_out, leaf, wrapped
@@ -29,7 +30,7 @@ from fieldscribe.targets.runtime_calls.point_texts import (
     texts_of,
 )
 from fieldscribe.targets.runtime_calls.scope import Call, Scope
-from fieldscribe.text import MOST_FIELDS, TextTemplates, placeholders, python_doc, python_string
+from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import label, open_text
 
 

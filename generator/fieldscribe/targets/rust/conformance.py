@@ -5,11 +5,12 @@ from functools import partial
 
 from fieldscribe.families import family
 from fieldscribe.model import Device
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.conformance_rows import Spot, bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, Tokens, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
-from fieldscribe.text import TextTemplates, placeholders, rust_string, upper
+from fieldscribe.text import rust_string, upper
 
 _ALWAYS = {
     "decode": "decode",

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, readable_groups
 from fieldscribe.targets.runtime_calls.point_call import call_of, numbers_of
 from fieldscribe.targets.runtime_calls.point_texts import (
@@ -26,7 +27,7 @@ from fieldscribe.targets.typescript.identifiers import (
     scope_of,
 )
 from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
-from fieldscribe.text import MOST_FIELDS, TextTemplates, camel, js_comment, js_string, placeholders
+from fieldscribe.text import camel, js_comment, js_string
 from fieldscribe.wording import open_text
 
 TYPE_NAMES = ("ReadOnly", "ReadWrite", "Stored", "StoredWriteOnly", "WriteOnly")
