@@ -49,6 +49,7 @@ def facts(package: Package, vector: Vector) -> bool:
     facts = point.facts
     found = {"group": facts.group, "name": facts.name, "symbol": facts.unit or None, "default": facts.default}
     found |= {"changes": facts.changes, "changes_with": list(facts.changes_with), "keeps": facts.keeps or None}
+    found["uncertain"] = 1 if facts.uncertain else None
     found["conditions"] = list(facts.conditions)
     found["variant"] = "=".join(facts.variant) if facts.variant else None
     found["only_for"] = [facts.only_for[0], *facts.only_for[1]] if facts.only_for else []

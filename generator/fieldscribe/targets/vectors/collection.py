@@ -174,6 +174,8 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
             lines.add("display", shape.display)
         if shape.epoch:
             lines.add("epoch", epoch_in_unix(shape.epoch))
+    only_for = None if terms.when is None else _only_for(terms.when, variants)
+    decided_otherwise = terms.when is not None and {*terms.when.names} - {*(only_for or ())[:1]}
     lines.add(
         "facts",
         terms.group,
@@ -184,7 +186,8 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         None if terms.changes == "always" else terms.changes,
         terms.changes_with or None,
         None if point.variant is None else str(point.variant),
-        None if terms.when is None else _only_for(terms.when, variants),
+        only_for,
+        1 if decided_otherwise or point.since or point.until or point.to_end else None,
         terms.keeps,
         terms.conditions or None,
         *(() if elsewhere is None else (terms.space, elsewhere)),

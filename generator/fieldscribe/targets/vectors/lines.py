@@ -71,7 +71,7 @@ KINDS = {
     "store": _EXCHANGE,
     # facts that only Python has in code: in C and Rust they are comments, which no program can check
     "facts": "only:python.typescript group:word name:word type:word symbol:text? default:real? changes:word? "
-    "changes_with:names? variant:text? only_for:names? keeps:word? conditions:names? write_space:word? "
+    "changes_with:names? variant:text? only_for:names? uncertain:int? keeps:word? conditions:names? write_space:word? "
     "write_addresses:ints?",
     # what identifies the device and its variants, each alternative alone
     "identification": "name:word of:word raw:int? text:text? variant:pairs?",

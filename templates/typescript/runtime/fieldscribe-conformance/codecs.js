@@ -314,11 +314,12 @@ function hasFacts(device, vector) {
   const { facts, unit, group, name } = point;
   const changes = [facts.changes ?? null, facts.changesWith ?? []];
   const where = [facts.keeps ?? null, facts.conditions ?? [], facts.writeAt?.space ?? null, facts.writeAt?.addresses ?? []];
-  const only = facts.onlyFor ? [facts.onlyFor[0], ...facts.onlyFor[1]] : [];
+  const only = [facts.onlyFor ? [facts.onlyFor[0], ...facts.onlyFor[1]] : [], facts.uncertain ? 1 : null];
   const found = [group, name, unit || null, facts.default ?? null, changes, facts.variant?.join("=") ?? null, only, where];
   const changing = [vector.changes, vector.changes_with.map(camelName)];
   const written = [vector.keeps, vector.conditions, vector.write_space, vector.write_addresses];
-  const { symbol, variant, only_for: expectedOnly } = vector;
+  const { symbol, variant } = vector;
+  const expectedOnly = [vector.only_for, vector.uncertain];
   const expected = [vector.group, vector.name, symbol, vector.default, changing, variant, expectedOnly, written];
   return isList(found, expected) && isTyped(point.form.wire, vector.type);
 }
