@@ -29,8 +29,8 @@ static const fieldscribe_modbus_profile eastron_sdm630_modbus_profile = {
     false, /* whether 0Fh carries an even number of bytes */
     FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
     0x10000U, /* the functions that may go to all units at once, as bits */
-    {0U, 0U, 0U, 80U, 80U, 0U, 0U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 2U} /* how many items a request of function 0, 1,
-        2... carries */
+    /* how many items a request of function 0, 1, 2... carries */
+    {0U, 0U, 0U, 80U, 80U, 0U, 0U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 2U}
 };
 
 /*

@@ -29,8 +29,8 @@ static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
     true, /* whether 0Fh carries an even number of bytes */
     0U, /* the unit that all listen to */
     0x0060U, /* the functions that may go to all units at once, as bits */
-    {0U, 32U, 0U, 4U, 0U, 1U, 1U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 32U, 4U} /* how many items a request of function 0, 1,
-        2... carries */
+    /* how many items a request of function 0, 1, 2... carries */
+    {0U, 32U, 0U, 4U, 0U, 1U, 1U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 32U, 4U}
 };
 
 /*
