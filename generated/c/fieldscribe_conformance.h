@@ -69,6 +69,7 @@ typedef struct fieldscribe_vector {
     size_t set_count;
     bool answered;
     bool differs;
+    uint16_t base; /* the addresses of the point count from here */
     size_t matched; /* pairs of a map that were found */
     const void *receiver; /* of a telegram, as its family has it */
 } fieldscribe_vector;
@@ -1384,6 +1385,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     }
     v->answered = false;
     v->differs = false;
+    v->base = 0U;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||

@@ -261,8 +261,10 @@ FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
     fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
 {
     const fieldscribe_members *members = fieldscribe_tables_of(v)->members;
+    fieldscribe_modbus_reading from_base = *what; /* blocks of groups count from there, too */
+    from_base.address = (uint16_t)(what->address - v->base);
     for (; *members != NULL; ++members) {
-        (*members)(v, what, words);
+        (*members)(v, &from_base, words);
     }
 }
 
@@ -320,6 +322,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector 
     fieldscribe_modbus_base at_base = {0U, 0U};                                                  \
     if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
         at_base = fieldscribe_base_of(v, name);                                                  \
+        v->base = at_base.start;                                                                 \
     }
 #define FIELDSCRIBE_READ_AT_BASE                                                                 \
     moved.read = fieldscribe_modbus_reading_at(at_base, &moved.read);
