@@ -316,12 +316,12 @@ static inline void eastron_sdm630_measurements_group_decode(
         group->charge_raw = eastron_sdm630_charge_from_words(&words[12]);
         group->total_active_power_demand_raw = eastron_sdm630_total_active_power_demand_from_words(&words[14]);
         group->maximum_total_active_power_demand_raw = eastron_sdm630_maximum_total_active_power_demand_from_words(
-        &words[16]);
+            &words[16]);
         break;
     case 28U:
         group->total_apparent_power_demand_raw = eastron_sdm630_total_apparent_power_demand_from_words(&words[0]);
         group->maximum_total_apparent_power_demand_raw = eastron_sdm630_maximum_total_apparent_power_demand_from_words(
-        &words[2]);
+            &words[2]);
         break;
     case 29U:
         group->neutral_current_demand_raw = eastron_sdm630_neutral_current_demand_from_words(&words[0]);
@@ -397,7 +397,7 @@ static inline void eastron_sdm630_measurements_group_decode(
         break;
     case 53U:
         group->average_line_to_line_voltage_thd_raw = eastron_sdm630_average_line_to_line_voltage_thd_from_words(
-        &words[0]);
+            &words[0]);
         break;
     case 54U:
         group->total_active_energy_raw = eastron_sdm630_total_active_energy_from_words(&words[0]);
@@ -412,17 +412,17 @@ static inline void eastron_sdm630_measurements_group_decode(
         group->phase_2_total_active_energy_raw = eastron_sdm630_phase_2_total_active_energy_from_words(&words[18]);
         group->phase_3_total_active_energy_raw = eastron_sdm630_phase_3_total_active_energy_from_words(&words[20]);
         group->phase_1_import_reactive_energy_raw = eastron_sdm630_phase_1_import_reactive_energy_from_words(
-        &words[22]);
+            &words[22]);
         group->phase_2_import_reactive_energy_raw = eastron_sdm630_phase_2_import_reactive_energy_from_words(
-        &words[24]);
+            &words[24]);
         group->phase_3_import_reactive_energy_raw = eastron_sdm630_phase_3_import_reactive_energy_from_words(
-        &words[26]);
+            &words[26]);
         group->phase_1_export_reactive_energy_raw = eastron_sdm630_phase_1_export_reactive_energy_from_words(
-        &words[28]);
+            &words[28]);
         group->phase_2_export_reactive_energy_raw = eastron_sdm630_phase_2_export_reactive_energy_from_words(
-        &words[30]);
+            &words[30]);
         group->phase_3_export_reactive_energy_raw = eastron_sdm630_phase_3_export_reactive_energy_from_words(
-        &words[32]);
+            &words[32]);
         group->phase_1_total_reactive_energy_raw = eastron_sdm630_phase_1_total_reactive_energy_from_words(&words[34]);
         group->phase_2_total_reactive_energy_raw = eastron_sdm630_phase_2_total_reactive_energy_from_words(&words[36]);
         group->phase_3_total_reactive_energy_raw = eastron_sdm630_phase_3_total_reactive_energy_from_words(&words[38]);

@@ -290,13 +290,13 @@ static inline void fronius_datamanager_nameplate_group_decode(
         group->rated_power_exponent_raw = fronius_datamanager_rated_power_exponent_from_words(&words[2]);
         group->rated_apparent_power_raw = words[3];
         group->rated_apparent_power_exponent_raw = fronius_datamanager_rated_apparent_power_exponent_from_words(
-        &words[4]);
+            &words[4]);
         group->rated_reactive_power_q1_raw = fronius_datamanager_rated_reactive_power_q1_from_words(&words[5]);
         group->rated_reactive_power_q2_raw = fronius_datamanager_rated_reactive_power_q2_from_words(&words[6]);
         group->rated_reactive_power_q3_raw = fronius_datamanager_rated_reactive_power_q3_from_words(&words[7]);
         group->rated_reactive_power_q4_raw = fronius_datamanager_rated_reactive_power_q4_from_words(&words[8]);
         group->rated_reactive_power_exponent_raw = fronius_datamanager_rated_reactive_power_exponent_from_words(
-        &words[9]);
+            &words[9]);
         group->rated_current_raw = words[10];
         group->rated_current_exponent_raw = fronius_datamanager_rated_current_exponent_from_words(&words[11]);
         group->rated_power_factor_q1_raw = fronius_datamanager_rated_power_factor_q1_from_words(&words[12]);
@@ -310,10 +310,10 @@ static inline void fronius_datamanager_nameplate_group_decode(
         group->rated_charge_exponent_raw = fronius_datamanager_rated_charge_exponent_from_words(&words[20]);
         group->maximum_charge_rate_raw = words[21];
         group->maximum_charge_rate_exponent_raw = fronius_datamanager_maximum_charge_rate_exponent_from_words(
-        &words[22]);
+            &words[22]);
         group->maximum_discharge_rate_raw = words[23];
         group->maximum_discharge_rate_exponent_raw = fronius_datamanager_maximum_discharge_rate_exponent_from_words(
-        &words[24]);
+            &words[24]);
         break;
     default:
         break; /* there is no such block */
@@ -381,15 +381,15 @@ static inline void fronius_datamanager_settings_group_decode(
         group->maximum_power_exponent_raw = fronius_datamanager_maximum_power_exponent_from_words(&words[20]);
         group->reference_voltage_exponent_raw = fronius_datamanager_reference_voltage_exponent_from_words(&words[21]);
         group->reference_voltage_offset_exponent_raw = fronius_datamanager_reference_voltage_offset_exponent_from_words(
-        &words[22]);
+            &words[22]);
         group->voltage_limits_exponent_raw = fronius_datamanager_voltage_limits_exponent_from_words(&words[23]);
         group->maximum_apparent_power_exponent_raw = fronius_datamanager_maximum_apparent_power_exponent_from_words(
-        &words[24]);
+            &words[24]);
         group->maximum_reactive_power_exponent_raw = fronius_datamanager_maximum_reactive_power_exponent_from_words(
-        &words[25]);
+            &words[25]);
         group->power_ramp_rate_exponent_raw = fronius_datamanager_power_ramp_rate_exponent_from_words(&words[26]);
         group->minimum_power_factor_exponent_raw = fronius_datamanager_minimum_power_factor_exponent_from_words(
-        &words[27]);
+            &words[27]);
         group->maximum_ramp_rate_exponent_raw = fronius_datamanager_maximum_ramp_rate_exponent_from_words(&words[28]);
         group->nominal_frequency_exponent_raw = fronius_datamanager_nominal_frequency_exponent_from_words(&words[29]);
         break;
@@ -437,7 +437,7 @@ static inline void fronius_datamanager_status_group_decode(
         group->reactive_energy_q4_raw = fronius_datamanager_reactive_energy_q4_from_words(&words[23]);
         group->available_reactive_power_raw = fronius_datamanager_available_reactive_power_from_words(&words[27]);
         group->available_reactive_power_exponent_raw = fronius_datamanager_available_reactive_power_exponent_from_words(
-        &words[28]);
+            &words[28]);
         group->available_power_raw = words[29];
         group->available_power_exponent_raw = fronius_datamanager_available_power_exponent_from_words(&words[30]);
         group->limits_reached_raw = fronius_datamanager_limits_reached_from_words(&words[31]);
@@ -447,7 +447,7 @@ static inline void fronius_datamanager_status_group_decode(
         group->ride_through_status_raw = words[41];
         group->isolation_resistance_raw = words[42];
         group->isolation_resistance_exponent_raw = fronius_datamanager_isolation_resistance_exponent_from_words(
-        &words[43]);
+            &words[43]);
         break;
     default:
         break; /* there is no such block */
@@ -500,7 +500,7 @@ static inline void fronius_datamanager_controls_group_decode(
         group->power_factor_ramp_time_raw = words[11];
         group->power_factor_enabled_raw = words[12];
         group->reactive_power_of_maximum_power_raw = fronius_datamanager_reactive_power_of_maximum_power_from_words(
-        &words[13]);
+            &words[13]);
         group->reactive_power_of_maximum_raw = fronius_datamanager_reactive_power_of_maximum_from_words(&words[14]);
         group->reactive_power_of_available_raw = fronius_datamanager_reactive_power_of_available_from_words(&words[15]);
         group->reactive_power_window_raw = words[16];
@@ -510,9 +510,9 @@ static inline void fronius_datamanager_controls_group_decode(
         group->reactive_power_enabled_raw = words[20];
         group->power_limit_exponent_raw = fronius_datamanager_power_limit_exponent_from_words(&words[21]);
         group->power_factor_setpoint_exponent_raw = fronius_datamanager_power_factor_setpoint_exponent_from_words(
-        &words[22]);
+            &words[22]);
         group->reactive_power_percent_exponent_raw = fronius_datamanager_reactive_power_percent_exponent_from_words(
-        &words[23]);
+            &words[23]);
         break;
     default:
         break; /* there is no such block */
@@ -640,11 +640,11 @@ static inline void fronius_datamanager_storage_group_decode(
         group->storage_ramp_time_raw = words[14];
         group->grid_charging_raw = words[15];
         group->maximum_charge_power_exponent_raw = fronius_datamanager_maximum_charge_power_exponent_from_words(
-        &words[16]);
+            &words[16]);
         group->charge_ramp_rate_exponent_raw = fronius_datamanager_charge_ramp_rate_exponent_from_words(&words[17]);
         group->maximum_charge_apparent_power_exponent_raw =
             fronius_datamanager_maximum_charge_apparent_power_exponent_from_words(
-        &words[18]);
+            &words[18]);
         group->minimum_reserve_exponent_raw = fronius_datamanager_minimum_reserve_exponent_from_words(&words[19]);
         group->state_of_charge_exponent_raw = fronius_datamanager_state_of_charge_exponent_from_words(&words[20]);
         group->available_charge_exponent_raw = fronius_datamanager_available_charge_exponent_from_words(&words[21]);

@@ -356,7 +356,7 @@ static inline void hitachi_l200_monitor_d_group_decode(
         break;
     case 11U:
         group->scaled_process_value_count = hitachi_l200_scaled_process_value_decode_count(
-        hitachi_l200_scaled_process_value_from_words(&words[0]));
+            hitachi_l200_scaled_process_value_from_words(&words[0]));
         group->digital_inputs_raw = words[2];
         group->digital_outputs_raw = words[3];
         break;
@@ -386,18 +386,18 @@ static inline void hitachi_l200_basic_f_group_decode(
     switch (block) {
     case 0U:
         group->acceleration_time_count = hitachi_l200_acceleration_time_decode_count(
-        hitachi_l200_acceleration_time_from_words(&words[0]));
+            hitachi_l200_acceleration_time_from_words(&words[0]));
         group->deceleration_time_count = hitachi_l200_deceleration_time_decode_count(
-        hitachi_l200_deceleration_time_from_words(&words[2]));
+            hitachi_l200_deceleration_time_from_words(&words[2]));
         break;
     case 1U:
         group->motor_direction_raw = words[0];
         break;
     case 2U:
         group->acceleration_time_set_2_count = hitachi_l200_acceleration_time_set_2_decode_count(
-        hitachi_l200_acceleration_time_set_2_from_words(&words[0]));
+            hitachi_l200_acceleration_time_set_2_from_words(&words[0]));
         group->deceleration_time_set_2_count = hitachi_l200_deceleration_time_set_2_decode_count(
-        hitachi_l200_deceleration_time_set_2_from_words(&words[2]));
+            hitachi_l200_deceleration_time_set_2_from_words(&words[2]));
         break;
     default:
         break; /* there is no such block */
@@ -629,9 +629,9 @@ static inline void hitachi_l200_standard_a_group_decode(
         break;
     case 31U:
         group->acceleration_time_2_count = hitachi_l200_acceleration_time_2_decode_count(
-        hitachi_l200_acceleration_time_2_from_words(&words[0]));
+            hitachi_l200_acceleration_time_2_from_words(&words[0]));
         group->deceleration_time_2_count = hitachi_l200_deceleration_time_2_decode_count(
-        hitachi_l200_deceleration_time_2_from_words(&words[2]));
+            hitachi_l200_deceleration_time_2_from_words(&words[2]));
         break;
     case 32U:
         group->ramp_2_selection_raw = words[0];
@@ -664,11 +664,11 @@ static inline void hitachi_l200_standard_a_group_decode(
         break;
     case 39U:
         group->potentiometer_minimum_frequency_count = hitachi_l200_potentiometer_minimum_frequency_decode_count(
-        words[0]);
+            words[0]);
         break;
     case 40U:
         group->potentiometer_maximum_frequency_count = hitachi_l200_potentiometer_maximum_frequency_decode_count(
-        words[0]);
+            words[0]);
         group->potentiometer_minimum_setpoint_raw = words[1];
         group->potentiometer_maximum_setpoint_raw = words[2];
         group->potentiometer_start_condition_raw = words[3];
@@ -695,18 +695,18 @@ static inline void hitachi_l200_standard_a_group_decode(
         break;
     case 45U:
         group->deceleration_time_2_set_2_count = hitachi_l200_deceleration_time_2_set_2_decode_count(
-        hitachi_l200_deceleration_time_2_set_2_from_words(&words[0]));
+            hitachi_l200_deceleration_time_2_set_2_from_words(&words[0]));
         group->ramp_2_selection_set_2_raw = words[2];
         break;
     case 46U:
         group->acceleration_change_frequency_set_2_count =
             hitachi_l200_acceleration_change_frequency_set_2_decode_count(
-        words[0]);
+            words[0]);
         break;
     case 47U:
         group->deceleration_change_frequency_set_2_count =
             hitachi_l200_deceleration_change_frequency_set_2_decode_count(
-        words[0]);
+            words[0]);
         break;
     default:
         break; /* there is no such block */
@@ -900,11 +900,11 @@ static inline void hitachi_l200_control_c_group_decode(
         break;
     case 10U:
         group->arrival_frequency_acceleration_count = hitachi_l200_arrival_frequency_acceleration_decode_count(
-        words[0]);
+            words[0]);
         break;
     case 11U:
         group->arrival_frequency_deceleration_count = hitachi_l200_arrival_frequency_deceleration_decode_count(
-        words[0]);
+            words[0]);
         group->pid_deviation_level_count = hitachi_l200_pid_deviation_level_decode_count(words[1]);
         break;
     case 12U:

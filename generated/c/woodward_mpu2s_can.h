@@ -226,7 +226,7 @@ static inline void woodward_mpu2s_visualisation_values_decode(
         break;
     case 8U:
         group->generator_cos_phi_count = woodward_mpu2s_generator_cos_phi_decode_count(
-        woodward_mpu2s_generator_cos_phi_from_words(&words[1]));
+            woodward_mpu2s_generator_cos_phi_from_words(&words[1]));
         break;
     case 9U:
         group->load_sharing_participants_raw = words[1];

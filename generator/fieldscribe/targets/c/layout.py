@@ -67,8 +67,11 @@ def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> li
     return [*lines[:-1], lines[-1] + end] if lines else []
 
 
-def wrapped(statement: str, indent: str) -> list[str]:
-    """Return a statement in lines that are not too long, broken at the least depth of brackets."""
+def wrapped(statement: str, indent: str, first: str = "") -> list[str]:
+    """Return a statement in lines that are not too long, broken at the least depth of brackets.
+
+    What goes on stands deeper than its `first` line, whose indentation is given where this is not that line.
+    """
     if len(indent) + len(statement) <= WIDTH:
         return [indent + statement]
     places = list(_places(statement))
@@ -77,8 +80,8 @@ def wrapped(statement: str, indent: str) -> list[str]:
     if not fitting:
         return [indent + statement]
     at = abs(min(fitting)[1])
-    deeper = indent if statement.startswith(("?", ":", "||", "&&")) or len(indent) > 4 else indent + "    "
-    return [indent + statement[:at].rstrip(), *wrapped(statement[at:].lstrip(), deeper)]
+    deeper = indent if statement.startswith(("?", ":", "||", "&&")) or first else indent + "    "
+    return [indent + statement[:at].rstrip(), *wrapped(statement[at:].lstrip(), deeper, first or indent)]
 
 
 def _places(statement: str) -> Iterator[tuple[int, int]]:
