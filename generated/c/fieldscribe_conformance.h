@@ -1171,6 +1171,17 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 #define FIELDSCRIBE_ENCODE_TRY_PLAIN(point, raw_type) (int)point##_encode(number, &again)
 #define FIELDSCRIBE_ENCODE_TRY_COUNT_OF(point, raw_type) (int)point##_encode_count(number, &again)
 
+/* The member of a struct `group` has the number of the vector's point. */
+#define FIELDSCRIBE_MEMBER(name, is)                                                             \
+    if (fieldscribe_spells(fieldscribe_field(v, "point"), name)) {                              \
+        fieldscribe_agree(v, is);                                                                \
+    }
+#define FIELDSCRIBE_MEMBER_RAW(item, raw_type)                                                   \
+    FIELDSCRIBE_MEMBER(#item, group.item##_raw == (raw_type)fieldscribe_bits(v, "raw"))
+#define FIELDSCRIBE_MEMBER_COUNT(device, item, raw_type)                                         \
+    FIELDSCRIBE_MEMBER(                                                                          \
+        #item, group.item##_count == device##_##item##_decode_count((raw_type)fieldscribe_bits(v, "raw")))
+
 /* Whether bytes are those of the step that are to be sent. */
 static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, const uint8_t *bytes, size_t length)
 {

@@ -211,15 +211,6 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
     return true;
 }
 
-#define FIELDSCRIBE_MEMBER(name, is)                                                             \
-    if (fieldscribe_spells(fieldscribe_field(v, "point"), name)) {                              \
-        fieldscribe_agree(v, is);                                                                \
-    }
-#define FIELDSCRIBE_MEMBER_RAW(item, raw_type)                                                   \
-    FIELDSCRIBE_MEMBER(#item, group.item##_raw == (raw_type)fieldscribe_bits(v, "raw"))
-#define FIELDSCRIBE_MEMBER_COUNT(device, item, raw_type)                                         \
-    FIELDSCRIBE_MEMBER(                                                                          \
-        #item, group.item##_count == device##_##item##_decode_count((raw_type)fieldscribe_bits(v, "raw")))
 #define FIELDSCRIBE_MEMBER_TEXT(item)                                                            \
     FIELDSCRIBE_MEMBER(#item, fieldscribe_is_text_of(group.item##_text, words, what->count))
 #define FIELDSCRIBE_MEMBER_PACKED(device, item)                                                  \

@@ -7591,12 +7591,79 @@ static const fieldscribe_named_signals of_signals[] = {
     {NULL, NULL}
 };
 
+static void values_of_visualisation(fieldscribe_vector *v)
+{
+    const char *at = fieldscribe_field(v, "frames");
+    fieldscribe_can_frame frame;
+    woodward_mpu2s_visualisation_values group;
+    fieldscribe_fill(&group, sizeof group);
+    while (fieldscribe_next_frame(&at, &frame)) {
+        (void)woodward_mpu2s_visualisation_values_take(&frame, (uint8_t)fieldscribe_at_most(v, "unit", 255U), &group);
+    }
+    FIELDSCRIBE_MEMBER_RAW(telegram_identification, uint16_t)
+    FIELDSCRIBE_MEMBER_COUNT(woodward_mpu2s, generator_frequency, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_active_power, int16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_power_exponent, int8_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_exponent, int8_t)
+    FIELDSCRIBE_MEMBER_RAW(present_active_power_setpoint, int16_t)
+    FIELDSCRIBE_MEMBER_RAW(active_power_setpoint_factor, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(busbar_voltage_l1_l2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l1_l2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(present_fault_classes, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(control_register_2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(control_register_1, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_8, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_6, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l2_l3, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l3_l1, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l1_n, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l2_n, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l3_n, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_voltage_l1_l2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_current_l1, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_current_l2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_current_l3, uint16_t)
+    FIELDSCRIBE_MEMBER_COUNT(woodward_mpu2s, generator_cos_phi, int16_t)
+    FIELDSCRIBE_MEMBER_RAW(load_sharing_participants, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_state, uint8_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_state, uint8_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_current_exponent, int8_t)
+    FIELDSCRIBE_MEMBER_COUNT(woodward_mpu2s, busbar_frequency, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(busbar_state, uint8_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l2_l3, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l3_l1, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l1_n, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l2_n, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_l3_n, uint16_t)
+    FIELDSCRIBE_MEMBER_COUNT(woodward_mpu2s, mains_frequency, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(mains_voltage_exponent, int8_t)
+    FIELDSCRIBE_MEMBER_RAW(busbar_voltage_exponent, int8_t)
+    FIELDSCRIBE_MEMBER_RAW(hours_until_maintenance, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(engine_start_counter, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(generator_active_energy, uint32_t)
+    FIELDSCRIBE_MEMBER_COUNT(woodward_mpu2s, battery_voltage, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_1, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_2, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_3, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_4, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_5, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(digital_input_faults_1_to_8, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(digital_input_faults_9_to_16, uint16_t)
+    FIELDSCRIBE_MEMBER_RAW(internal_faults_7, uint16_t)
+}
+
+static const fieldscribe_named_values values[] = {
+    {"visualisation", &values_of_visualisation},
+    {NULL, NULL}
+};
+
 static const fieldscribe_tables tables = {
     &woodward_mpu2s_can_profile,
     &woodward_mpu2s_can_dialogue,
     messages,
     cyclic,
-    of_signals
+    of_signals,
+    values
 };
 
 static void run_code(fieldscribe_vector *v)

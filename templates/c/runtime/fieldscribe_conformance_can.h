@@ -24,6 +24,12 @@ typedef struct fieldscribe_named_telegram {
     const fieldscribe_can_telegram *telegram;
 } fieldscribe_named_telegram;
 
+/* What holds the struct of a telegram, or of a message of signals, against the frames of a vector. */
+typedef struct fieldscribe_named_values {
+    const char *name;
+    void (*hold)(fieldscribe_vector *v);
+} fieldscribe_named_values;
+
 /* The tables of a device. */
 typedef struct fieldscribe_tables {
     const fieldscribe_can_profile *profile;
@@ -31,6 +37,7 @@ typedef struct fieldscribe_tables {
     const fieldscribe_named_message *messages;
     const fieldscribe_named_telegram *cyclic;
     const fieldscribe_named_signals *of_signals;
+    const fieldscribe_named_values *values;
 } fieldscribe_tables;
 
 static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_vector *v)
@@ -183,6 +190,35 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
         fieldscribe_agree(v, fieldscribe_can_word_to_write(&(frame).write, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
     }
 
+/* The struct that the frames of the vector fill has the point's number. */
+FIELDSCRIBE_ONCE void fieldscribe_holds_values(fieldscribe_vector *v)
+{
+    const fieldscribe_named_values *one = fieldscribe_tables_of(v)->values;
+    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
+        ++one;
+    }
+    if (one->name != NULL) {
+        one->hold(v);
+    }
+}
+
+/* Reads the next frame of the field `frames`, as `801=0102,802=03`; false behind the last. */
+FIELDSCRIBE_ONCE bool fieldscribe_next_frame(const char **at, fieldscribe_can_frame *frame)
+{
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
+    const char *data;
+    if (*at == NULL || fieldscribe_absent(*at)) {
+        return false;
+    }
+    data = strchr(*at, '=');
+    frame->id = (uint32_t)fieldscribe_pattern(*at);
+    frame->length = (uint8_t)fieldscribe_hex(data != NULL ? data + 1 : "", bytes, 255U);
+    memcpy(frame->data, bytes, sizeof frame->data);
+    *at = strchr(*at, ',');
+    *at = *at != NULL ? *at + 1 : NULL;
+    return true;
+}
+
 /* The frames of what was received came at times from 0 on; a clock that runs over is no matter. */
 FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can_heard *what)
 {
@@ -211,6 +247,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
             fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
             fieldscribe_ages(v, &(frame).heard);                                                 \
+            fieldscribe_holds_values(v);                                                         \
         } else {                                                                                 \
             fieldscribe_untouched(v, words, sizeof words);                                       \
             fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
@@ -296,6 +333,7 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
         fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_taken_##kind(v, (frame).layout, words + (frame).heard.high);             \
+            fieldscribe_holds_values(v);                                                         \
             memset(words, 0, sizeof words);                                                      \
             fieldscribe_put_field_##kind(v, (frame).layout, "raw", words + (frame).heard.high);  \
             fieldscribe_puts_signals(v, (frame).heard.high, words);                              \
@@ -464,18 +502,14 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
     const size_t count = fieldscribe_numbers(v, "taken", expected_taken, FIELDSCRIBE_BYTES_MOST);
     const char *at = fieldscribe_field(v, "frames");
     size_t fed = 0U;
-    while (at != NULL && !fieldscribe_absent(at) && fed < (size_t)FIELDSCRIBE_BYTES_MOST) {
-        const char *const data = strchr(at, '=');
-        const fieldscribe_can_frame frame =
-            fieldscribe_read_frame(fieldscribe_pattern(at), data != NULL ? data + 1 : "");
+    fieldscribe_can_frame frame;
+    while (fed < (size_t)FIELDSCRIBE_BYTES_MOST && fieldscribe_next_frame(&at, &frame)) {
         taken[fed] = fieldscribe_can_take(receiver, &frame, (uint32_t)fed) ? 1U : 0U;
         if (taken[fed] != 0U) {
             fieldscribe_has_no_such_unit(v, receiver, &frame);
             fieldscribe_finds_the_frame(v, receiver, &frame);
         }
         ++fed;
-        at = strchr(at, ',');
-        at = at != NULL ? at + 1 : NULL;
     }
     fieldscribe_agree(v, fed == count && memcmp(taken, expected_taken, fed * sizeof taken[0]) == 0);
 }

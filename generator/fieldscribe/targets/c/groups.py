@@ -154,6 +154,12 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
             yield f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})'
 
 
+def number_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
+    """Yield those of the numbers, without texts."""
+    texts = ("MEMBER_TEXT(", "MEMBER_PACKED(", "MEMBER_BYTES(")
+    return (case for case in member_cases(values, scope) if not case.startswith(texts))
+
+
 def _raw(point: Point, name: str, word: str) -> str:
     """Return the expression for a point's raw number in words."""
     if point.bits is not None:

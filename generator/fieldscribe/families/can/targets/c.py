@@ -1,18 +1,23 @@
 """The view of the CAN header: messages, cyclic telegrams, and frames point by point."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias
 
 from fieldscribe.families.can import identifier_bits, of_bus, signals
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
-from fieldscribe.targets.c.groups import Members, Part, StructView
+from fieldscribe.targets.c.groups import Members, Part, StructView, number_cases
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
+
+Cases: TypeAlias = Callable[[], Iterator[str]]
+"""Returns the macros of the conformance program for the members of a struct; made when that is written."""
 
 NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = False
@@ -42,6 +47,7 @@ class TelegramView:
     message: str
     per_frame: int
     values: StructView
+    cases: Cases
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +69,7 @@ class SignalsView:
     choices: list[tuple[str, list[tuple[int, int, str]]]]
     reads: bool
     values: StructView
+    cases: Cases
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,17 +170,22 @@ def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPo
 
     def parts() -> Iterator[Part]:
         brought: dict[int, dict[str, str]] = {}
+        points: dict[int, list[GeneratedPoint]] = {}
         for each in placed:
             if each.point.telegram == telegram.name and each.point.addresses:
                 first, last = min(each.point.addresses), max(each.point.addresses)
                 if first // per_frame == last // per_frame and last - first < each.point.words:
                     declaration, fill = members.of(each, first % per_frame)
                     brought.setdefault(first // per_frame, {})[declaration] = fill
+                    if declaration:
+                        points.setdefault(first // per_frame, []).append(each)
         for frame in sorted(brought):
-            yield Part(f"{frame}U", {member: fill for member, fill in brought[frame].items() if member})
+            members_of = {member: fill for member, fill in brought[frame].items() if member}
+            yield Part(f"{frame}U", members_of, points.get(frame, ()))
 
     values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
-    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values)
+    cases = partial(number_cases, values, scope)
+    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values, cases)
 
 
 def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Members) -> SignalsView:
@@ -191,9 +203,12 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
 
     def parts() -> Iterator[Part]:
         for words, _ in signals.parts(message):
-            made = [members.of(by_word[word], word) for word in words if word in by_word]
-            yield Part(f"{words.start}U", {member: fill for member, fill in made if member})
+            points = [by_word[word] for word in words if word in by_word]
+            made = [(each, *members.of(each, each.point.addresses[0])) for each in points]
+            filled = {member: fill for _, member, fill in made if member}
+            yield Part(f"{words.start}U", filled, [each for each, member, _ in made if member])
 
+    values = StructView(f"{scope.prefix}_{message.name}_values", parts)
     return SignalsView(
         message.name,
         c_comment(message.title["en"]),
@@ -218,7 +233,8 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
         ],
         list(choices.values()),
         bool(mine),
-        StructView(f"{scope.prefix}_{message.name}_values", parts),
+        values,
+        partial(number_cases, values, scope),
     )
 
 
