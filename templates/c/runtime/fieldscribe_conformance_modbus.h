@@ -688,6 +688,8 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_holds_long_numbers(v);
+    fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
+        fieldscribe_modbus_status_name(FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL))); /* no vector has it */
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("functions", fieldscribe_known_functions(profile))
