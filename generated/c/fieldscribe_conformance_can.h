@@ -202,18 +202,25 @@ FIELDSCRIBE_ONCE void fieldscribe_holds_values(fieldscribe_vector *v)
     }
 }
 
+FIELDSCRIBE_ONCE fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const char *data)
+{
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
+    fieldscribe_can_frame frame;
+    frame.id = (uint32_t)id;
+    frame.length = (uint8_t)fieldscribe_hex(data, bytes, 255U);
+    memcpy(frame.data, bytes, sizeof frame.data);
+    return frame;
+}
+
 /* Reads the next frame of the field `frames`, as `801=0102,802=03`; false behind the last. */
 FIELDSCRIBE_ONCE bool fieldscribe_next_frame(const char **at, fieldscribe_can_frame *frame)
 {
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
     const char *data;
     if (*at == NULL || fieldscribe_absent(*at)) {
         return false;
     }
     data = strchr(*at, '=');
-    frame->id = (uint32_t)fieldscribe_pattern(*at);
-    frame->length = (uint8_t)fieldscribe_hex(data != NULL ? data + 1 : "", bytes, 255U);
-    memcpy(frame->data, bytes, sizeof frame->data);
+    *frame = fieldscribe_read_frame(fieldscribe_pattern(*at), data != NULL ? data + 1 : "");
     *at = strchr(*at, ',');
     *at = *at != NULL ? *at + 1 : NULL;
     return true;
@@ -367,16 +374,6 @@ static const fieldscribe_can_message *fieldscribe_find_message(fieldscribe_vecto
         ++one;
     }
     return one->message;
-}
-
-static fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const char *data)
-{
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
-    fieldscribe_can_frame frame;
-    frame.id = (uint32_t)id;
-    frame.length = (uint8_t)fieldscribe_hex(data, bytes, 255U);
-    memcpy(frame.data, bytes, sizeof frame.data);
-    return frame;
 }
 
 /* A byte that a message fills otherwise than from its content is 0 until then. */
