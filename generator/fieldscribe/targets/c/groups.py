@@ -137,11 +137,13 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
         yield f"    {kind} {target}{ending};{remark}", "\n".join(wrapped(statement, _INDENT))
 
 
-def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
+def member_cases(values: StructView, scope: HeaderScope, *, texts: bool = True) -> Iterator[str]:
     """Yield the macros of the conformance program that hold members against the raw numbers of their points."""
     for point, view, _ in (each for part in values.parts for each in part.points):
         item, kind = point.item, raw_type(point)
         if point.text is not None:
+            if not texts:
+                continue
             member = "BYTES" if point.text.is_bytes else "PACKED"
             is_plain = point.text.is_plain and not point.text.is_bytes
             yield f"MEMBER_TEXT({item})" if is_plain else f"MEMBER_{member}({scope.prefix}, {item})"
@@ -152,12 +154,6 @@ def member_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
         for old in point.old_items if point.text is None else ():
             end = "count" if _is_plainly_counted(point, view) else "raw"
             yield f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})'
-
-
-def number_cases(values: StructView, scope: HeaderScope) -> Iterator[str]:
-    """Yield those of the numbers, without texts."""
-    texts = ("MEMBER_TEXT(", "MEMBER_PACKED(", "MEMBER_BYTES(")
-    return (case for case in member_cases(values, scope) if not case.startswith(texts))
 
 
 def _raw(point: Point, name: str, word: str) -> str:

@@ -9,7 +9,7 @@ from fieldscribe.families.can import identifier_bits, of_bus, signals
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
-from fieldscribe.targets.c.groups import Members, Part, StructView, number_cases
+from fieldscribe.targets.c.groups import Members, Part, StructView, member_cases
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
@@ -184,7 +184,7 @@ def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPo
             yield Part(f"{frame}U", members_of, points.get(frame, ()))
 
     values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
-    cases = partial(number_cases, values, scope)
+    cases = partial(member_cases, values, scope, texts=False)
     return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values, cases)
 
 
@@ -234,7 +234,7 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
         list(choices.values()),
         bool(mine),
         values,
-        partial(number_cases, values, scope),
+        partial(member_cases, values, scope, texts=False),
     )
 
 
