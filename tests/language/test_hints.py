@@ -257,7 +257,7 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("---", "access: rw\n---", "below a line `---` or in a file under `parts`"),
         ("group: main", "group: {name: main}", "write `group: main` and its other keys below"),
         ("group: main", "group: main\nvendor: Maker", "this stands in the head of device.yaml"),
-        ("group: main", "group: main\nwords: 3", "a count of words is `length: 3`"),
+        ("group: main", "group: main\nwords: 3", "a text has `characters: 6`, bytes"),
         ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
         ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),
         ("---", "variants: {size: {values: [a, b, c, d, e, f, g, h]}}\n---", "g: {}, h: {}}`"),

@@ -122,6 +122,11 @@ def _factor(match: re.Match[str]) -> str:
     return f"{scale}, or `{{key}}: value = raw / {number:f}` if the raw number is the larger one"
 
 
+def _words(match: re.Match[str]) -> str:
+    """Suggest how a text, and what has no type, says how many words it takes."""
+    return f"a text has `characters: {2 * int(match[0])}`, bytes and `untyped` words have `length: {match[0]}`"
+
+
 def _family(match: re.Match[str]) -> str | None:
     """Suggest a family for one with something behind its name, such as a framing; or say that it is not known yet."""
     from fieldscribe.families import families
@@ -208,7 +213,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("words bytes", "dcba", "write `words: low first` and `bytes: low first`"),
     ("words bytes", "badc", "write `bytes: low first`"),
     ("words bytes", "little|le|little endian|cdab|low|lsw first|lo hi|swap|swapped", "{key}: low first"),
-    ("words", "[0-9]+", r"a count of words is `length: \g<0>`"),
+    ("words", "[0-9]+", _words),
     ("keeps", "eeprom|flash|nvram|permanent", "{key}: yes"),
     ("keeps", "ram|volatile", "{key}: no"),
     (

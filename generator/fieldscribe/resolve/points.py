@@ -171,7 +171,9 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
         message, hint = f"`{facts.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
     elif facts.untyped is None and "length" in facts.node and not (facts.bytes or facts.failed & {"type", "untyped"}):
-        hint = "its type says how many words it takes: leave `length` out"
+        is_text = facts.get("type") == "text"
+        how = "`characters` say" if is_text else "its type says"
+        hint = f"{how} how many words it takes: leave `length` out"
         scope.report.error("two-meanings", f"`{facts.name}` has a type", facts.span("length"), hint)
     return facts.untyped
 
