@@ -7,7 +7,7 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.model import Point
 from fieldscribe.simulation.bench import layout_of
-from fieldscribe.simulation.memory import Memory
+from fieldscribe.simulation.memory import Memory, Values
 from support.described import DEVICES as MADE
 from support.places import ROOT
 from support.quick import full_but
@@ -44,3 +44,9 @@ def test_the_seed_chooses_what_no_manual_gives() -> None:
     assert first == again != other
     first["input", 0][0] ^= 1
     assert again == Memory.started(layout).areas
+
+
+@pytest.mark.parametrize(("device", "point"), [("woodward_mpu2s", "fault_text_terminal_62"), ("fronius_datamanager", "options")])
+def test_a_text_starts_with_the_name_of_its_point(device: str, point: str) -> None:
+    memory = Memory.started(layout_of(device))
+    assert Values(memory, lambda: None)[point] == point[:16]

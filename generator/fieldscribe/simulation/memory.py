@@ -38,6 +38,8 @@ def starting_raw(layout: Layout, point: Point, settings: Settings, random: Rando
         return identifying[0]
     if point.default_raw is not None:
         return point.default_raw
+    if point.text is not None:
+        return 0 if point.text.is_bytes else pattern_of_text(point.text, point.name[: point.text.characters])
     try:
         if point.default is not None:
             return codec.encode(point, point.default, settings)
@@ -83,8 +85,6 @@ def _allowed(point: Point, raw: int, settings: Settings) -> bool:
 
 def _candidates(layout: Layout, point: Point, settings: Settings, random: Random) -> Iterator[int]:
     """Yield raw numbers, the most plausible one first."""
-    if point.text is not None:
-        yield 0 if point.text.is_bytes else pattern_of_text(point.text, "")
     if point.enum is not None:
         yield from (entry.raw for entry in point.enum.entries)
     if point.flags or point.digits is not None or point.width == 1 or point.name in layout.least:
