@@ -46,7 +46,9 @@ def test_the_seed_chooses_what_no_manual_gives() -> None:
     assert again == Memory.started(layout).areas
 
 
-@pytest.mark.parametrize(("device", "point"), [("woodward_mpu2s", "fault_text_terminal_62"), ("fronius_datamanager", "options")])
+@pytest.mark.parametrize(
+    ("device", "point"), [("woodward_mpu2s", "fault_text_terminal_62"), ("fronius_datamanager", "options")]
+)
 def test_a_text_starts_with_the_name_of_its_point(device: str, point: str) -> None:
     memory = Memory.started(layout_of(device))
     assert Values(memory, lambda: None)[point] == point[:16]
