@@ -30,7 +30,12 @@ class RefusedError(Exception):
 
 def did_you_mean(names: list[str]) -> str:
     """Return a hint that offers near names; empty if there are none."""
-    return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
+    return f"did you mean {either(names)}?" if names else ""
+
+
+def either(names: list[str]) -> str:
+    """Return names as a choice, each marked as code."""
+    return " or ".join(f"`{line(name)}`" for name in names)
 
 
 def can_package(interface: str, error: Exception) -> str:

@@ -10,7 +10,7 @@ from fieldscribe.families import family
 from fieldscribe.model import Device, Place, Point
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
-from fieldscribe.user_errors import did_you_mean
+from fieldscribe.user_errors import did_you_mean, either
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import word_text
 
@@ -21,7 +21,7 @@ _LEADING_ZEROS = re.compile(r"(?<=[a-z])0+(?=[0-9])")
 _LONGEST = 64
 _ONLY_FORCED = frozenset({"mux", "word"})
 """Numberings that need a prefix: their numbers fit many points."""
-_MOST_NEAR = 5
+_MOST_NEAR = 3
 _NEAR = 256
 """How far away an address may be for its point to be near."""
 _LOOK_ALIKE = str.maketrans("oil", "011")
@@ -73,7 +73,7 @@ def advice(device: Device, what: str) -> str:
         return f"it is a command, and no point: `fieldscribe explain {device.id} {line(text)}` says what it writes"
     names = near(device, what)
     if number_of(text) is not None:
-        return did_you_mean(names).replace("did you mean", "described near it:").rstrip("?")
+        return f"described near it: {either(names)}" if names else ""
     return did_you_mean(names) or f"`fieldscribe search --device {device.id} …` looks into titles, flags and labels"
 
 
