@@ -8,7 +8,8 @@ from typing import Any
 from support.vector_file import Vector
 
 from conformance.exchanges import name_of_command
-from conformance.package import Check, Package, attributes
+from conformance.package import Check, Package, attribute_of, attributes
+from conformance.scripts import AsyncScript, Script, now
 
 
 def _request(package: Package, vector: Vector) -> Any:
@@ -50,11 +51,34 @@ def step(package: Package, vector: Vector) -> bool:
     return known and ends and (list(words), facts, within) == (vector["words"], expected, vector["within"])
 
 
+def base(package: Package, vector: Vector) -> bool:
+    """Where a device that is given numbers, or finds blocks, reads the point."""
+    given = {name: int(number) for name, number in (vector.get("given") or {}).items()}
+    steps = {**vector, "script": vector["script"] or (), "needs": {}}
+    for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
+        transport = script(steps, package.can.Frame)
+        devices: list[Any] = []
+
+        def read(kind: Any = kind, transport: Script = transport, devices: list[Any] = devices) -> Any:
+            devices.append(kind(transport, vector["unit"], **given))
+            return now(getattr(devices[0], attribute_of(kind, vector["point"])).read_raw())
+
+        status, _ = package.outcome(read)
+        if status != vector["status"] or not transport.done:
+            return False
+        found = vector["kind"] == "base" and not given and status == "ok"
+        if found and (vector["start"], vector["last"]) not in now(devices[0].find_blocks()).values():
+            return False
+    return True
+
+
 CHECKS: Mapping[str, Check] = {
     "build": build,
     "reply": reply,
     "printed_build": build,
     "printed_reply": reply,
     "step": step,
+    "base": base,
+    "base_behind": base,
 }
 """The checks of this theme by the kind of vector."""

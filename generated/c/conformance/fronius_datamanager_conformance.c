@@ -5094,6 +5094,14 @@ static void run_code(fieldscribe_vector *v)
         FRONIUS_DATAMANAGER_EXCEPTION_GATEWAY_TARGET_FAILED_TO_RESPOND)
     FIELDSCRIBE_IDENTIFICATION("identify_manufacturer", "manufacturer", TEXT(FRONIUS_DATAMANAGER_IDENTIFY_MANUFACTURER))
     FIELDSCRIBE_STEPS("use_integers", fronius_datamanager_command_use_integers_steps, {0U})
+    FIELDSCRIBE_FOUND_BLOCK("models_1", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_1)
+    FIELDSCRIBE_FOUND_BLOCK("models_103", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_103)
+    FIELDSCRIBE_FOUND_BLOCK("models_120", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_120)
+    FIELDSCRIBE_FOUND_BLOCK("models_121", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_121)
+    FIELDSCRIBE_FOUND_BLOCK("models_122", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_122)
+    FIELDSCRIBE_FOUND_BLOCK("models_123", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_123)
+    FIELDSCRIBE_FOUND_BLOCK("models_160", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_160)
+    FIELDSCRIBE_FOUND_BLOCK("models_124", fronius_datamanager_models, FRONIUS_DATAMANAGER_MODELS_124)
     (void)v;
 }
 

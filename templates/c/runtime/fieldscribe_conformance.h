@@ -1085,7 +1085,7 @@ static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
 static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const char **sent, const char **received)
 {
     const char *at = fieldscribe_field(v, "script");
-    if (!fieldscribe_asks(v, "command")) {
+    if (!fieldscribe_asks(v, "command") && !fieldscribe_asks(v, "base")) {
         (void)fieldscribe_field(v, "needs"); /* read by languages whose devices ask for other points themselves */
     }
     while (place > 0U && at != NULL) {
@@ -1400,7 +1400,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
-        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identification") || fieldscribe_asks(v, "step")) {
+        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "identification") ||
+        fieldscribe_asks(v, "step") || fieldscribe_asks(v, "base")) {
         v->suite->run_code(v);
     } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);

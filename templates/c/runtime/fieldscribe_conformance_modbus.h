@@ -113,8 +113,8 @@ static inline void fieldscribe_is_awaited(fieldscribe_vector *v, fieldscribe_mod
     }
 }
 
-/* Sends a request of the script and parses what comes back; the status is that of the answer. */
-FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
+/* Sends a request of the script and parses what comes back. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_any(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
     const fieldscribe_modbus_framing framing = fieldscribe_framing(v);
@@ -136,8 +136,16 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
     numbered.values = NULL; /* an answer is held against the request alone */
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, reply);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
     fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
+    return status;
+}
+
+/* The same, and the status is that of the vector. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    const fieldscribe_modbus_status status = fieldscribe_ask_any(v, place, request, reply);
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
     return status;
 }
 
@@ -306,6 +314,64 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector 
 }
 
 #define FIELDSCRIBE_BASE(name) , fieldscribe_base_of(v, name)
+
+/* A base that follows from given numbers, which is nowhere if one of them cannot be given. */
+FIELDSCRIBE_ONCE void fieldscribe_is_base(fieldscribe_vector *v, bool known, fieldscribe_modbus_base base)
+{
+    (void)fieldscribe_field(v, "script"); /* of languages whose devices find bases themselves */
+    if (known) {
+        fieldscribe_is_number(v, "start", base.start);
+        fieldscribe_is_number(v, "last", base.last);
+    } else {
+        fieldscribe_agree(v, base.start == 0xFFFFU && base.last == 0xFFFFU);
+    }
+}
+
+static inline uint16_t fieldscribe_given(fieldscribe_vector *v, const char *name)
+{
+    const char *const number = fieldscribe_pair(v, "given", name);
+    return number == NULL ? 0U : (uint16_t)fieldscribe_pattern(number);
+}
+
+#define FIELDSCRIBE_GIVEN_BASE(name, at)                                                         \
+    if (fieldscribe_asks_of(v, "base", "base", name)) {                                          \
+        fieldscribe_is_base(v, fieldscribe_spells(fieldscribe_field(v, "status"), "ok"), at);    \
+    }
+
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_walking(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    fieldscribe_modbus_request plain = *request;
+    const uint16_t place = fieldscribe_done++;
+    plain.transaction = 0U;
+    return line != NULL ? FIELDSCRIBE_MODBUS_NOISE : fieldscribe_ask_any(fieldscribe_called, place, &plain, reply);
+}
+
+/* The start of a block, which is found in the first requests of the script. */
+FIELDSCRIBE_ONCE void fieldscribe_is_found(
+    fieldscribe_vector *v, const fieldscribe_modbus_chain *chain, uint16_t block)
+{
+    const char *const expected = fieldscribe_field(v, "status");
+    fieldscribe_modbus_unit unit = fieldscribe_called_unit(v);
+    fieldscribe_modbus_base base = {0xFFFFU, 0xFFFFU};
+    fieldscribe_modbus_status status;
+    unit.ask = &fieldscribe_ask_walking;
+    status = fieldscribe_modbus_find(&unit, chain, block, &base);
+    if (fieldscribe_spells(expected, "no_marker") || fieldscribe_spells(expected, "no_block")) {
+        fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_UNKNOWN_VALUE);
+    } else if (fieldscribe_spells(expected, "bad_chain")) {
+        fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OVERFLOW);
+    } else {
+        fieldscribe_is_text(v, "status", fieldscribe_modbus_status_name(status));
+    }
+    fieldscribe_agree(v, fieldscribe_absent(fieldscribe_field(v, "given")));
+    fieldscribe_is_base(v, status == FIELDSCRIBE_MODBUS_OK, base);
+}
+
+#define FIELDSCRIBE_FOUND_BLOCK(name, chain, block)                                              \
+    if (fieldscribe_asks_of(v, "base", "base", name)) {                                          \
+        fieldscribe_is_found(v, &(chain), (block));                                              \
+    }
 
 /* The frame of a point at its base; nothing is in a base that ends before it. */
 #define FIELDSCRIBE_AT_BASE(frame_type, frame, name)                                             \

@@ -200,6 +200,24 @@ function stepMerges(device, vector) {
   return ends && isSame(words, vector.words) && isSame(found, expected) && isSame(reads, due);
 }
 
+/** Where a device that is given numbers, or finds blocks, reads the point. @param {DeviceClass} device
+ * @param {any} vector */
+async function baseIsFound(device, vector) {
+  const line = new ScriptedLine({ ...vector, script: vector.script ?? [] });
+  const given = Object.entries(vector.given ?? {}).map(([name, number]) => [camelName(name), Number(number)]);
+  const options = { unit: vector.unit, ...Object.fromEntries(given) };
+  const name = device.table.attributes.get(pointOfVector(device, vector));
+  const [status, made] = await outcomeOf(async () => {
+    const opened = new device(line, options);
+    await opened.point(name).readRaw();
+    return opened;
+  });
+  if (status !== vector.status || line.steps.length) return false;
+  if (vector.kind !== "base" || given.length || status !== "ok") return true;
+  const found = [...(await made.findBlocks()).values()];
+  return found.some(({ address, last }) => isSame([address, last], [vector.start, vector.last]));
+}
+
 /** @param {DeviceClass} device @param {any} vector */
 function blockIsPlanned(device, { group, space, function: code, address, count }) {
   const blocks = device.table.facts.blocks?.[group] ?? device.table.facts.blocks?.[camelName(group)] ?? [];
@@ -328,6 +346,8 @@ export const EXCHANGE_CHECKS = {
   reply: modbusParses,
   printed_reply: modbusParses,
   step: stepMerges,
+  base: baseIsFound,
+  base_behind: baseIsFound,
   block: blockIsPlanned,
   group: groupIsRead,
   code: codeIsNamed,

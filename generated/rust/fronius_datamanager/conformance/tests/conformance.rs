@@ -1561,6 +1561,19 @@ table! { code code {
     "exception gateway_target_failed_to_respond" exceptions (named GATEWAY_TARGET_FAILED_TO_RESPOND);
 } }
 
+const GIVEN: &[device::runtime::modbus::GivenBase] = &[];
+
+const FOUND: &[device::runtime::modbus::FoundBlock] = &[
+    device::bases::MODELS_1,
+    device::bases::MODELS_103,
+    device::bases::MODELS_120,
+    device::bases::MODELS_121,
+    device::bases::MODELS_122,
+    device::bases::MODELS_123,
+    device::bases::MODELS_160,
+    device::bases::MODELS_124,
+];
+
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
         "decode" => decode(vector),
@@ -1596,6 +1609,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "reply" | "printed_reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         "step" => Some(frames::step(vector, device::STEPPED_COMMANDS)),
+        "base" => Some(frames::base_of(vector, &device::PROFILE, GIVEN, FOUND)),
         _ => None,
     }
 }

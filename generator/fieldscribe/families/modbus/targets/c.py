@@ -137,6 +137,7 @@ class BaseView:
     parameters: str
     known: str
     start: str
+    case: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +165,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     stepped = stepped_views(device.stepped_commands, scope)
     bases = [_base(base, device, scope) for base in device.bases if base.block is None]
     found = device.found and f"{scope.prefix}_{device.found.name}"
-    ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block)) for base in device.bases if base.starts_block]
+    started = [base for base in device.bases if base.starts_block]
+    ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block), base.name) for base in started]
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
@@ -220,12 +222,15 @@ def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
     terms = [(factor, f"({abs(factor)}U * (uint32_t){name}_number)") for name, factor in base.terms]
     terms += [(base.offset, f"{abs(base.offset)}U")] if base.offset or not terms else []
     (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive, and stands first
+    function = f"{scope.prefix}_{base.name}_base"
+    values = ", ".join([f'fieldscribe_given(v, "{each.name}")' for each in numbers])
     return BaseView(
-        f"{scope.prefix}_{base.name}_base",
+        function,
         c_comment(base.formula),
         ", ".join([f"uint16_t {each.name}_number" for each in numbers]) or "void",
         " && ".join(ends),
         "".join([first, *(f" {'-' if factor < 0 else '+'} {text}" for factor, text in others)]),
+        f'"{base.name}", {function}({values})',
     )
 
 

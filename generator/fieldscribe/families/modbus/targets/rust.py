@@ -21,6 +21,8 @@ def context(device: Device) -> dict[str, object]:
     framings = [f"Framing::{framing.capitalize()}" for framing in framings_of(bus)]
     groups = [f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]
     stepped = tuple(map(_stepped, device.stepped_commands))
+    given = [base.name for base in device.bases if base.block is None]
+    found = [base.name for base in device.bases if base.starts_block]
     return {
         "example_link": f"{framings[0]}, {bus.units[0]}",
         "functions": array(Item("const FUNCTIONS", "&[Function]"), list(_functions(bus))),
@@ -31,6 +33,7 @@ def context(device: Device) -> dict[str, object]:
         "exceptions": tuple(map(_exception, bus.exceptions)),
         "bases": tuple(_bases(device)),
         "base_needs": ", ".join(_base_needs(device)),
+        "base_lists": (_names_of("GIVEN", "GivenBase", given), _names_of("FOUND", "FoundBlock", found)),
         "blocks": tuple((group, _blocks(group, blocks)) for group, blocks in device.blocks.items()),
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array(Item("pub const BLOCKS", "&[(&str, &[Block])]"), groups),
@@ -90,6 +93,12 @@ def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
         order = ", ".join(each.name for each, _ in numbers)
         doc = f"{rust_code(base.formula)}: takes {order or 'no number'}."
         yield doc, binding(4, Item(f"pub const {name}", "GivenBase"), made)
+
+
+def _names_of(name: str, kind: str, bases: list[str]) -> Lines:
+    """Return the list of bases of one kind that the conformance test takes."""
+    names = [f"device::bases::{base.upper()}" for base in bases]
+    return array(Item(f"const {name}", f"&[device::runtime::modbus::{kind}]"), names)
 
 
 def _base_needs(device: Device) -> list[str]:

@@ -7,6 +7,8 @@ from dataclasses import replace
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
+from fieldscribe.families.modbus.targets.base_vectors import KINDS as BASE_KINDS
+from fieldscribe.families.modbus.targets.base_vectors import BaseVectors
 from fieldscribe.model import Bus, Device, Point, SteppedCommand, Word
 from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
 from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
@@ -19,8 +21,9 @@ KINDS = {
     "step": "command:word index:int with:pairs? read:int? write:int? address:int held:ints words:ints within:int? "
     "conditional:int base:word?",
     "block": "group:word space:word function:int address:int count:int",
+    **BASE_KINDS,
 }
-"""The kinds of vectors for frames and batched reads."""
+"""The kinds of vectors for frames, batched reads and bases."""
 
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
@@ -162,6 +165,9 @@ def frames(lines: Lines, device: Device) -> None:
             script = wire.script(command.function, (command.address,), (value,))
             if script is not None:
                 lines.add("command", command.name, value, script, "ok")
+    usual = wires(device)[0]
+    usual.opens(lines)
+    BaseVectors(lines, device, usual.profile, usual.framing, usual.unit).add()
     _builds(lines, device.bus)
     _replies(lines, device.bus)
     _printed(lines, device)

@@ -1131,6 +1131,11 @@ impl Script {
         place.map(|place| self.steps.remove(place).1)
     }
 
+    /// That nothing was sent that should not be.
+    pub fn keeps_to_it(&self) -> Outcome {
+        self.fault.clone().map_or(Ok(()), Err)
+    }
+
     /// That all was sent that should be, and nothing else.
     pub fn done(&self) -> Outcome {
         let left = self.steps.first();

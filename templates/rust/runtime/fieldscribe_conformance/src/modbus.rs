@@ -2,7 +2,8 @@
 //! Vectors of Modbus frames and of batched reads.
 
 use fieldscribe_runtime::modbus::{
-    AsyncClient, Base, Block, Client, Command, Framing, Profile, Request, SteppedCommand, LONGEST,
+    AsyncClient, Base, Block, Client, Command, FoundBlock, Framing, GivenBase, Profile, Request,
+    SteppedCommand, LONGEST,
 };
 use fieldscribe_runtime::{
     BitGroup, BuildError, ClientError, Decoded, Encodable, Error, PointInfo, Readable, ReplyError,
@@ -139,6 +140,40 @@ pub fn step(vector: &Vector, commands: &[SteppedCommand]) -> Outcome {
     same(vector.count::<u32>("within"), step.within)?;
     same(vector.raw::<u8>("conditional") == 1, step.is_conditional)?;
     same(vector.text("base"), step.base.to_owned())
+}
+
+/// Where a base is that follows from given numbers, or the start of a block: that is found in the first requests.
+pub fn base_of(
+    vector: &Vector,
+    profile: &'static Profile,
+    given: &[GivenBase],
+    blocks: &[FoundBlock],
+) -> Outcome {
+    let (name, status) = (vector.text("base"), vector.text("status"));
+    let expected = (vector.number("start"), vector.number("last"));
+    let (found, said) = if let Some(base) = given.iter().find(|base| base.name == name) {
+        let numbers = vector.pairs("given").into_iter();
+        let numbers: Vec<u16> = numbers.filter_map(|(_, text)| text.parse().ok()).collect();
+        let _ = vector.said("script");
+        (base.at(&numbers), "bad_base")
+    } else {
+        let block = blocks.iter().find(|block| block.name == name);
+        let block = block.ok_or_else(|| "there is no such base".to_owned())?;
+        same(None, vector.said("given"))?;
+        let mut client = blocking(vector, profile, "");
+        let found = client.find(block);
+        client.into_transport().keeps_to_it()?;
+        match found {
+            Ok(None) if status == "no_marker" => (None, "no_marker"),
+            Ok(found) => (found, "no_block"),
+            Err(ClientError::Build(BuildError::BadAddress, _)) => (None, "bad_chain"),
+            Err(error) => (None, error.name()),
+        }
+    };
+    same(status.as_str(), if found.is_some() { "ok" } else { said })?;
+    same(found.is_some(), found.is_some_and(|base| base.name == name))?;
+    let found = found.map(|base| (i128::from(base.start), i128::from(base.last)));
+    same(expected, found.unzip())
 }
 
 /// A batched read.

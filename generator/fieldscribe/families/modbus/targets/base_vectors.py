@@ -1,0 +1,155 @@
+"""Vectors of what addresses count from: bases that follow from given numbers, and blocks that a client finds.
+
+Each has the whole exchange that reads the set point there, for languages whose devices find a base by themselves.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from fieldscribe.families.modbus import SPACES, Profile
+from fieldscribe.families.modbus.exchange import Request, build
+from fieldscribe.families.modbus.frames import frame
+from fieldscribe.model import Base, Device, Found, Point
+from fieldscribe.targets.vectors.exchanges import Script
+from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {
+    "base": "base:word given:pairs? script:script? status:word start:int? last:int?",
+    "base_behind": "only:python.typescript base:word script:script status:word start:int? last:int?",
+}
+"""A given base or the start of a found block, and a place behind the start of a block."""
+
+_LAST, _MOST_BLOCKS, _REFUSED = 0xFFFF, 256, 2
+_Held = dict[int, int]
+"""Words of a device by their addresses."""
+
+
+class _Script:
+    """The exchanges with a unit that holds some words, and refuses to read others."""
+
+    def __init__(self, profile: Profile, framing: str, unit: int, held: Mapping[int, int]) -> None:
+        self.profile, self.framing, self.unit, self.held = profile, framing, unit, held
+        self.steps: Script = []
+
+    def read(self, function: int, address: int, count: int) -> tuple[int, ...] | None:
+        """Add a read, and return its words; None if it is refused."""
+        transaction = len(self.steps) + 1 if self.framing == "tcp" else 0
+        _, sent = build(self.profile, self.framing, Request(self.unit, function, address, count, (), transaction))
+        words = [self.held.get(each) for each in range(address, address + count)]
+        known = [word for word in words if word is not None]
+        answer = bytes((function, 2 * count)) + b"".join(word.to_bytes(2, "big") for word in known)
+        if len(known) < count:
+            answer = bytes((function | 0x80, _REFUSED))
+        self.steps.append((sent, frame(self.framing, self.unit, transaction, answer)))
+        return tuple(known) if len(known) == count else None
+
+
+class BaseVectors:
+    """The vectors of the bases of a device, over one framing."""
+
+    def __init__(self, lines: Lines, device: Device, profile: Profile, framing: str, unit: int) -> None:
+        self.lines, self.device = lines, device
+        self._unit = profile, framing, unit
+        self._given = {each.name: each for each in device.given}
+        self._length = max((max(each.addresses, default=0) for each in device.points if each.base), default=0)
+
+    def add(self) -> None:
+        """Add the vectors of each base from which a word can be read."""
+        many = True
+        for base in self.device.bases:
+            point = next((each for each in self.device.points if each.base == base.name and _is_a_word(each)), None)
+            if point is None:
+                continue
+            self.lines.set("point", point.item)
+            if base.block is None:
+                self._add_given(base, point)
+            elif self.device.found is not None:
+                held = _devices(self.device.found, base, base.block, self._length, many=many)
+                self._add_found(self.device.found, base, base.block, point, held)
+                many = False
+
+    def _read(self, script: _Script, point: Point, start: int) -> None:
+        script.read(SPACES[point.space].read, start + point.addresses[0], 1)
+
+    def _add_given(self, base: Base, point: Point) -> None:
+        """Add the ends of all numbers, and one number after the other beyond its ends."""
+        given = [self._given[name] for name, _ in base.terms]
+        for numbers in ({each.name: each.low for each in given}, {each.name: each.high for each in given}):
+            start = base.at(numbers)
+            script = _Script(*self._unit, {start + point.addresses[0]: 1})
+            self._read(script, point, start)
+            self.lines.add("base", base.name, numbers, script.steps, "ok", start, _LAST - start)
+            for each in given:
+                for beyond in (each.low - 1, each.high + 1):
+                    if 0 <= beyond <= _LAST:
+                        self.lines.add("base", base.name, numbers | {each.name: beyond}, None, "bad_base")
+
+    def _add_found(self, found: Found, base: Base, block: int, point: Point, devices: Iterable[_Held]) -> None:
+        for held in devices:
+            script = _Script(*self._unit, held)
+            status, place = _search(script, found, base, block)
+            if place:
+                self._read(script, point, place[0])
+            kind, given = ("base", (None,)) if base.starts_block else ("base_behind", ())
+            self.lines.add(kind, base.name, *given, script.steps, status, *place)
+
+
+def _is_a_word(point: Point) -> bool:
+    """Return True for a point that one request for one item reads, and that every device has."""
+    conditional = point.when is not None or point.since or point.until or point.terms.selects
+    return point.readable and point.words == 1 and bool(point.addresses) and not conditional
+
+
+def _devices(found: Found, base: Base, block: int, length: int, *, many: bool) -> Iterator[_Held]:
+    """Yield what devices hold that have the block somewhere, or not; `many` yields broken ones, too."""
+    first, last, behind = found.places[0], found.places[-1], len(found.words)
+    words = [0] * (2 * length)
+    for number, (_, address, _) in enumerate(base.counts, 1):
+        words[address - 2] = number
+    this, other = (block, words), (1 if block > 1 else 3, [7, 8])
+    yield _chain(found, last, other, this, (block, [9, 9, 9]))
+    if not base.starts_block:
+        yield _chain(found, first, (block, [_LAST if base.counts else 0] * length))
+        return
+    yield _chain(found, first, other)
+    if not many:
+        return
+    yield _chain(found, first, this)
+    yield {place + at: word ^ (at == behind - 1) for place in found.places for at, word in enumerate(found.words)}
+    yield _chain(found, last) | {last + behind: other[0], last + behind + 1: _LAST - 1}
+    yield dict(list(_chain(found, last, this).items())[: behind + 1])
+    yield _chain(found, min(found.places), *[(other[0], [])] * _MOST_BLOCKS)
+
+
+def _chain(found: Found, place: int, *blocks: tuple[int, list[int]]) -> _Held:
+    """Return the words of a marker at a place and of the blocks behind it."""
+    words = [*found.words, *(word for block, held in blocks for word in (block, len(held), *held)), found.end, 0]
+    return dict(enumerate(words, place))
+
+
+def _search(script: _Script, found: Found, base: Base, block: int) -> tuple[str, tuple[int, ...]]:
+    """Search as a client does that knows the whole chain before it reads; return status, start and last address."""
+    function = SPACES[found.space].read
+    marked = (each for each in found.places if script.read(function, each, len(found.words)) == found.words)
+    place, blocks = next(marked, None), dict[int, tuple[int, int]]()
+    if place is None:
+        return "no_marker", ()
+    place += len(found.words)
+    for _ in range(_MOST_BLOCKS):
+        head = script.read(function, place, 2)
+        if head is None:
+            return "exception", ()
+        if head[0] == found.end:
+            break
+        if place + 1 + head[1] > _LAST:
+            return "bad_chain", ()
+        blocks.setdefault(head[0], (place, 1 + head[1]))
+        place += 2 + head[1]
+    else:
+        return "bad_chain", ()
+    if block not in blocks:
+        return "no_block", ()
+    start, last = blocks[block]
+    words = base.offset
+    for _, address, factor in base.counts:
+        words += factor * (script.read(function, start + address, 1) or (0,))[0]
+    return ("ok", (start + words, last - words)) if words <= last else ("behind_end", ())
