@@ -38,13 +38,12 @@ class PointKinds:
         first: dict[Hashable, str] = {}
         self.names: dict[str, str] = {}
         self._longest: dict[str, int] = {}
-        several = [item for item, kind in kinds.items() if sizes[kind] > 1]
-        for item in several:
-            name = _plain(item)
-            self.names[name] = first.setdefault(kinds[item], name)
-            self._longest[self.names[name]] = max(len(item), self._longest.get(self.names[name], 0))
+        several = {item: _plain(item) for item, kind in kinds.items() if sizes[kind] > 1}
+        for item, name in several.items():
+            of_kind = self.names[name] = first.setdefault(kinds[item], name)
+            self._longest[of_kind] = max(len(item), self._longest.get(of_kind, 0))
         self._are_unique = len(self.names) == len(several)
-        left_out = {item for item in several if self.names[_plain(item)] != _plain(item)}
+        left_out = {item for item, name in several.items() if self.names[name] != name}
         self.sample = _sample(device, left_out)
         self.saves_time = 3 * len(self.sample.points) < len(device.points)
 

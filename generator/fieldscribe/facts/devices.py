@@ -271,9 +271,10 @@ _LIMITS: FactTable = (
 
 
 @cache
-def _with_family_facts(kind: str, table: FactTable, own_family: str) -> FactTable:
-    """The table with the facts that families add; those of other families have their empty values."""
-    facts = {fact.key: replace(fact, **_FOREIGN) for each in families() for fact in _offered(each, kind)}
+def _with_family_facts(kind: str, table: FactTable, own_family: str, *, foreign: bool) -> FactTable:
+    """The table with the facts that families add; those of other families, with their empty values, if `foreign`."""
+    others = families() if foreign else ()
+    facts = {fact.key: replace(fact, **_FOREIGN) for each in others for fact in _offered(each, kind)}
     facts |= {fact.key: fact for fact in _offered(family(own_family), kind)}
     return (*table, *facts.values())
 
@@ -286,14 +287,14 @@ def _offered(of_family: Family, kind: str) -> FactTable:
 _FOREIGN: Mapping[str, Any] = {"derived": "it is a fact of another family", "weight": "", "views": ()}
 
 
-def limits_table(own_family: str) -> FactTable:
+def limits_table(own_family: str, *, foreign: bool = True) -> FactTable:
     """Return the facts of the bus of a device of that family."""
-    return _with_family_facts("LIMITS", _LIMITS, own_family)
+    return _with_family_facts("LIMITS", _LIMITS, own_family, foreign=foreign)
 
 
-def frame_table(own_family: str) -> FactTable:
+def frame_table(own_family: str, *, foreign: bool = True) -> FactTable:
     """Return the facts of worked examples of that family."""
-    return (*_with_family_facts("FRAME", _FRAME, own_family), SOURCE, ERRATA)
+    return (*_with_family_facts("FRAME", _FRAME, own_family, foreign=foreign), SOURCE, ERRATA)
 
 
 _SECTIONS = {
@@ -330,9 +331,10 @@ def _codes_of(section: str, bus: Bus, _: Context) -> dict[str, Code]:
 
 
 @cache
-def device_table(own_family: str) -> FactTable:
-    """Return the facts of a device of that family."""
-    limits, frame, codes = limits_table(own_family), frame_table(own_family), codes_table(own_family)
+def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
+    """Return the facts of a device of that family; without `foreign` facts none that only other families have."""
+    limits, frame = limits_table(own_family, foreign=foreign), frame_table(own_family, foreign=foreign)
+    codes = codes_table(own_family)
     errata = replace(_parts("erratum", ERRATUM, listed=_errata, change=BEHAVIOUR), summary=_erratum_in_short)
     return (
         Fact(

@@ -40,7 +40,8 @@ def _has_texts(fact: Fact) -> bool:
 def _digest(
     device: Device, context: Context, left_out: tuple[str, ...], of_points: FactTable = POINT, start: str = ""
 ) -> str:
-    table = tuple(fact for fact in device_table(device.family) if fact.key not in left_out)
+    facts = device_table(device.family, foreign=False)  # those of other families are empty, and their modules stay out
+    table = tuple(fact for fact in facts if fact.key not in left_out)
     checksum = sha256(start.encode() + _canonical(stated(table, device, context)))
     for text in _points(device, context, of_points):
         checksum.update(text)
@@ -60,7 +61,7 @@ def _points(device: Device, context: Context, facts: FactTable) -> Iterator[byte
     for fact in sorted(facts, key=attrgetter("key")):
         if not (fact.holder or fact.derived or (fact.for_people and context.for_code)):
             values = _values(fact, device, context)
-            if any(value is not None and value != fact.usual for value in values):
+            if values.count(None) + (fact.usual is not None and values.count(fact.usual)) < len(values):
                 yield _canonical({fact.key: values})
 
 

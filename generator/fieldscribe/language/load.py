@@ -215,7 +215,9 @@ class _Reader:
         else:
             is_mapping = type(event) is yaml.MappingStartEvent
             value = self._mapping(event, depth) if is_mapping else self._sequence(event, depth)
-            self._count(len(value), event, "split the description with `parts`")
+            self.values += len(value)
+            if self.values > MOST_VALUES:
+                self._refuse_size(event, "split the description with `parts`")
         if event.anchor is not None:
             self.anchors[event.anchor] = value, self.values - before + 1
         return value
@@ -283,9 +285,12 @@ class _Reader:
 
     def _sequence(self, start: Any, depth: int) -> Seq:
         result = Seq(self.source, start.start_mark.index)
-        next_event, read, append, depth = self.next_event, self._value, result.append, depth + 1
+        next_event, append, depth = self.next_event, result.append, depth + 1
         while type(event := next_event()) is not SequenceEndEvent:
-            append(read(event, depth))
+            if type(event) is ScalarEvent and event.tag is None and event.anchor is None:
+                append(event.value if event.style else self.scalars[event.value])
+            else:
+                append(self._value(event, depth))
         return result
 
     def _alias(self, event: Any) -> Value:
@@ -293,15 +298,15 @@ class _Reader:
             message = f"the alias `*{event.anchor[:60]}` stands inside its own anchor, or has no anchor above"
             self._refuse("yaml-alias", message, event, "write it out")
         value, size = self.anchors[event.anchor]
-        self._count(size, event, "aliases count each time; write out what repeats, or share it under `formats`")
+        self.values += size
+        if self.values > MOST_VALUES:
+            hint = "aliases count each time; write out what repeats, or share it under `formats`"
+            self._refuse_size(event, hint)
         share(value)
         return value
 
-    def _count(self, values: int, event: Any, hint: str) -> None:
-        """Count values; too many are refused."""
-        self.values += values
-        if self.values > MOST_VALUES:
-            self._refuse("yaml-size", f"more than {MOST_VALUES} values", event, hint)
+    def _refuse_size(self, event: Any, hint: str) -> NoReturn:
+        self._refuse("yaml-size", f"more than {MOST_VALUES} values", event, hint)
 
     def _span(self, event: Any) -> Span:
         mark = event.start_mark

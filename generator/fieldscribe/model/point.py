@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 from fieldscribe.conditions import Condition
 from fieldscribe.model.numbers import Special, Titles
@@ -147,34 +147,34 @@ class Terms:
     selects: tuple[tuple[str, int], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Point:
     """One addressable datum: its identity, and the shape and terms that it shares with others.
 
     `name` is unique except for variants: points of the same name differ in `variant`. `place` has no addresses if the
     manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is the factory
     setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a floating-point
-    number has only the first.
+    number has only the first. `Final` keeps the fields as they are made; `frozen` would take three times as long.
     """
 
-    name: str
-    variant: Variant | None
-    code: str | None
-    title: Titles
-    note: Titles
-    source: Source
-    place: Place
-    write_place: Place | None
-    shape: Shape
-    terms: Terms
-    allowed: Allowed
-    default: Fraction | None
-    default_raw: int | None
-    record: str | None
-    set: int | None
-    index: int | None
-    was: tuple[str, ...]
-    errata: tuple[str, ...]
+    name: Final[str]
+    variant: Final[Variant | None]
+    code: Final[str | None]
+    title: Final[Titles]
+    note: Final[Titles]
+    source: Final[Source]
+    place: Final[Place]
+    write_place: Final[Place | None]
+    shape: Final[Shape]
+    terms: Final[Terms]
+    allowed: Final[Allowed]
+    default: Final[Fraction | None]
+    default_raw: Final[int | None]
+    record: Final[str | None]
+    set: Final[int | None]
+    index: Final[int | None]
+    was: Final[tuple[str, ...]]
+    errata: Final[tuple[str, ...]]
 
     # Facts of the shape and the terms are attributes of the point: users need not know which facts are shared.
     type = _Shared(lambda point: point.shape.type)

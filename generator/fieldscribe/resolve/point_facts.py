@@ -137,7 +137,8 @@ class PointFacts:
             for stated in _RIVALS.keys() & keys:
                 if _RIVALS[stated] not in keys:
                     where.pop(_RIVALS[stated], None)
-            self.failed.difference_update(keys)
+            if self.failed:
+                self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):
             del where["scale"]  # a group's scale is for its numbers, not for names, floats and texts

@@ -1,9 +1,10 @@
 """Makes the model's points from their facts: places, shapes, limits, and what points of a group share."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.exact import float_of
 from fieldscribe.conditions import Condition
@@ -31,8 +32,7 @@ _MOST_NAMES = 12
 _CITING = {*keys_of(SOURCE), "source"}
 
 
-@dataclass(frozen=True, slots=True)
-class ResolvedPoint:
+class ResolvedPoint(NamedTuple):
     """A point with the facts that it was made from: checks need their places in the text; the model has none."""
 
     point: Point

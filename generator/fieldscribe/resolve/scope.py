@@ -19,9 +19,9 @@ from fieldscribe.model import Base, Document, Enum, Found, Given, Source, Titles
 
 _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
+"""The unit of a number that has none."""
 _NO_TITLES: Titles = {}
 """One for all points without a note: thousands of empty ones are a megabyte."""
-"""The unit of a number that has none."""
 
 _SECTIONS = {
     **dict.fromkeys(("exception", "function", "response"), "bus"),
