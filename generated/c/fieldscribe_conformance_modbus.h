@@ -128,7 +128,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_any(
         return FIELDSCRIBE_MODBUS_NOISE;
     }
     fieldscribe_agree(v, request->transaction == 0U);
-    numbered.transaction = framing == FIELDSCRIBE_MODBUS_TCP ? (uint16_t)(place + 1U) : 0U;
+    numbered.transaction = framing == FIELDSCRIBE_MODBUS_TCP ? 1U : 0U; /* as scripts count */
     status =
         fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &numbered, bytes, sizeof bytes, &length);
     fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
@@ -473,6 +473,124 @@ FIELDSCRIBE_ONCE bool fieldscribe_reads_text(const fieldscribe_text *text, const
     return at == text->words;
 }
 
+/* ---- Rows ---- */
+
+/* A unit of eight words, for whatever is read and written. */
+static uint16_t fieldscribe_held[8];
+
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_held(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    uint16_t *const words = &fieldscribe_held[request->address % 8U];
+    const size_t size = (size_t)request->count * sizeof words[0];
+    if (line == NULL || request->count == 0U || request->address % 8U + request->count > 8U) {
+        return FIELDSCRIBE_MODBUS_BAD_COUNT;
+    }
+    if (request->function == 3U) {
+        memcpy(reply->values, words, size);
+        reply->count = request->count;
+    } else {
+        memcpy(words, request->values, size);
+    }
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* The words of a row and its number, what it is written as in place of them, and a number that does not fit. */
+typedef struct fieldscribe_row_case {
+    fieldscribe_layout layout;
+    int32_t factor;
+    int32_t add;
+    int32_t divisor;
+    uint16_t words[2];
+    int64_t number;
+    int64_t put;
+    uint16_t written[2];
+    int64_t beyond;
+} fieldscribe_row_case;
+
+static inline void fieldscribe_holds_row(fieldscribe_vector *v, const fieldscribe_row_case *one)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const fieldscribe_modbus_line line = {profile, NULL, 0U, NULL, NULL, NULL, 0U, 0U};
+    const fieldscribe_modbus_line foreign = {NULL, NULL, 0U, NULL, NULL, NULL, 0U, 0U};
+    const fieldscribe_modbus_reading read = {3U, 1U, one->layout.words};
+    const fieldscribe_modbus_writing write = {16U, 1U, one->layout.words};
+    const fieldscribe_modbus_base base = {2U, 3U};
+    const fieldscribe_modbus_base early = {2U, 0U};
+    const size_t size = one->layout.words * sizeof one->words[0];
+    fieldscribe_modbus_unit unit = FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_ask_held, 1U);
+    fieldscribe_modbus_based_row based;
+    fieldscribe_modbus_row *const row = &based.row;
+    int64_t number = 9;
+    fieldscribe_fill(&based, sizeof based);
+    row->profile = profile;
+    row->layout = &one->layout;
+    row->read = &read;
+    row->write = &write;
+    row->low = row->high = one->put;
+    row->factor = one->factor;
+    row->add = one->add;
+    row->divisor = one->divisor;
+    memset(fieldscribe_held, 0x5A, sizeof fieldscribe_held);
+    memcpy(&fieldscribe_held[1], one->words, size);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_read_row(&unit, row, &number) == FIELDSCRIBE_MODBUS_OK && number == one->number);
+    fieldscribe_agree(v, fieldscribe_modbus_write_row(&unit, row, one->put + 1) == FIELDSCRIBE_MODBUS_OUT_OF_RANGE &&
+        fieldscribe_modbus_write_row(&unit, row, one->put - 1) == FIELDSCRIBE_MODBUS_OUT_OF_RANGE);
+    row->low = row->high = one->beyond;
+    fieldscribe_agree(v, fieldscribe_modbus_write_row(&unit, row, one->beyond) == FIELDSCRIBE_MODBUS_OUT_OF_RANGE &&
+        memcmp(&fieldscribe_held[1], one->words, size) == 0);
+    row->low = row->high = one->put;
+    fieldscribe_agree(v, fieldscribe_modbus_write_row(&unit, row, one->put) == FIELDSCRIBE_MODBUS_OK &&
+        memcmp(&fieldscribe_held[1], one->written, size) == 0 && fieldscribe_held[1U + one->layout.words] == 0x5A5AU);
+    memcpy(&fieldscribe_held[3], one->words, size);
+    fieldscribe_agree(v, fieldscribe_modbus_read_row_at(&unit, &based, base, &number) == FIELDSCRIBE_MODBUS_OK &&
+        number == one->number);
+    fieldscribe_agree(v, fieldscribe_modbus_write_row_at(&unit, &based, base, one->put) == FIELDSCRIBE_MODBUS_OK &&
+        memcmp(&fieldscribe_held[3], one->written, size) == 0);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_read_row_at(&unit, &based, early, &number) == FIELDSCRIBE_MODBUS_BAD_COUNT &&
+            fieldscribe_modbus_write_row_at(&unit, &based, early, one->put) == FIELDSCRIBE_MODBUS_BAD_COUNT);
+    unit.line = &foreign;
+    fieldscribe_agree(v, fieldscribe_modbus_read_row(&unit, row, &number) == FIELDSCRIBE_MODBUS_BAD_FUNCTION &&
+        fieldscribe_modbus_write_row(&unit, row, one->put) == FIELDSCRIBE_MODBUS_BAD_FUNCTION);
+    unit.line = &line;
+    row->read = NULL;
+    row->write = NULL;
+    fieldscribe_agree(v,
+        fieldscribe_modbus_read_row_at(&unit, &based, base, &number) == FIELDSCRIBE_MODBUS_BAD_FUNCTION &&
+            fieldscribe_modbus_write_row_at(&unit, &based, base, one->put) == FIELDSCRIBE_MODBUS_BAD_FUNCTION);
+    fieldscribe_agree(v, unit.exception == 0U && number == one->number);
+}
+
+/* Rows of every kind of layout, which few programs have. */
+static inline void fieldscribe_holds_rows(fieldscribe_vector *v)
+{
+    static const fieldscribe_row_case cases[] = {
+        {{FIELDSCRIBE_U16, 1U, 0x0U, false, 0U, 0xFFFFU, 0U, 0U}, 1, 0, 1, {0xFFFEU}, 65534, 7, {7U}, 65536},
+        {{FIELDSCRIBE_S16, 1U, 0x0U, false, 0U, 0xFFFFU, 0U, 0U}, 3, 5, 10, {0xFFF9U}, -25, -24, {0xFFF9U}, 109300},
+        {{FIELDSCRIBE_U32, 2U, 0x10U, false, 0U, UINT32_MAX, 0U, 0U}, 2, 6, 1, {1U, 0x8000U}, 1073741822, 1,
+            {8U, 0U}, 2147483648},
+        {{FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, UINT32_MAX, 0U, 0U}, 1, 0, 1, {0xFFFFU, 0xFFFFU}, UINT32_MAX,
+            UINT32_MAX, {0xFFFFU, 0xFFFFU}, (int64_t)UINT32_MAX + 1},
+        {{FIELDSCRIBE_S32, 2U, 0x01U, false, 0U, UINT32_MAX, 0U, 0U}, 1, 0, 1, {0xFFFFU, 0xFFFEU}, -2,
+            INT32_MIN, {0x8000U, 0U}, (int64_t)INT32_MIN - 1},
+        {{FIELDSCRIBE_S32, 2U, 0x01U, false, 0U, UINT32_MAX, 0U, 0U}, 1, 0, 1, {0x8000U, 1U}, -INT32_MAX,
+            INT32_MAX, {0x7FFFU, 0xFFFFU}, (int64_t)INT32_MAX + 1},
+        {{FIELDSCRIBE_U8, 1U, 0x0U, true, 4U, 0x0FF0U, 0U, 0U}, 1, 0, 1, {0xAFEBU}, 254, 1, {0xA01BU}, 256},
+        {{FIELDSCRIBE_S8, 1U, 0x0U, true, 4U, 0x0FF0U, 0U, 0U}, 1, 0, 1, {0xAFEBU}, -2, -128, {0xA80BU}, -129},
+        {{FIELDSCRIBE_BIT, 1U, 0x0U, true, 3U, 0x0008U, 0U, 0U}, 1, 0, 1, {0xFFF7U}, 0, 1, {0xFFFFU}, 2},
+        {{FIELDSCRIBE_LOW_FIRST, 2U, 0x01U, false, 0U, UINT32_MAX, 0U, 0U}, 1, 0, 1, {0x0102U, 0x0304U}, 0x02010403,
+            0x0A0B0C0D, {0x0B0AU, 0x0D0CU}, -1},
+        {{FIELDSCRIBE_LOW_FIRST_SIGNED, 1U, 0x0U, false, 0U, 0xFFFFU, 0U, 0U}, 1, 0, 1, {0xFEFFU}, -2, 258,
+            {0x0201U}, 32768},
+    };
+    size_t at;
+    for (at = 0U; at < sizeof cases / sizeof cases[0]; ++at) {
+        fieldscribe_holds_row(v, &cases[at]);
+    }
+}
+
 /* ---- Frames ---- */
 
 static fieldscribe_modbus_framing fieldscribe_read_request(
@@ -627,15 +745,83 @@ static void fieldscribe_finds(fieldscribe_vector *v, fieldscribe_modbus_framing 
     }
 }
 
-static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, fieldscribe_stream *stream, fieldscribe_modbus_reply *reply)
+/* In a silent line a refusal is found behind what begins a longer answer. */
+static void fieldscribe_finds_in_silence(fieldscribe_vector *v, const fieldscribe_modbus_request *request,
+    const uint8_t *bytes, size_t length)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const size_t size = fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, request);
+    const uint8_t begin[] = {bytes[0], (uint8_t)(bytes[1] & 0x7FU), (uint8_t)(size - 5U)};
+    uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_modbus_receiver receiver =
+        fieldscribe_modbus_await(profile, FIELDSCRIBE_MODBUS_RTU, request, buffer, size);
+    if (length + sizeof begin < size && size < sizeof buffer) {
+        (void)fieldscribe_modbus_receive(&receiver, begin, sizeof begin);
+        (void)fieldscribe_modbus_receive(&receiver, bytes, length);
+        fieldscribe_agree(v, !receiver.done && receiver.length == length + sizeof begin);
+        fieldscribe_modbus_silent(&receiver);
+        fieldscribe_agree(v, receiver.done && receiver.length == length && receiver.dropped == sizeof begin &&
+            memcmp(buffer, bytes, length) == 0);
+        fieldscribe_modbus_silent(&receiver);
+        fieldscribe_agree(v, receiver.done && receiver.length == length);
+    }
+}
+
+static inline fieldscribe_modbus_status fieldscribe_asks_line_of(fieldscribe_vector *v,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, fieldscribe_stream *stream,
+    fieldscribe_modbus_reply *reply, size_t size)
 {
     uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
-    const fieldscribe_modbus_line line = {fieldscribe_tables_of(v)->profile, buffer, sizeof buffer,
+    const fieldscribe_modbus_line line = {fieldscribe_tables_of(v)->profile, buffer, size,
         &fieldscribe_stream_send, &fieldscribe_stream_receive, stream, FIELDSCRIBE_ANSWER_MS,
         FIELDSCRIBE_PAUSE_MS};
     return framing == FIELDSCRIBE_MODBUS_TCP ? fieldscribe_modbus_ask_tcp(&line, request, reply)
                                              : fieldscribe_modbus_ask_rtu(&line, request, reply);
+}
+
+static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, fieldscribe_stream *stream, fieldscribe_modbus_reply *reply)
+{
+    return fieldscribe_asks_line_of(v, framing, request, stream, reply, FIELDSCRIBE_BYTES_MOST);
+}
+
+/* Nothing is sent where an answer has no room; what is late is over before a request; to all units nobody answers. */
+static void fieldscribe_asks_with_care(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
+{
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const size_t size = fieldscribe_modbus_reply_length(profile, framing, request);
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, FIELDSCRIBE_VALUES_MOST);
+    fieldscribe_modbus_request other = *request;
+    fieldscribe_stream stream;
+    memset(&stream, 0, sizeof stream);
+    fieldscribe_agree(v, fieldscribe_asks_line_of(v, framing, request, &stream, &reply, size - 1U) ==
+        FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL);
+    reply.room = request->count - 1U;
+    fieldscribe_agree(v, !fieldscribe_modbus_reads(request->function) ||
+        fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL);
+    fieldscribe_agree(v, stream.sent_count == 0U && reply.count == 0U);
+    reply.room = request->count;
+    if (framing == FIELDSCRIBE_MODBUS_RTU) {
+        fieldscribe_stream_add(&stream, bytes, length);
+        fieldscribe_stream_add(&stream, bytes, length);
+        stream.silence = length;
+        other.late = true;
+        fieldscribe_agree(v, fieldscribe_asks_line(v, framing, &other, &stream, &reply) == FIELDSCRIBE_MODBUS_OK &&
+            stream.given == stream.count);
+        stream.endless = true;
+        fieldscribe_agree(v, fieldscribe_asks_line(v, framing, &other, &stream, &reply) != FIELDSCRIBE_MODBUS_OK &&
+            stream.given < stream.count + 3U * FIELDSCRIBE_MODBUS_ASK_MOST);
+    }
+    if (profile->broadcast <= 0xFFU && ((profile->to_all >> request->function) & 1U) != 0U) {
+        memset(&stream, 0, sizeof stream);
+        other.unit = (uint8_t)profile->broadcast;
+        other.late = false;
+        stream.waited = 1U;
+        fieldscribe_agree(v, fieldscribe_asks_line(v, framing, &other, &stream, &reply) == FIELDSCRIBE_MODBUS_OK &&
+            stream.sent_count > 0U && stream.waited == 1U);
+    }
 }
 
 /* What cannot be built is not sent. */
@@ -685,6 +871,13 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_frami
         fieldscribe_agree(v, kind == 2U || fieldscribe_asks_line(v, framing, request, &stream, &reply) ==
             (kind == 0U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_NOISE));
         fieldscribe_agree(v, kind != 0U || stream.waited == FIELDSCRIBE_PAUSE_MS);
+    }
+    if (parsed == FIELDSCRIBE_MODBUS_OK) {
+        fieldscribe_asks_with_care(v, framing, request, bytes, length);
+    } else if (framing == FIELDSCRIBE_MODBUS_RTU) {
+        fieldscribe_finds_in_silence(v, request, bytes, length);
+    } else {
+        /* a refusal over TCP says its length */
     }
     memset(&stream, 0, sizeof stream);
     fieldscribe_agree(
@@ -754,6 +947,7 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_holds_long_numbers(v);
+    fieldscribe_holds_rows(v);
     fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
         fieldscribe_modbus_status_name(FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL))); /* no vector has it */
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)

@@ -13,19 +13,20 @@ class Script:
 
     def __init__(self, vector: Vector, frame: Callable[[int, bytes], Any]) -> None:
         self.framing = vector["framing"] or "uss"  # only Modbus has several
+        self._head = 2 if self.framing == "tcp" else 0
+        """The bytes of the transaction, which is the same in all steps of a script."""
         self._steps = list(vector["script"])
-        self._needs = dict(vector["needs"])
+        self._needs = {sent[self._head :]: (sent, answer) for sent, answer in dict(vector["needs"]).items()}
         self._frame = frame
         self._came: list[bytes] = []
 
     def exchange(self, request: bytes) -> bytes:
         """One request and its reply."""
-        if request in self._needs:
-            return bytes(self._needs[request])
-        sent, received = self._steps.pop(0)
-        if sent != request:
+        sent, received = self._needs.get(request[self._head :]) or self._steps.pop(0)
+        if sent[self._head :] != request[self._head :]:
             raise AssertionError(f"sent {request.hex()}, not {sent.hex()}")
-        return bytes(received)
+        exchanged = zip(received, sent, request[: self._head], strict=False)
+        return bytes(came ^ one ^ other for came, one, other in exchanged) + bytes(received[self._head :])
 
     def send(self, frame: Any) -> None:
         """One frame to the bus; what answers it comes next."""

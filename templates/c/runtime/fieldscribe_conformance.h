@@ -274,12 +274,16 @@ FIELDSCRIBE_ONCE void fieldscribe_agree(fieldscribe_vector *v, bool same)
 #define FIELDSCRIBE_ANSWER_MS 900U
 #define FIELDSCRIBE_PAUSE_MS 40U
 
-/* The other end of a line: the bytes that come from it, the last one for ever if it is `endless`, and what was sent. */
+/*
+ * The other end of a line: the bytes that come from it, the last one for ever if it is `endless`, and what was sent.
+ * Before the byte at `silence` nothing comes once.
+ */
 typedef struct fieldscribe_stream {
     uint8_t bytes[4 * FIELDSCRIBE_BYTES_MOST];
     size_t count;
     size_t given;
     bool endless;
+    size_t silence; /* 0 for none */
     uint32_t waited; /* for the last byte, or for one that did not come */
     uint8_t sent[FIELDSCRIBE_BYTES_MOST];
     size_t sent_count;
@@ -329,6 +333,10 @@ static inline bool fieldscribe_stream_receive(void *context, uint32_t millisecon
     fieldscribe_stream *const stream = (fieldscribe_stream *)context;
     const bool more = stream->given < stream->count;
     stream->waited = milliseconds;
+    if (stream->silence != 0U && stream->silence == stream->given) {
+        stream->silence = 0U;
+        return false;
+    }
     if (more || stream->endless) {
         *byte = stream->bytes[more ? stream->given : stream->count - 1U];
         ++stream->given;
@@ -506,6 +514,21 @@ FIELDSCRIBE_ONCE bool fieldscribe_fits_uint64_t(const char *field)
         count_type count = (count_type)1;                                                        \
         const int status = (int)function((raw_type)fieldscribe_bits(v, "raw") with, &count);     \
         fieldscribe_stored(v, status, "count", (uint64_t)count, count == (count_type)1);         \
+    }
+
+/* Counts of a binary32 pattern. */
+#define FIELDSCRIBE_F32_DECODE_COUNT(function)                                                   \
+    if (fieldscribe_asks(v, "f32_decode_count")) {                                               \
+        int64_t count = 1;                                                                       \
+        const int status = (int)function((uint32_t)fieldscribe_bits(v, "raw"), &count);          \
+        fieldscribe_stored(v, status, "count", (uint64_t)count, count == 1);                     \
+    }
+
+#define FIELDSCRIBE_F32_ENCODE_COUNT(function)                                                   \
+    if (fieldscribe_asks(v, "f32_encode_count")) {                                               \
+        uint32_t raw = 1U;                                                                       \
+        const int status = (int)function((int64_t)fieldscribe_bits(v, "count"), &raw);           \
+        fieldscribe_stored(v, status, "raw", raw, raw == 1U);                                    \
     }
 
 #if defined(FIELDSCRIBE_NO_FLOAT)

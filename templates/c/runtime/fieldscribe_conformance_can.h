@@ -337,6 +337,7 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
     if (fieldscribe_asks(v, "can_signal")) {                                                     \
         uint16_t words[FIELDSCRIBE_SIGNAL_WORDS];                                                \
         const fieldscribe_can_status status = fieldscribe_takes_signals(v, (frame).heard.high, words); \
+        fieldscribe_agree(v, (frame).heard.low + 1U == (frame).heard.high + (frame).layout->words); \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_taken_##kind(v, (frame).layout, words + (frame).heard.high);             \

@@ -369,6 +369,7 @@ static void fieldscribe_finds(fieldscribe_vector *v, const fieldscribe_uss_link 
     }
 }
 
+/* No task at all is what exchanges process data alone. */
 static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v, const fieldscribe_uss_link *link,
     const fieldscribe_uss_request *request, fieldscribe_stream *stream, fieldscribe_uss_reply *reply)
 {
@@ -377,6 +378,18 @@ static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v
     const fieldscribe_uss_words process = {nothing, link->pzd};
     const fieldscribe_uss_line line = {fieldscribe_tables_of(v)->profile, link, buffer, sizeof buffer,
         &fieldscribe_stream_send, &fieldscribe_stream_receive, stream, FIELDSCRIBE_ANSWER_MS, FIELDSCRIBE_PAUSE_MS};
+    if (request->task == 0U && reply->room >= link->pzd) {
+        uint16_t heard[FIELDSCRIBE_BYTES_MOST] = {0U};
+        fieldscribe_stream same = *stream;
+        fieldscribe_uss_line again = line;
+        fieldscribe_uss_unit unit = FIELDSCRIBE_USS_UNIT(&again, &fieldscribe_uss_ask, nothing, heard, request->unit);
+        fieldscribe_uss_status status;
+        again.context = &same;
+        status = fieldscribe_uss_exchange_words(&unit);
+        fieldscribe_agree(v, status == fieldscribe_uss_ask(&line, request, &process, reply) &&
+            memcmp(heard, reply->process, status == FIELDSCRIBE_USS_OK ? link->pzd * sizeof heard[0] : 0U) == 0);
+        return status;
+    }
     return fieldscribe_uss_ask(&line, request, &process, reply);
 }
 
@@ -411,6 +424,16 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_li
             (kind == 0U ? FIELDSCRIBE_USS_WRONG_LENGTH : FIELDSCRIBE_USS_NOISE));
         fieldscribe_agree(v, kind != 0U || stream.waited == FIELDSCRIBE_PAUSE_MS);
     }
+    (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
+    fieldscribe_stream_add(&stream, bytes, length);
+    stream.silence = 1U;
+    fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_OK);
+    memset(&stream, 0, sizeof stream);
+    reply.room = link->pzd - 1U;
+    fieldscribe_agree(v, link->pzd == 0U ||
+        (fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_BUFFER_TOO_SMALL &&
+            stream.sent_count == 0U));
+    reply.room = FIELDSCRIBE_BYTES_MOST;
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
     stream.endless = true;
     fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_NOISE &&

@@ -143,6 +143,9 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         if point.readable:
             tried = "TRY_" if scale is not None and scale.count_fits else attempt
             yield f"{tried}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {factors})"
+    if view.shape == "float" and point.type == "f32" and point.has_counts:
+        yield from [f"F32_ENCODE_COUNT({function}_encode_count)"] * point.writable
+        yield from [f"F32_DECODE_COUNT({function}_decode_count)"] * point.readable
     if view.shape != "plain":
         real = "double" if view.computes_in_double else "fieldscribe_real"
         if point.writable and point.encodes_values:

@@ -1,12 +1,13 @@
 """Vectors of points that travel as binary32 or binary64 patterns."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from math import inf, isfinite, isnan, nan, nextafter, pi
 from sys import float_info
 
 from fieldscribe.model import Allowed, Shape
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.oracle import bits_of, code_of, float_of_bits
+from fieldscribe.targets.vectors.oracle import bits_of, code_of, float_of_bits, half_away
 from fieldscribe.targets.vectors.samples import PointEncoding, codes
 
 _GREATEST = {32: 2.0**128 - 2.0**104, 64: float_info.max}
@@ -41,6 +42,7 @@ _TIES = (
     16777217.0,
     2.0**-126,
 )
+_LAST_COUNT = (1 << 63) - 1
 _BEYOND_32 = 2.0**128 - 2.0**103
 """Halfway between the greatest binary32 and the next power of two: numbers from here on round to infinity."""
 
@@ -63,6 +65,43 @@ def floats(lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
             code = code_of(shape, bits)
             coded = None if code is None else "ok" if code.writable else "special"
             lines.add("check", bits, coded or _admitted(float_of_bits(bits, width), limits))
+    if width == 32 and shape.has_counts:
+        _counts(lines, shape, 10 ** (shape.decimals or 0), limits)
+
+
+def _counts(lines: Lines, shape: Shape, tens: int, limits: list[tuple[float, float]]) -> None:
+    """Add counts of `tens` a unit, where numbers have one: of small, large and typical ones, limits and no numbers."""
+    if shape.readable:
+        edges = [_LAST_COUNT // tens * one for one in (1.0, -1.0, 0.5, 1.1)]
+        halves = (half / tens for half in (0.25, 0.49, 0.5, 0.51, -0.5, 1.5, -2.5, 12345.5))
+        numbers = (*_DECODED[32], *edges, *halves, 2.0**23, -(2.0**24), 2.0**30, 2.0**63, inf, -inf, nan, -nan)
+        for bits in dict.fromkeys((*_patterns(numbers, 32), *codes(shape), 0xFF80_0001)):
+            lines.add("f32_decode_count", bits, *_count_of(shape, bits, tens))
+    if shape.writable:
+        edges = [*(end for pair in limits for end in pair), *(float_of_bits(raw, 32) for raw in codes(shape))]
+        whole = [int(edge * tens) for edge in (*edges, 2.0**24 + 1) if abs(edge) * tens < _LAST_COUNT]
+        near = [count + step for count in whole for step in (-1, 0, 1)]
+        few = (0, 1, -1, 7, 215, 16777217, 33554431, 167772155, _LAST_COUNT, -_LAST_COUNT - 1)
+        for count in dict.fromkeys((*few, *near)):
+            bits = _nearest(Fraction(count, tens))
+            status = "special" if code_of(shape, bits) else _admitted(float_of_bits(bits, 32), limits)
+            lines.add("f32_encode_count", count, status, bits if status == "ok" else None)
+
+
+def _count_of(shape: Shape, bits: int, tens: int) -> Iterator[object]:
+    number, code = float_of_bits(bits, 32), code_of(shape, bits)
+    if code is not None or not isfinite(number):
+        yield "special" if code is not None else "not_a_number" if isnan(number) else "overflow"
+        return
+    count = half_away(*(Fraction(number) * tens).as_integer_ratio())
+    yield from ("ok", count) if abs(count) <= _LAST_COUNT else ("overflow",)
+
+
+def _nearest(value: Fraction) -> int:
+    """Return the pattern of the binary32 nearest to a value, ties to even."""
+    guess = bits_of(float(value), 32)
+    near = [bits for bits in (guess - 1, guess, guess + 1) if 0 <= bits <= 0xFFFF_FFFF]
+    return min(near, key=lambda bits: (abs(Fraction(float_of_bits(bits, 32)) - value), bits & 1))
 
 
 def _patterns(numbers: Iterable[float], width: int) -> list[int]:

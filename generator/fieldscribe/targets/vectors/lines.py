@@ -41,6 +41,8 @@ KINDS = {
     "encode": "value:real status:word raw:int?",
     "decode_count": "raw:int status:word count:int? special:word?",
     "encode_count": "count:int status:word raw:int?",
+    "f32_decode_count": "only:c raw:int status:word count:int?",
+    "f32_encode_count": "only:c count:int status:word raw:int?",
     "check": "raw:int status:word",
     # names of numbers, special codes, flags, and the numbers of flags of several bits
     "name": "raw:int name:text?",

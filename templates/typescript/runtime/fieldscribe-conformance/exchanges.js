@@ -46,10 +46,13 @@ class ScriptedLine {
   /** @param {Vector} vector */
   constructor(vector) {
     this.framing = vector.framing ?? undefined;
+    /** The bytes of the transaction, which is the same in all steps of a script. */
+    this.head = this.framing === "tcp" ? 2 : 0;
     /** @type {[Uint8Array, Uint8Array][]} */
     this.steps = [...vector.script];
+    /** @type {Map<string, [Uint8Array, Uint8Array]>} */
     this.needs = new Map(
-      (vector.needs ?? []).map((/** @type {[Uint8Array, Uint8Array]} */ [sent, came]) => [String(sent), came]),
+      (vector.needs ?? []).map((/** @type {[Uint8Array, Uint8Array]} */ step) => [String(this.body(step[0])), step]),
     );
   }
 
@@ -64,13 +67,17 @@ class ScriptedLine {
     throw new NoReplyError("no frame came");
   }
 
+  /** @param {Uint8Array} frame */
+  body(frame) {
+    return frame.slice(this.head);
+  }
+
   /** @param {Uint8Array} request @returns {Uint8Array} */
   answer(request) {
-    const needed = this.needs.get(String(request));
-    if (needed) return needed;
-    const [sent, came] = this.steps.shift() ?? [[], new Uint8Array(0)];
-    if (String(sent) !== String(request)) throw new Error(`sent ${request}, not ${sent}`);
-    return came;
+    const none = new Uint8Array(0);
+    const [sent, came] = this.needs.get(String(this.body(request))) ?? this.steps.shift() ?? [none, none];
+    if (String(this.body(sent)) !== String(this.body(request))) throw new Error(`sent ${request}, not ${sent}`);
+    return came.map((byte, at) => (at < this.head ? byte ^ sent[at] ^ request[at] : byte));
   }
 }
 

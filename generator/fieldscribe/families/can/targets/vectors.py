@@ -73,13 +73,17 @@ class CanWire:
         return frame.id.to_bytes(4, "big") + frame.data
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """Yield the exchange without its answer; for a write also with another number in the answer."""
+        """Yield the exchange without its answer, with that of another place, and with another number in the echo."""
         _, answer = self.messages[writes]
         [(sent, good)] = script
         yield "timeout", [(sent, b"")]
         yield "timeout", [(sent, with_flipped(good, 3))]
-        if answer is not None and writes and carries(answer, "raw"):
-            word = parse(answer, self.unit, CanFrame(int.from_bytes(good[:4], "big"), good[4:])).raw
+        if answer is None or not carries(answer, "raw"):
+            return
+        word = parse(answer, self.unit, CanFrame(int.from_bytes(good[:4], "big"), good[4:])).raw
+        if carries(answer, "address"):
+            yield "timeout", [(sent, self._bytes(answer, point.addresses[0] ^ 1, word))]
+        if writes:
             yield "echo_mismatch", [(sent, self._bytes(answer, point.addresses[0], word ^ 0x0100))]
 
 

@@ -3,7 +3,7 @@
 Each has the whole exchange that reads the set point there, for languages whose devices find a base by themselves.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from fieldscribe.families.modbus import SPACES, Profile
 from fieldscribe.families.modbus.exchange import Request, build
@@ -32,7 +32,7 @@ class _Script:
 
     def read(self, function: int, address: int, count: int) -> tuple[int, ...] | None:
         """Add a read, and return its words; None if it is refused."""
-        transaction = len(self.steps) + 1 if self.framing == "tcp" else 0
+        transaction = 1 if self.framing == "tcp" else 0
         _, sent = build(self.profile, self.framing, Request(self.unit, function, address, count, (), transaction))
         words = [self.held.get(each) for each in range(address, address + count)]
         known = [word for word in words if word is not None]
@@ -63,8 +63,7 @@ class BaseVectors:
             if base.block is None:
                 self._add_given(base, point)
             elif self.device.found is not None:
-                held = _devices(self.device.found, base, base.block, self._length, many=many)
-                self._add_found(self.device.found, base, base.block, point, held)
+                self._add_found(self.device.found, base, base.block, point, many=many)
                 many = False
 
     def _read(self, script: _Script, point: Point, start: int) -> None:
@@ -83,14 +82,19 @@ class BaseVectors:
                     if 0 <= beyond <= _LAST:
                         self.lines.add("base", base.name, numbers | {each.name: beyond}, None, "bad_base")
 
-    def _add_found(self, found: Found, base: Base, block: int, point: Point, devices: Iterable[_Held]) -> None:
-        for held in devices:
+    def _add_found(self, found: Found, base: Base, block: int, point: Point, *, many: bool) -> None:
+        for held in _devices(found, base, block, self._length, many=many):
             script = _Script(*self._unit, held)
             status, place = _search(script, found, base, block)
             if place:
                 self._read(script, point, place[0])
             kind, given = ("base", (None,)) if base.starts_block else ("base_behind", ())
             self.lines.add(kind, base.name, *given, script.steps, status, *place)
+        if many:
+            cut = _Script(*self._unit, {})
+            cut.read(SPACES[found.space].read, found.places[0], len(found.words))
+            ((sent, answer),) = cut.steps
+            self.lines.add("base", base.name, None, [(sent, answer[:-1])], "short_frame")
 
 
 def _is_a_word(point: Point) -> bool:

@@ -79,7 +79,7 @@ class ModbusWire:
 
     def _exchange(self, function: int, words: tuple[int, ...]) -> tuple[bytes, bytes] | None:
         values = () if function in READS else words
-        transaction = 1 if self.framing == "tcp" else 0  # every device object counts from 1
+        transaction = 1 if self.framing == "tcp" else 0  # of each step: runners exchange it for the device's own
         request = Request(self.unit, function, 0, len(words), values, transaction)
         status, sent = build(self.profile, self.framing, request)
         return (sent, _reply_frame(self.framing, request, words)) if status == "ok" else None

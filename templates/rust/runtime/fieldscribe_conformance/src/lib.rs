@@ -1106,6 +1106,8 @@ where
 
 /// A transport that expects what the script of a vector says is sent, in any order, and answers as it says.
 pub struct Script {
+    /// The bytes of the transaction, which is the same in all steps.
+    head: usize,
     steps: Vec<(Vec<u8>, Vec<u8>)>,
     fault: Option<String>,
 }
@@ -1116,7 +1118,9 @@ impl Script {
         let _ = vector.field("needs");
         let steps = vector.pairs("script").into_iter();
         let steps = steps.map(|(sent, received)| (bytes(&sent), bytes(&received)));
+        let is_tcp = vector.said("framing").as_deref() == Some("tcp");
         Self {
+            head: if is_tcp { 2 } else { 0 },
             steps: steps.collect(),
             fault: None,
         }
@@ -1124,11 +1128,20 @@ impl Script {
 
     /// What answers a request; nothing if it should not be sent.
     pub fn answer(&mut self, request: &[u8]) -> Option<Vec<u8>> {
-        let place = self.steps.iter().position(|(sent, _)| sent == request);
+        let body = |frame: &[u8]| frame.get(self.head..).map(<[u8]>::to_vec);
+        let place = self
+            .steps
+            .iter()
+            .position(|(sent, _)| body(sent) == body(request));
         if place.is_none() {
             self.fault = Some(format!("sent {}", hex(request)));
         }
-        place.map(|place| self.steps.remove(place).1)
+        let (sent, mut answer) = self.steps.remove(place?);
+        let own = sent.iter().zip(request).take(self.head);
+        for (byte, (one, other)) in answer.iter_mut().zip(own) {
+            *byte ^= one ^ other;
+        }
+        Some(answer)
     }
 
     /// That nothing was sent that should not be.
