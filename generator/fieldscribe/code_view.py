@@ -116,7 +116,7 @@ def _family_facts(facts: FamilyFacts) -> FamilyFacts:
 
 
 def _point(point: Point, shape: Shape, terms: Terms) -> Point:
-    """Return a point as code may know it: a field that is not named here is for people only."""
+    """Return a point as code may know it. A new field of a point reaches code only if it is named here."""
     return Point(
         point.name,
         point.variant,
@@ -140,6 +140,7 @@ def _point(point: Point, shape: Shape, terms: Terms) -> Point:
 
 
 def _terms(terms: Terms) -> Terms:
+    """Return terms as code may know them. A new field reaches code unless it is cleared here."""
     return replace(
         terms,
         unit=replace(terms.unit, name="", quantity=""),
@@ -152,6 +153,7 @@ def _terms(terms: Terms) -> Terms:
 
 
 def _shape(shape: Shape, enums: _Enums) -> Shape:
+    """Return a shape as code may know it. A new field reaches code unless it is cleared here."""
     digits = shape.digits
     return replace(
         shape,

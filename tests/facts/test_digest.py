@@ -157,7 +157,8 @@ def counted_fields(device: Device, known: AbstractSet[str]) -> set[str]:
                 seen = for_code(mutant)
                 digested = with_digest(mutant, seen)[0]
                 assert facts_digest(digested) != usual, owner
-                assert (digested.digest != device.digest) == (seen != plain), owner
+                same = (digested.digest != device.digest) == (seen != plain)
+                assert same, f"{owner}: `for_people` of its fact and code_view.py disagree"
                 found = {each.weight for each in differences(exported, export_model(mutant))}
             except (AttributeError, TypeError, KeyError):
                 continue  # no value of that kind belongs there

@@ -27,8 +27,9 @@ class TagView:
     words: int
 
 
-def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """One table a device."""
+    del tests  # there are none
     tags = [
         TagView(_tag(point), point.space, point.address, point.words)
         for point in device.points
@@ -37,9 +38,9 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     yield f"toy/{device.id}.csv", render("toy/tags.csv.j2", {"device": device.id, "tags": tags})
 
 
-def runtime(device: Device) -> Iterable[tuple[str, str]]:
+def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """What all tables share."""
-    del device
+    del device, tests
     yield "toy/spaces.csv", "toy/runtime/spaces.csv"
 
 

@@ -7,6 +7,7 @@ To add a check:
    each finding with `analysis.report.error(rule, message, span, hint)`, or with `warning` if the device can be compiled
    all the same. `facts.span(key)` is the place of a key. Skip points whose `facts.failed` has a key that the check
    depends on: they have a finding already. Try the check on `descriptions/` and `tests/devices/` first.
+   `coexistence` knows which points never exist together, `identifier_places` where a name in code comes from.
 2. Add the module to `CHECKS` below, before `errata_are_used` if an erratum may explain what the check finds.
 3. Add a wrong description to `tests/bad` with the expected findings as its first comments. With FIELDSCRIBE_ACCEPT=1 in
    the environment `pytest tests/checks/test_bad.py` writes these comments; read what it wrote.

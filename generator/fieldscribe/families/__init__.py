@@ -19,8 +19,10 @@ To add a function of a bus:
 
 1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py`, or `_WRITE_TASKS` and `RESPONSE_WIDTHS`
    in `uss/parts.py`. Checks, profiles, generated tables and the vectors of all devices follow from it.
-2. If its bytes have a new form, add that to the module that builds and parses them. The runtimes in
-   `templates/<target>/runtime` have the same form once more, each in its language.
+2. If its bytes have a new form, add that to the module that builds and parses them (Modbus: `exchange.py`, and the
+   lengths in `frames.py`), and to `frame_decoder.py`. The runtimes in `templates/<target>/runtime` have the same form
+   once more, each in its language. A number beyond the others changes the C profile: raise
+   `FIELDSCRIBE_MODBUS_FUNCTIONS` and `..._INTERFACE`, which `templates/c/modbus.h.j2` asks for.
 3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.
 
 A part that a family does not have is left out; whoever asks for a part says what it must offer.

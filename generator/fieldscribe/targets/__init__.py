@@ -1,7 +1,8 @@
 """The languages that a device is compiled to.
 
 To add a target: write a folder here with what `Target` lists (`tests/toy_target` is the smallest one), templates if it
-needs them, and add a line to the registry below. Tests and the help of `generate` say what else names all targets.
+needs them, and add a line to `TARGETS`. `text.py` has the names, strings and comments of each language (`pascal`,
+`c_comment`); `identifiers.py` has the head of a generated file. Without the head a file is known only by its checksum.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The Modbus family: its facts, the functions of the protocol, and the requests that a device accepts."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 from fieldscribe.families import BusKeys, Codes, Family
 from fieldscribe.model import Bus, FamilyFacts
@@ -25,7 +25,7 @@ FAMILY = Family(
 class Function:
     """A function: its common name, its space, what it does there, and the most items of one request.
 
-    `does` is `read`, `write_one` or `write_many`, which `SPACES` chooses from, or another word for what no point uses.
+    `does` is the field of `Space` that it fills (`read`, `write_one`, `write_many`), or another word if none.
     """
 
     name: str
@@ -64,8 +64,11 @@ class Space:
     write_many: int | None = None
 
 
+_DOES = frozenset(field.name for field in fields(Space))
 SPACES: Mapping[str, Space] = {
-    name: Space(**{function.does: number for number, function in FUNCTIONS.items() if function.space == name})
+    name: Space(
+        **{each.does: number for number, each in FUNCTIONS.items() if each.space == name and each.does in _DOES}
+    )
     for name in FAMILY.spaces
 }
 

@@ -5,13 +5,15 @@ To add a key:
 1. Write one `Key` (see `fieldscribe/schema_types.py`) in the module here that has its neighbours: `files`, `points`,
    `meaning`, `nested_keys`, `bus` or `frames`; for one family alone in the part `description` of that family. Its
    `places` come from `places.py`.
-2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`), and give the model a field for it with a
-   default, so that nothing changes for descriptions without the key. If no shape depends on it, name it in
-   `resolve/memo.py`; if generated code needs it, pass it on in `code_view.py`.
-3. If people should see it, add a row to the table of facts (`fieldscribe/facts/`): pages, export and `diff` follow. A
-   new published fact raises `FORMAT` in `facts/devices.py`.
-4. Run `make keys`: editors, KEYS.md and the schema of the export know the key now.
-5. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
+2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`; most are read in `_terms_of` of
+   `resolve/points.py`). Give the model a field with a default: in `Terms` (and its line in `Point`), or in `Shape` if
+   encoding depends on it. A key that differs from point to point is named in `resolve/memo.py`.
+3. Fields of `Terms` and `Shape` reach generated code. If the fact is for people only, clear it in `code_view.py`, and
+   say `for_people` in its row of step 4.
+4. Add a row to the table of facts (`fieldscribe/facts/points.py`): digest, pages, export and `diff` follow. A new
+   published fact raises `FORMAT` in `facts/devices.py`, and has a line in `tests/export/sample_drive.json`.
+5. Run `make keys`: editors, KEYS.md and the schema of the export know the key now.
+6. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
 """
 
 from fieldscribe.families import Family, families
