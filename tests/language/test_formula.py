@@ -126,7 +126,7 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_range, "0 to 4000", 2, "unexpected", "low..high"),
     (parse_range, "0\u20264000", 1, "`\u2026`", ".."),
     (parse_range, "0,5..9,9", 0, "decimal number or a list", "0.5"),
-    (parse_range, "0,1,2", 0, "decimal number or a list", "blank behind the comma"),
+    (parse_range, "0,1,2", 0, "decimal number or a list", "blank after the comma"),
     (parse_range, "0, 1,", 5, "found the end", ""),
     (parse_range, "0..raw", 3, "not known in a range", ""),
     (parse_condition, "", 0, "a name", ""),

@@ -53,7 +53,7 @@ REFUSED = {
     ("hexadecimal", "H'1028"): ["H'", "H'33F'"],
     ("one marker", "1028h"): ["0x10h"],
     ("before the decimal point", "0.5"): [".5"],
-    ("behind the decimal point", "5.0"): ["5."],
+    ("after the decimal point", "5.0"): ["5."],
     ("between sign and number", "directly"): ["- 5"],
     ("inside", "without blanks"): ["10 28h", "1 2"],
     ("unit", "alone"): ["50 Hz", "50.0Hz", "100ms", "5%", "20 \u00b0C"],

@@ -126,16 +126,16 @@ def _pieces(pattern: str, passage: Passage) -> Iterator[tuple[int, int]]:
 
 
 def labels_found(labels: Sequence[Label], passage: Passage) -> dict[Label, Found]:
-    """Look for the labels of a list, which is printed in one way: each label before or behind its number.
+    """Look for the labels of a list, which is printed in one way: each label before or after its number.
 
     Where most labels stand right beside their numbers, all have to. The labels of a short list may stand on any side.
     """
     search = _LabelSearch(labels, passage)
     ways = {
         right_beside: [
-            {label: search.found(label, behind, way, right_beside) for label in labels}
+            {label: search.found(label, after, way, right_beside) for label in labels}
             for way in range(max(1, 0, *(len(label.beside) for label in labels)))
-            for behind in (True, False)
+            for after in (True, False)
         ]
         for right_beside in (True, False)
     }
@@ -178,14 +178,14 @@ class _LabelSearch:
         self.text_between = passage.manual.without_names("".join(text))
         """The text with blanks in place of the labels."""
 
-    def found(self, label: Label, behind: bool, way: int, right_beside: bool) -> Found:
-        """One label, `behind` its number or before it."""
+    def found(self, label: Label, after: bool, way: int, right_beside: bool) -> Found:
+        """One label, `after` its number or before it."""
         beside = label.numbers(way)
         tokens: list[Token] = []
         lines = []
         for first, end in self.spans[label]:
             if label.beside:
-                number = self._number_before(first) if behind else self._number_after(end)
+                number = self._number_before(first) if after else self._number_after(end)
                 if number is None or not self.passage.tokens[number].readings & beside:
                     continue
                 if right_beside and self._has_words_between(number, first, end):

@@ -98,7 +98,7 @@ class Passage:
         return self.tokens[bisect_right(self.ends, first) : bisect_left(self.starts, end)]
 
     def behind_names(self, names: tuple[str, ...]) -> list[Token]:
-        """Return the numbers right behind one of these names, as in `Mux 3` or `Default: 0`."""
+        """Return the numbers right after one of these names, as in `Mux 3` or `Default: 0`."""
         pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})(?:\s*[:=])?\s*(?=[0-9])"
         matches = re.finditer(pattern, self.text)
         return [token for match in matches for token in self.inside(match.end(), match.end() + 1)]

@@ -114,7 +114,7 @@ class PointKinds:
 
 @dataclass
 class _Space:
-    """The identifiers of a namespace: what stands before and behind the names of points, and those of other things.
+    """The identifiers of a namespace: what stands before and after the names of points, and those of other things.
 
     Each ending has the kinds of points that have it.
     """

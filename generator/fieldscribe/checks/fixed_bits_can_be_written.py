@@ -36,15 +36,15 @@ def check(analysis: Analysis) -> None:
             analysis.report.error("two-meanings", message, resolved.facts.span("fixed"), hint)
         if point.bits is not None and point.addresses:
             others = words[written_word(point)][:_MOST]
-            behind = False
+            later = False
             for other in others:
                 if other is not resolved and not coexistence.exclude(resolved, other):
-                    _compare(analysis, resolved, point.fixed, other, behind=behind)
-                behind = behind or other is resolved
+                    _compare(analysis, resolved, point.fixed, other, later=later)
+                later = later or other is resolved
 
 
-def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: ResolvedPoint, *, behind: bool) -> None:
-    """Report what is wrong between two bit groups of one word; the later one (`behind`) reports what concerns both."""
+def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: ResolvedPoint, *, later: bool) -> None:
+    """Report what is wrong between two bit groups of one word; the later one (`later`) reports what concerns both."""
     mask = group_mask(other.point)
     other_fixed = other.point.fixed
     related = [(other.facts.span(), f"`{other.point.name}` stands here")]
@@ -53,7 +53,7 @@ def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: R
         message = f"writing `{resolved.point.name}` would always change bit {bit}, which is of `{other.point.name}`"
         hint = "leave that bit out of `fixed`: the other bits of the word are written back as they were read"
         analysis.report.error("bits-overlap", message, resolved.facts.span("fixed"), hint, related)
-    elif behind and other_fixed is not None and (fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask:
+    elif later and other_fixed is not None and (fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask:
         bit = ((fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask).bit_length() - 1
         message = f"`{resolved.point.name}` and `{other.point.name}` fix bit {bit} of their word differently"
         hint = "what is always written as a constant is one constant: correct one of them"

@@ -1,6 +1,6 @@
 """No two things get the same identifier in a target, and none gets an identifier that generated code needs.
 
-Nor do two identifiers differ only behind the characters that a language compares.
+Nor do two identifiers differ only after the characters that a language compares.
 
 Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
 that have other findings are left out. Reserved words do not clash: targets change such names themselves.

@@ -171,7 +171,7 @@ def _same_units(point: Point, printed: Any) -> bool:
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
     """Return True if the intervals are equal. Fixed ones need not be printed where other points set limits."""
-    moving = taken.intervals[len(taken.fixed) :]  # these stand behind the fixed ones
+    moving = taken.intervals[len(taken.fixed) :]  # these stand after the fixed ones
     if moving != printed.intervals[len(printed.fixed) :]:
         return False
     return taken.fixed == printed.fixed or (bool(moving) and not printed.fixed)

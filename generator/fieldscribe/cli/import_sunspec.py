@@ -22,7 +22,7 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--most", type=int, choices=range(1, 1001), default=10, metavar="N", help=what)
     what = "how far scale factors lie from 0 at most (default: 10): with 6, points of 16 bits have integer counts"
     parser.add_argument("--exponents", type=int, choices=range(1, 11), default=10, metavar="N", help=what)
-    what = "what a point that counts elements holds in the device, for what lies behind them"
+    what = "what a point that counts elements holds in the device, for what lies after them"
     add_repeated(parser, "--count", "POINT=N", what, type=_count)
 
 

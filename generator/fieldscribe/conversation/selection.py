@@ -161,7 +161,7 @@ def at_bases(device: Device, pairs: Sequence[str]) -> tuple[Device, list[str]]:
 
 
 def moved(device: Device, starts: Mapping[str, int], lasts: Mapping[str, int]) -> Device:
-    """Return the device with the points of these bases at their addresses; without those behind the last of a block."""
+    """Return the device with the points of these bases at their addresses; without those after the last of a block."""
     terms: dict[int, Terms] = {}
     points = []
     for point in device.points:

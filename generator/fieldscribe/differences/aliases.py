@@ -61,8 +61,8 @@ def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias]
         if thing.kind != "point" or thing.old is None or thing.new is None:
             continue
         written = described.written(thing.new)
-        name, (before, _, behind) = _plain(thing.old, written), written.called("\0").partition("\0")
-        old = name.removeprefix(before).removesuffix(behind)
+        name, (before, _, after) = _plain(thing.old, written), written.called("\0").partition("\0")
+        old = name.removeprefix(before).removesuffix(after)
         if written.called(old) != name:  # the record is used under another name
             by_hand.append((thing.new, name))
             continue
@@ -141,7 +141,7 @@ def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
 
 
 def _behind_name(row: Map, key: str) -> tuple[int, str] | None:
-    """The key on the line below the name, or behind the name in braces."""
+    """The key on the line below the name, or after the name in braces."""
     text, column = row.file.text, row.key_span("name").column
     name = _SCALAR.match(text, row.file.offset(row.span("name").at))
     if name is None:

@@ -212,7 +212,7 @@ def _git(*words: str, stdin: bytes = b"") -> bytes | None:
     quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_NO_LAZY_FETCH": "1", "GIT_OPTIONAL_LOCKS": "0", "LC_ALL": "C"}
     command = ["git", "--no-replace-objects", "--no-pager", *words]
     try:
-        done = subprocess.run(  # noqa: S603  # every word is ours, or stands behind --end-of-options
+        done = subprocess.run(  # noqa: S603  # every word is ours, or stands after --end-of-options
             command, input=stdin, capture_output=True, timeout=_SECONDS, env={**os.environ, **quiet}, check=False
         )
     except FileNotFoundError:

@@ -51,7 +51,7 @@ def schema_text() -> str:
         "identification": ("What a point holds in the device or in one of its variants.", devices.IDENTIFICATION),
         "given": ("A number that a client is given when it opens the device.", devices.GIVEN),
         "found": (
-            "A chain of blocks behind a marker. A block starts with its id and the number of words behind these two.",
+            "A chain of blocks after a marker. A block starts with its id and the number of words after these two.",
             devices.FOUND,
         ),
         "base": ("What addresses count from: a found block, or offset plus multiples of given numbers.", devices.BASE),

@@ -152,7 +152,7 @@ FOUND: FactTable = (
     Fact("space", "The space of the blocks.", STRING, WIRE),
     Fact("marker", "The text before the first block, two characters a word.", STRING, WIRE),
     Fact("places", "The addresses where it may stand, in the order of the search.", list_of(ADDRESS), WIRE),
-    Fact("end", "What stands in place of an id behind the last block.", INTEGER, WIRE),
+    Fact("end", "What stands in place of an id after the last block.", INTEGER, WIRE),
 )
 BASE: FactTable = (
     NAME,

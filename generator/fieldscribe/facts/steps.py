@@ -21,7 +21,7 @@ _READ = "The function that reads the words: to wait for them, or for the bits th
 
 STEP: FactTable = (
     Fact("space", "The space of its address.", schema.STRING),
-    Fact("address", "The address of the first word on the wire, or behind its base.", schema.ADDRESS),
+    Fact("address", "The address of the first word on the wire, or after its base.", schema.ADDRESS),
     Fact("base", "What the address counts from, by name; null: it counts from 0.", schema.TEXT_OR_NULL),
     Fact("words", "Its words: constant + factor * argument, modulo 65536.", schema.list_of(_WORD, 1)).of(
         lambda step, _: list(map(asdict, step.words))

@@ -155,7 +155,7 @@ def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> li
     """Cut bytes into the frames that they hold; return them whole if they hold one frame, or none.
 
     `sound_size` returns the size of the sound frame at the beginning of its argument, 0 if there is none. What remains
-    behind sound frames counts as a frame if it has at least `least` bytes.
+    after sound frames counts as a frame if it has at least `least` bytes.
     """
     pieces: list[bytes] = []
     rest = data

@@ -231,7 +231,7 @@ def range_in(cell: str) -> Range | None:
 
 
 def quantity_in(cell: str) -> tuple[Fraction, str] | None:
-    """Return the number of a cell such as `0,1 Hz`, `1/100 s` or `x 0.1`, and the text behind it."""
+    """Return the number of a cell such as `0,1 Hz`, `1/100 s` or `x 0.1`, and the text after it."""
     match = _STEP.fullmatch(one_line(cell))
     if match is None:
         return None

@@ -31,7 +31,7 @@ class _Given:
         self._taken: set[str] = set()
 
     def give(self, name: str) -> str:
-        """Return the name, with a number behind it if it is taken."""
+        """Return the name, with a number after it if it is taken."""
         candidates = chain((name,), (f"{name}_n{number}" for number in count(2)))
         given = next(each for each in candidates if each.replace("_", "") not in self._taken)
         self._taken.add(given.replace("_", ""))

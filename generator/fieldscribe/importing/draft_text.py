@@ -209,7 +209,7 @@ class Names:
         self._taken: set[str] = set()
 
     def give(self, name: str, *suffixes: str) -> str:
-        """Return the name; if it is taken, with the first suffix that makes it free or else a number behind it."""
+        """Return the name; if it is taken, with the first suffix that makes it free or else a number after it."""
         candidates = chain((name,), (f"{name}_{one}" for one in suffixes if one), (f"{name}_{n}" for n in count(2)))
         given = next(candidate for candidate in candidates if candidate not in self._taken)
         self._taken.add(given)

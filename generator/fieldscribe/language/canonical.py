@@ -73,7 +73,7 @@ class _Layout:
         return "\n".join([*self.lines, self.line.rstrip()]).strip("\n") + "\n"
 
     def place(self, piece: Piece) -> None:
-        """Write a piece behind the previous one, or on a new line."""
+        """Write a piece after the previous one, or on a new line."""
         if not piece.text and piece.kind != "end":
             self._note(piece)
             return
@@ -164,12 +164,12 @@ class _Layout:
             self.line = f"{indent}{text}" if text else ""
 
     def _finish(self, gap: Gap) -> None:
-        """End the line with the comment behind it, and write the empty lines and comments below."""
+        """End the line with the comment after it, and write the empty lines and comments below."""
         if self.line or self.lines:
             self.lines.append(_with_comment(self.line.rstrip(), gap))
         columns = self.left | self._columns()
-        if gap.behind is not None:  # a comment that goes on below stays below
-            columns[gap.behind.column] = len(self.lines[-1]) - len(gap.behind.text)
+        if gap.trailing is not None:  # a comment that goes on below stays below
+            columns[gap.trailing.column] = len(self.lines[-1]) - len(gap.trailing.text)
         for comment in gap.lines:
             if comment is not None:
                 self.lines.append(" " * self._comment_column(comment, gap, columns) + comment.text)
@@ -178,7 +178,7 @@ class _Layout:
 
     def _comment_column(self, comment: Comment, gap: Gap, columns: dict[int, int]) -> int:
         """Return the column of a comment that has its line: that of the mapping or list at its column or left of it."""
-        goes_on = gap.behind is not None and gap.behind.column == comment.column
+        goes_on = gap.trailing is not None and gap.trailing.column == comment.column
         if self.within and self.within[-1].kind == "flow" and not goes_on:
             return self.within[-1].column
         return columns[max(was for was in columns if was <= comment.column)]
@@ -188,15 +188,15 @@ class _Layout:
 
 
 def _with_comment(line: str, gap: Gap) -> str:
-    """Return a line with the comment behind it: at its old column if there is room, else after two blanks."""
-    if gap.behind is None:
+    """Return a line with the comment after it: at its old column if there is room, else after two blanks."""
+    if gap.trailing is None:
         return line
-    kept = gap.behind.column if gap.blanks > _INDENT else 0
-    return f"{line:<{max(kept, len(line) + _INDENT)}}{gap.behind.text}"
+    kept = gap.trailing.column if gap.blanks > _INDENT else 0
+    return f"{line:<{max(kept, len(line) + _INDENT)}}{gap.trailing.text}"
 
 
 def _ended(line: str) -> str:
-    """Return a line without blanks at its end; one blank behind a backslash is escaped, and stays."""
+    """Return a line without blanks at its end; one blank after a backslash is escaped, and stays."""
     ended = line.rstrip()
     escapes = len(ended) - len(ended.rstrip("\\"))
     return f"{ended} " if escapes % 2 and len(line) > len(ended) else ended

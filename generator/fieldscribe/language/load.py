@@ -79,7 +79,7 @@ _MOST_PIECES = 100
 _WORD = re.compile(r"[a-z][a-z0-9_]*")
 _KEY = re.compile(r" *[^\s:]+")
 _NO_KEY = re.compile(r" *(?:-[^\s-].*|(?!.*:(?: |$))[^ #-].*)")
-"""A line that should have a key but has no colon, or no blank behind its dash."""
+"""A line that should have a key but has no colon, or no blank after its dash."""
 _NOTICED_LATE = ("expected ':'", "expected ',' or '", "end of stream")
 
 _SYNTAX_HINTS = (
@@ -94,8 +94,8 @@ _SYNTAX_HINTS = (
     ("end of stream", "a quote or a bracket is not closed"),
     ("alphabetic", "an anchor or alias is a plain word: quote the text if `&` or `*` belongs to it"),
     ("anchor", "an anchor or alias is a plain word: quote the text if `&` or `*` belongs to it"),
-    ("expected ':'", "a key stands on one line with `: ` behind it, and has at most 1,000 characters"),
-    ("document start", "a line `---` divides documents; nothing stands behind `...`"),
+    ("expected ':'", "a key stands on one line with `: ` after it, and has at most 1,000 characters"),
+    ("document start", "a line `---` divides documents; nothing stands after `...`"),
 )
 
 

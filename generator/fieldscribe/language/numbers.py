@@ -112,7 +112,7 @@ _REFUSED: tuple[tuple[str, str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"([+-]?[0-9]+),([0-9]+)",
         "a decimal comma, or a separator of thousands",
-        r"write the decimal point: \1.\2; a list has a blank behind each comma",
+        r"write the decimal point: \1.\2; a list has a blank after each comma",
     ),
     (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
     (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
@@ -135,7 +135,7 @@ _REFUSED: tuple[tuple[str, str, str | Callable[[re.Match[str]], str]], ...] = (
         r"write \g<0>h or \g<1>0x\2 for hexadecimal; a unit is not part of a number",
     ),
     (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", "write 0.5"),
-    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", "write 5 or 5.0"),
+    (r"[+-]?[0-9]+\.", "a digit is missing after the decimal point", "write 5 or 5.0"),
     (r"[+-]\s+[0-9].*", "a blank stands between sign and number", "write the sign directly before it"),
     (
         r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",

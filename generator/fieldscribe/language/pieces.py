@@ -40,9 +40,9 @@ class Comment(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """What stands before a piece: a comment behind the previous one, then lines (None for an empty one)."""
+    """What stands before a piece: a comment after the previous one, then lines (None for an empty one)."""
 
-    behind: Comment | None
+    trailing: Comment | None
     blanks: int
     """The blanks before that comment."""
     lines: tuple[Comment | None, ...]
@@ -52,7 +52,7 @@ class Gap(NamedTuple):
     @property
     def has_comment(self) -> bool:
         """True if it has a comment."""
-        return self.behind is not None or any(self.lines)
+        return self.trailing is not None or any(self.lines)
 
 
 class OddError(Exception):
@@ -91,7 +91,7 @@ def comments(text: str) -> list[str]:
     texts: list[str] = []
     for piece in pieces(text):
         gap = piece.gap
-        texts += [comment.text for comment in (gap.behind, *gap.lines) if comment is not None]
+        texts += [comment.text for comment in (gap.trailing, *gap.lines) if comment is not None]
     return texts
 
 
@@ -109,7 +109,7 @@ def pieces(text: str) -> Iterator[Piece]:
             yield Piece(kind, "", mark.line + 1, mark.column, _NO_GAP)
         elif kind:
             piece = text[mark.index : token.end_mark.index]
-            if kind == "block":  # its mark may stand behind comments and empty lines that are not its own
+            if kind == "block":  # its mark may stand after comments and empty lines that are not its own
                 piece = piece.rstrip("\n ")
             yield Piece(kind, piece, mark.line + 1, mark.column, _gap(text, end, mark.index))
             end = mark.index + len(piece)
@@ -127,18 +127,18 @@ def _refuse_strange_breaks(text: str) -> None:
 def _refuse_odd(token: Any, kind: str, text: str) -> None:
     mark = token.start_mark
     if kind == "key" and token.end_mark.index > mark.index:
-        raise OddError(mark.line + 1, mark.column + 1, "a key behind `?` has no canonical form", "write `key: value`")
+        raise OddError(mark.line + 1, mark.column + 1, "a key after `?` has no canonical form", "write `key: value`")
     if kind == "block" and not _PLAIN_BLOCK.match(text, mark.index):
-        message = "a text with signs behind `|` or `>` has no canonical form"
+        message = "a text with signs after `|` or `>` has no canonical form"
         raise OddError(mark.line + 1, mark.column + 1, message, "write the text in quotes")
 
 
 def _gap(text: str, start: int, end: int) -> Gap:
     first, *rest = text[start:end].split("\n")
     column = start - (text.rfind("\n", 0, start) + 1)
-    behind = _COMMENT.search(first) if first.strip() else None
-    comment = None if behind is None else Comment(behind[0].rstrip(), column + behind.start())
-    blanks = 0 if behind is None else behind.start()
+    trailing = _COMMENT.search(first) if first.strip() else None
+    comment = None if trailing is None else Comment(trailing[0].rstrip(), column + trailing.start())
+    blanks = 0 if trailing is None else trailing.start()
     lines = [_line(line) for line in rest[:-1]]
     if start == 0:  # nothing stands before the first line
         lines = [_line(first), *lines] if rest else []

@@ -69,7 +69,7 @@ class SourceFile:
         return self._line_starts[line - 1] + column - 1
 
     def place(self, offset: int) -> Place:
-        """Return the line and column behind so many characters."""
+        """Return the line and column after so many characters."""
         line = bisect_right(self._line_starts, offset)
         return line, offset - self._line_starts[line - 1] + 1
 
@@ -159,7 +159,7 @@ def _add(result: Positions, start: Any, inside: list[Any]) -> None:
 
 
 def _content_place(event: Any) -> Place:
-    """Return where a value starts, behind the quote if it has one: columns in formulas count from there."""
+    """Return where a value starts, after the quote if it has one: columns in formulas count from there."""
     line, column = _place(event)
     quoted = isinstance(event, yaml.ScalarEvent) and event.style in ("'", '"')
     return line, column + quoted

@@ -95,7 +95,7 @@ def _comparisons(match: re.Match[str]) -> str:
 
 
 def _decimals(match: re.Match[str]) -> str:
-    return f"it counts the digits behind the point: write `decimals: {len(match[1])}`"
+    return f"it counts the digits after the point: write `decimals: {len(match[1])}`"
 
 
 def _bytes(match: re.Match[str]) -> str | None:
@@ -128,7 +128,7 @@ def _words(match: re.Match[str]) -> str:
 
 
 def _family(match: re.Match[str]) -> str | None:
-    """Suggest a family for one with something behind its name, such as a framing; or say that it is not known yet."""
+    """Suggest a family for one with something after its name, such as a framing; or say that it is not known yet."""
     from fieldscribe.families import families
 
     known, text = families(), match[0].lower()

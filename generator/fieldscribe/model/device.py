@@ -277,9 +277,9 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A chain of blocks that a client searches for: `marker` stands at one of `places`, and the first block behind it.
+    """A chain of blocks that a client searches for: `marker` stands at one of `places`, and the first block after it.
 
-    A block starts with its id and its length: the number of words that follow these two. Behind it stands the next
+    A block starts with its id and its length: the number of words that follow these two. After it stands the next
     block; `end` in place of an id ends the chain.
     """
 
@@ -302,7 +302,7 @@ class Base:
     """What addresses of a group count from: `offset` plus multiples of given numbers, or a place in a found block.
 
     `terms` has pairs of a given number and its factor. `block` is the id of the block; the base is `offset` words
-    behind its start, plus multiples of what `counts` hold: each a point, its address in the block, and its factor.
+    after its start, plus multiples of what `counts` hold: each a point, its address in the block, and its factor.
     """
 
     name: str

@@ -81,7 +81,7 @@ def _found(scope: Scope, nodes: Map) -> Found | None:
         end = integer(node.get("end", _USUAL_END), node.span("end"), report)
         for at, number in enumerate(numbers):
             if number is not None and not 0 <= number <= _LAST - len(text) // 2 - 1:
-                hint = "the text and the first block behind it end at 65535 or before"
+                hint = "the text and the first block after it end at 65535 or before"
                 report.error("address-outside-space", f"the address {number} is too high", places.span(at), hint)
         known_places = tuple(dict.fromkeys(number for number in numbers if number is not None))
         title = titles(node.get("title"), humanised(name))
@@ -117,7 +117,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
 
 
 def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
-    """Return the base that lies behind the start of a block, by what points of the block hold. Raises FactError."""
+    """Return the base that lies after the start of a block, by what points of the block hold. Raises FactError."""
     span, places = group.span("base"), dict(_counting_points(scope, group))
     unknown = f"points of the block that can count are: {', '.join(places) or 'none'}"
 

@@ -119,7 +119,7 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
         scales.symbols.unknown(name, written.of(name))
         raise FactError
     if len(asking) > _MOST_STEPS:
-        message = f"`{name}` exists by more than {_MOST_STEPS} conditions, one behind the other"
+        message = f"`{name}` exists by more than {_MOST_STEPS} conditions, one after the other"
         raise FormulaError(message, column, "compare what the first of them compares")
     if any(point in asking for point in points):
         raise FormulaError(f"`{name}` exists by a condition that leads back to itself", column, "write it out")

@@ -36,7 +36,7 @@ class _Code(NamedTuple):
 
 
 _Level = tuple[str, Map]
-"""The codes that one place declares, behind its label, which is empty for the point itself."""
+"""The codes that one place declares, after its label, which is empty for the point itself."""
 
 
 @dataclass(slots=True)

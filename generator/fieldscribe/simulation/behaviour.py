@@ -218,7 +218,7 @@ class Behaviour:
                     yield from () if target is None else self._meeting(self._read(rule.ref), target)
 
     def _meeting(self, first: Pair, second: Pair) -> Iterator[int]:
-        """Yield the first millisecond behind the time at which two numbers meet, if they do."""
+        """Yield the first millisecond after the time at which two numbers meet, if they do."""
         approach = second[1] - first[1]
         if approach and (wait := (first[0] - second[0]) / approach) >= 0:
             yield self._now + floor(wait * 1000) + 1

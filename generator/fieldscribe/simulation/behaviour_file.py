@@ -185,7 +185,7 @@ class _Reader:
             if stated == wanted:
                 return Amount(amount.expression, amount.refs, 1 / seconds if per_second else seconds)
         wanted_text = f"{unit or '1'}/s" if per_second else "s"
-        hint = f"write that unit behind it, as in `10 {wanted_text}`"
+        hint = f"write that unit after it, as in `10 {wanted_text}`"
         raise FormulaError(f"this is not in {wanted_text}", written.column, hint)
 
     def _test(self, stated: conditions.Comparison, move: Move, span: Span) -> Test:
@@ -220,7 +220,7 @@ class _Reader:
         return ref
 
     def _ref(self, name: str, part: str, *, raw: bool, span: Span) -> Ref:
-        """Return what a name stands for, with the flag behind its point. Raises FactError."""
+        """Return what a name stands for, with the flag after its point. Raises FactError."""
         names = [name, *(point.name for point in self.by_code.get(name, ()))]
         name = next((each for each in names if each in self.plant), name)
         if name in self.plant or name == TIME:

@@ -229,7 +229,7 @@ fault KIND ...      spoil answers: `fault late 0.5 x3`, `fault cut 4 10%`; `clea
 restart             switch the devices off and on: what was not stored is lost
 advance SECONDS     let time pass at once
 quit                end
-behind @UNIT, as in `@3 get A020`, a line is about that unit alone"""
+after @UNIT, as in `@3 get A020`, a line is about that unit alone"""
 
 
 def carry_out(bench: Bench, text: str) -> str:

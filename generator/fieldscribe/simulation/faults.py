@@ -21,9 +21,9 @@ KINDS = {
     "exception": "the device refuses",
     "damaged": "byte N of it is wrong (the first)",
     "noise": "bytes that mean nothing stand before byte N (the first)",
-    "drop": "the line breaks down behind byte N (the first)",
+    "drop": "the line breaks down after byte N (the first)",
 }
-"""The faults, with what each means; N is the number behind the name, with its default."""
+"""The faults, with what each means; N is the number after the name, with its default."""
 _SPOILED = frozenset({"check", "unit", "function", "exception"})
 _NUMBER, _TIMES, _SHARE = (re.compile(form) for form in (r"\d+(?:\.\d+)?", r"x(\d+)", r"(\d+(?:\.\d+)?)%"))
 

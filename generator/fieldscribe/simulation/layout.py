@@ -102,7 +102,7 @@ class Layout:
         times = set(self.device.bus.timing.values())
         self.least.update(point.name for point in self.points.values() if {point.name, point.code} & times)
         self.order = tuple(_in_order(self.points))
-        """The points, each behind those that its scale, its limits and its condition need."""
+        """The points, each after those that its scale, its limits and its condition need."""
         self.readable = {area: self._readable(area) for area in (*self.readers, *self.fixed, *self.steps)}
         """The cells that can be read."""
         self._raws: dict[str, RawReader] = {}
@@ -140,7 +140,7 @@ class Layout:
         return Cells((point.telegram or point.space, index), place.addresses, size)
 
     def _chain(self, device: Device) -> dict[str, int]:
-        """Lay the blocks of a found chain one behind the other; return the start of each by the name of its base."""
+        """Lay the blocks of a found chain one after the other; return the start of each by the name of its base."""
         if device.found is None:
             return {}
         words = self.fixed.setdefault((device.found.space, 0), {})
@@ -157,7 +157,7 @@ class Layout:
                 words[place], words[place + 1] = base.block, length - _BEHIND_HEAD
                 place += length
         words[place], words[place + 1] = device.found.end, 0
-        for base in device.bases:  # behind a block's first part: where its counts lead
+        for base in device.bases:  # after a block's first part: where its counts lead
             if base.block is not None and not base.starts_block:
                 first = next(each for each in device.bases if each.starts_block and each.block == base.block)
                 starts[base.name] = starts[first.name] + base.offset

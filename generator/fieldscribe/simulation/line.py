@@ -28,7 +28,7 @@ from fieldscribe.simulation.memory import LOCK
 class Answer:
     """What a request leads to: the bytes that go out (none for a broadcast), `delay` seconds after the request.
 
-    `more` are further frames behind the first. `refused` says why, if the answer is a refusal.
+    `more` are further frames after the first. `refused` says why, if the answer is a refusal.
     """
 
     device: SimulatedDevice | None
@@ -53,7 +53,7 @@ class Core(Protocol):
         """Return the whole requests in the data, and how many bytes are done with: taken, or noise.
 
         `quiet` says that nothing more comes that belongs to these bytes. Any bytes are safe, and what is no request
-        costs no request behind it.
+        costs no request after it.
         """
 
     def answer(self, request: bytes) -> Answer | None:

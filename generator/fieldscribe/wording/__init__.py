@@ -35,8 +35,8 @@ def base_text(base: Base) -> str:
     """Return what addresses count from: `slot * 1000`, `block 103 of models`, `block 705 of models + points * 2`."""
     if base.block is None:
         return line(base.formula)
-    chain, _, behind = line(base.formula).partition(f" {base.block}")
-    return f"block {base.block} of {chain}{behind}"
+    chain, _, after = line(base.formula).partition(f" {base.block}")
+    return f"block {base.block} of {chain}{after}"
 
 
 def words_text(point: Point) -> str:

@@ -150,7 +150,7 @@ class _Unit:
         return (message.bits or identifier_bits(self.device.device.bus)) > _STANDARD_BITS
 
     def _asked(self, address: int, raw: int | None, answer: Message | None) -> Answer:
-        """Read a word of a parameter, or write it: then the answer has what the device holds behind that."""
+        """Read a word of a parameter, or write it: then the answer has what the device holds after that."""
         try:
             if raw is not None:
                 self._write(address, raw)

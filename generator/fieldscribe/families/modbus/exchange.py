@@ -73,7 +73,7 @@ def _pdu(profile: Profile, request: Request) -> bytes:
 
 
 def _second_word(request: Request) -> int | None:
-    """Return the word behind the address: the value of a single write (None without one), else the count."""
+    """Return the word after the address: the value of a single write (None without one), else the count."""
     if request.function not in SINGLE:
         return request.count
     if len(request.values) != 1:
@@ -126,7 +126,7 @@ def _one_value(function: int, number: int) -> tuple[int, ...] | frames.Flaw:
 
 
 def _several_values(function: int, count: int, rest: bytes) -> tuple[int, ...] | frames.Flaw:
-    """Return the values of a write of several items, from the bytes behind the count: the byte count and the data."""
+    """Return the values of a write of several items, from the bytes after the count: the byte count and the data."""
     data, size = rest[1:], frames.data_size(function, count)
     if not rest:
         return frames.Flaw("no_byte_count")

@@ -256,7 +256,7 @@ class _Unit:
 
 
 def _value_words(result: _Result, link: Link, has_part: bool) -> Iterator[int]:
-    """Yield the words behind the first two of an answer's parameter part."""
+    """Yield the words after the first two of an answer's parameter part."""
     if not has_part:
         return
     values = result.values

@@ -44,7 +44,7 @@ def draft_models(
 ) -> Imported:
     """Return the draft of a device with these models, with the first `most` elements of what repeats.
 
-    `counts` are the numbers that points of the device hold, by their names: what lies behind so many elements has a
+    `counts` are the numbers that points of the device hold, by their names: what lies after so many elements has a
     place then. Scale factors lie within `exponents` of 0.
     """
     names = Counter(name for model in models for name in _names(model.group))
@@ -124,8 +124,8 @@ class _Place:
     suffix: str = ""
     text: str = ""
 
-    def behind(self, words: _Words | None, times: int = 1) -> _Words | None:
-        """Return where the words behind so many times these begin."""
+    def after(self, words: _Words | None, times: int = 1) -> _Words | None:
+        """Return where the words after so many times these begin."""
         return None if self.start is None or words is None else self.start.plus(words, times)
 
     def only_while(self, condition: str) -> Mapping[str, str]:
@@ -174,7 +174,7 @@ class _Drafter:
             name = _snake(drafted.title, "point") + place.suffix
             drafted.name = self._names.give(name, ending[: _LONGEST_NAME - len(name)].rstrip("_"), number)
             if place.start is None:
-                drafted.questions.append("place: it lies behind elements whose number a point holds; `--count` says it")
+                drafted.questions.append("place: it lies after elements whose number a point holds; `--count` says it")
             else:
                 drafted.facts |= {"at": str(place.start.fixed + words + empty_words(point)), **place.repeats}
             words += point.size
@@ -183,7 +183,7 @@ class _Drafter:
         for point, drafted in zip(group.points, draft.points, strict=True):
             self.facts.state(point, drafted, scope)
         self.groups += [draft] if group.points else []
-        start = place.behind(_Words(words))
+        start = place.after(_Words(words))
         within = replace(place, path=path, scope=scope, start=start, text="" if group.points else text)
         if not place.path and self._held:
             holds = [f"{scope[name].name} == {number}" for name, number in self._held.items()]
@@ -191,7 +191,7 @@ class _Drafter:
         for inner in group.groups:
             for element, at in self._elements(inner, within):
                 self._add(element, at)
-            within = replace(within, start=within.behind(self._all_words(inner)))
+            within = replace(within, start=within.after(self._all_words(inner)))
 
     def _elements(self, group: Group, place: _Place) -> Iterator[tuple[Group, _Place]]:
         """Yield a group and its place; each of its elements where these have as many words as a point counts."""
@@ -200,7 +200,7 @@ class _Drafter:
             yield group, place
             return
         for number in range(1, (self._number(group) or self._most) + 1):
-            shared, start = place.only_while(f"{counter.name} >= {number}"), place.behind(words, number - 1)
+            shared, start = place.only_while(f"{counter.name} >= {number}"), place.after(words, number - 1)
             named = replace(group, count=1, name=f"{group.name}.{number}")
             yield named, replace(place, shared=shared, start=start, suffix=f"_set_{number}")
 

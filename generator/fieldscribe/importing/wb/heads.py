@@ -14,7 +14,7 @@ from fieldscribe.wording.exact import number_text
 
 FAMILY = next(family for family in families() if "holding" in family.spaces)
 SLOTS = range(1, 5)
-"""The slots of modules; the gateway counts them again from 1 behind the last."""
+"""The slots of modules; the gateway counts them again from 1 after the last."""
 _SIGNATURE = (200, 20)
 """Where devices of Wiren Board hold their model: the first register, and how many, with a character in each."""
 _TIMES = {

@@ -15,7 +15,7 @@ from fieldscribe.language.formula.syntax import Expression, FormulaError
 
 _WORD = re.compile(r"(?:^|(?<=\s))(set|ramp to|down at|at|while|when|after)(?=\s|$)")
 _ORDER = re.compile(r"(set|ramp to at( down at)?)( while| when)?( after)?")
-_HOW = "write `set …` or `ramp to … at …`; behind it `, down at …`, `while …` or `when …`, `after …` as needed"
+_HOW = "write `set …` or `ramp to … at …`; after it `, down at …`, `while …` or `when …`, `after …` as needed"
 _WITH_UNIT = re.compile(r"(.*[\w)])\s+([^\W\d][^\s/]*(?:/[a-z]+)?|[%°‰][^\s/]*(?:/[a-z]+)?)")
 
 Parsed = TypeVar("Parsed")
@@ -23,7 +23,7 @@ Parsed = TypeVar("Parsed")
 
 @dataclass(frozen=True, slots=True)
 class Amount:
-    """An expression with the unit behind it (an empty text if there is none); it starts at this column of the move."""
+    """An expression with the unit after it (an empty text if there is none); it starts at this column of the move."""
 
     expression: Expression
     unit: str
@@ -61,7 +61,7 @@ def parse_move(text: str) -> Move:
 
 
 def _parts(text: str) -> dict[str, tuple[int, str]]:
-    """Return what stands behind each word, with its column; the words are in order."""
+    """Return what stands after each word, with its column; the words are in order."""
     if len(text) > LONGEST:
         raise FormulaError(f"a move has at most {LONGEST} characters", LONGEST, "split it")
     words = list(_WORD.finditer(text))
@@ -73,7 +73,7 @@ def _parts(text: str) -> dict[str, tuple[int, str]]:
         if following is not None and following[1] == "down at":
             part = part.removesuffix(",").rstrip()
         if not part.strip():
-            raise FormulaError(f"nothing stands behind `{word[1]}`", word.start(), _HOW)
+            raise FormulaError(f"nothing stands after `{word[1]}`", word.start(), _HOW)
         parts[word[1]] = word.end() + len(part) - len(part.lstrip()), part.strip()
     return parts
 

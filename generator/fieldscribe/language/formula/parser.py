@@ -126,7 +126,7 @@ def _refuse_comma(tokens: list[Token], text: str, end: int) -> None:
         raise FormulaError(
             f"`{shortened(f'{before.text},{digits}')}` could be a decimal number or a list",
             before.column,
-            f"write {shortened(f'{before.text}.{digits}')} for the decimal number, a blank behind the comma for a list",
+            f"write {shortened(f'{before.text}.{digits}')} for the decimal number, a blank after the comma for a list",
         )
 
 

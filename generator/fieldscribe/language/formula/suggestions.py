@@ -137,14 +137,14 @@ def _cut(text: str) -> Iterator[tuple[re.Match[str], str]]:
 
 def _replaced(text: str, decimal: re.Match[str], exact: str) -> str:
     """Return the text with the fraction in place of the decimal: `raw * 0.33333` becomes `raw / 3`."""
-    before, behind = text[: decimal.start()].rstrip(), text[decimal.end() :]
+    before, after = text[: decimal.start()].rstrip(), text[decimal.end() :]
     top, _, bottom = exact.partition(" / ")
     if before.endswith("/"):
         product = f"* {bottom}" + ("" if top == "1" else f" / {top}")
-        return f"{before[:-1].rstrip()} {product}{behind}"
+        return f"{before[:-1].rstrip()} {product}{after}"
     if before.endswith("*") and top == "1":
-        return f"{before[:-1].rstrip()} / {bottom}{behind}"
-    return f"{text[: decimal.start()]}{exact}{behind}"
+        return f"{before[:-1].rstrip()} / {bottom}{after}"
+    return f"{text[: decimal.start()]}{exact}{after}"
 
 
 def _almost(typed: str) -> str | None:

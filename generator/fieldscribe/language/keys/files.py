@@ -67,10 +67,10 @@ HEADS = (
         [[40000, 0, 50000]], Items(Shape("An address.", [40000], Whole(), Text(40)), 1)
     ),
     Key(
-        "then", _FOUND, "The words that each block starts with. The length counts the words behind them.", required=True
+        "then", _FOUND, "The words that each block starts with. The length counts the words after them.", required=True
     ).takes([["id", "length"]], Items(Shape("A word.", ["id"], one_of("id", "length")), 2)),
     Key("space", _FOUND, "The space of the blocks; `holding` unless it is another.").takes(["input"], Text(40)),
-    Key("end", _FOUND, "What stands in place of an id behind the last block; FFFFh unless it is another.").takes(
+    Key("end", _FOUND, "What stands in place of an id after the last block; FFFFh unless it is another.").takes(
         ["FFFFh"], Whole(0, 65535), Text(40)
     ),
     Key("group", GROUP, NAME, required=True),
@@ -90,7 +90,7 @@ HEADS = (
         "base",
         GROUP,
         "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it. "
-        "With a `block`: how many words behind its start, by the points of the block that count.",
+        "With a `block`: how many words after its start, by the points of the block that count.",
     ).takes(["slot * 1000"], Whole(), Text(200)),
     Key("block", GROUP, "The found block that the addresses count from, by its id: its first word is 0.").takes(
         [103], Whole(0, 65535), Text(40)

@@ -56,9 +56,9 @@ def outputs(
 
         suite = {**context, "suite": suite_context(device, points, scope)}
         frame = framed(render, f"c/{device.family}_conformance.c.j2", suite, {"adapters": _HERE})
-        before, _, behind = frame.partition(_HERE)
+        before, _, after = frame.partition(_HERE)
         program = StringIO()  # the largest file: it is never in memory twice
-        program.writelines(chain((before,), adapters(points, scope, sections.values(), render), (behind,)))
+        program.writelines(chain((before,), adapters(points, scope, sections.values(), render), (after,)))
         yield f"c/conformance/{device.id}_conformance.c", program.getvalue()
 
 

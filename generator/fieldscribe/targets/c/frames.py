@@ -27,7 +27,7 @@ class Descriptor(NamedTuple):
     name: str
     value: str
     tail: str = ""
-    """The part of the name behind the name of the point; empty for layouts and commands."""
+    """The part of the name after the name of the point; empty for layouts and commands."""
 
     @property
     def parted(self) -> bool:

@@ -15,7 +15,7 @@ STATUS = "FIELDSCRIBE_STATUS"
 """The heads of functions: of one that cannot fail, without its result, and of one that returns a status."""
 
 _LAST = 100
-"""Added to the depth of a break behind an opening bracket, so that it is the last choice."""
+"""Added to the depth of a break after an opening bracket, so that it is the last choice."""
 
 
 _DEEPER = "    "
@@ -85,7 +85,7 @@ def wrapped(statement: str, indent: str, first: str = "") -> list[str]:
 
 
 def _places(statement: str) -> Iterator[tuple[int, int]]:
-    """Yield the possible breaks with their depth in brackets: behind a comma or a bracket, or before an operator."""
+    """Yield the possible breaks with their depth in brackets: after a comma or a bracket, or before an operator."""
     depth = 0
     for match in _SIGNS.finditer(statement):
         sign = match[0]
@@ -102,7 +102,7 @@ def _places(statement: str) -> Iterator[tuple[int, int]]:
 
 
 def folded(text: str) -> str:
-    """Return the same C in lines of at most 120 characters; a macro goes on behind a backslash."""
+    """Return the same C in lines of at most 120 characters; a macro goes on after a backslash."""
     lines = text.split("\n")
     if max(map(len, lines)) <= WIDTH:
         return text

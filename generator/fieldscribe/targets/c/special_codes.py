@@ -11,7 +11,7 @@ from fieldscribe.targets.c.views import CodesView, Define, PointFields, SpecialV
 from fieldscribe.text import c_comment, c_string, upper
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
-"""The ends of the functions' names, behind the name of the point or of the shared codes."""
+"""The ends of the functions' names, after the name of the point or of the shared codes."""
 
 
 def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, brings: bool) -> SpecialView | None:

@@ -72,7 +72,7 @@ class _Classes:
         self._add(id(entries), (name, _sentence(title["en"])), lambda name, text: _enum(name, text, entries))
 
     def add_word(self, point: Point) -> None:
-        """Add the class of a word of flags, behind those of the numbers of its flags."""
+        """Add the class of a word of flags, after those of the numbers of its flags."""
         classes = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
         for flag, named in zip(point.flags, classes, strict=True):
             if named and named not in self._added:

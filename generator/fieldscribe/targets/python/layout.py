@@ -19,7 +19,7 @@ def comment(text: str) -> str:
 
 
 def laid_out(node: Node, indent: int, before: str = "") -> str:
-    """Return the lines of the expression at that indentation, with room for a comma behind it.
+    """Return the lines of the expression at that indentation, with room for a comma after it.
 
     `before` stands before the expression on its line, such as `allowed=`.
     """
@@ -38,7 +38,7 @@ def _spread(node: Branch, indent: int, before: str) -> str:
     """Return a line for each item.
 
     A tuple of a single item is spread only if the item is spread itself: formatters with longer lines would join it
-    again, even with a comma behind the item.
+    again, even with a comma after the item.
     """
     (opening, closing), items, inner = _brackets(node), _items(node), " " * (indent + 4)
     only = node[0] if isinstance(node, tuple) and len(node) == 1 else None

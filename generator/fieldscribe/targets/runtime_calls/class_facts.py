@@ -10,7 +10,7 @@ from fieldscribe.targets.runtime_calls.scope import Call, Node, PointName, Scope
 
 
 def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:
-    """Return the points that have attributes, group by group; behind them those that have one name in variants."""
+    """Return the points that have attributes, group by group; after them those that have one name in variants."""
     groups: dict[str, list[Point | dict[Variant, Point]]] = {group.name: [] for group in device.groups}
     by_name: dict[str, dict[Variant, Point]] = {}
     for point in device.points:

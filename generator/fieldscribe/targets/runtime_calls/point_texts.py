@@ -14,7 +14,7 @@ from fieldscribe.wording import codes_text, condition_text, overflow_texts, rang
 _MOST_ENDS = 16
 """The ends of at most so many intervals are fields."""
 _SINGLE = 4
-"""The fields behind these have several texts each."""
+"""The fields after these have several texts each."""
 
 Encoders = tuple[Callable[[str], str], Callable[[Leaf], str]]
 """How a language writes a string, and how a string or number."""

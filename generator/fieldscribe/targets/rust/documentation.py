@@ -92,20 +92,20 @@ def _whereabouts(point: Point, lowered: Lowered) -> Iterator[str]:
     if point.code:
         yield rust_code(point.code)
     if point.addresses:
-        before, behind = _around_address(point)
-        yield f"{before} {wording.address_text(min(point.addresses))}{behind}"
+        before, after = _around_address(point)
+        yield f"{before} {wording.address_text(min(point.addresses))}{after}"
     _, doubts = lowered.errata_of(point)
     if doubts:
         yield f"the {wording.open_text(doubts, rust_code)}"
 
 
 def _around_address(point: Point) -> tuple[str, str]:
-    """Return what stands before the address of a point and behind it."""
+    """Return what stands before the address of a point and after it."""
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
     written = point.write_place
-    behind = "" if written is None else f" (written at {wording.address_text(min(written.addresses))})"
-    behind += "" if point.index is None else f" index {point.index}"
-    return space, behind + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
+    after = "" if written is None else f" (written at {wording.address_text(min(written.addresses))})"
+    after += "" if point.index is None else f" index {point.index}"
+    return space, after + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
 
 def _size(point: Point) -> str:

@@ -23,7 +23,7 @@ class Item(NamedTuple):
 
 
 def binding(indent: int, item: Item, right: str) -> Lines:
-    """`item = right;`, broken behind the sign, or behind the colon before the type if it is still too long."""
+    """`item = right;`, broken after the sign, or after the colon before the type if it is still too long."""
     left = str(item)
     line = f"{left} = {right};"
     if indent + len(line) <= _WIDTH:
@@ -133,7 +133,7 @@ def chained(steps: Sequence[str]) -> Lines:
 
 
 def _broken(line: str) -> Iterator[str]:
-    """Yield a line of a macro, broken at the first space behind which the rest fits: no text in it has a space."""
+    """Yield a line of a macro, broken at the first space after which the rest fits: no text in it has a space."""
     place = 0 if len(line) <= _FREE_WIDTH else line.find(" ", max(8, len(line) - _FREE_WIDTH + 8))
     yield from (line[:place], f"        {line[place + 1 :]}") if place > 0 else (line,)
 

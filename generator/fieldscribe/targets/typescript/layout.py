@@ -70,7 +70,7 @@ class Layout:
         return f"{self.flat(key)}: "
 
     def _parts(self, node: Node) -> tuple[str, str, list[tuple[str, Node]]]:
-        """Return brackets and items, each with what stands before it. Keywords become one object behind the others."""
+        """Return brackets and items, each with what stands before it. Keywords become one object after the others."""
         if isinstance(node, Call):
             items: list[tuple[str, Node]] = [("", item) for item in node.positional]
             if node.keywords:

@@ -16,7 +16,7 @@ KINDS = {
     "base": "base:word given:pairs? script:script? status:word start:int? last:int?",
     "base_behind": "only:python.typescript base:word script:script status:word start:int? last:int?",
 }
-"""A given base or the start of a found block, and a place behind the start of a block."""
+"""A given base or the start of a found block, and a place after the start of a block."""
 
 _LAST, _MOST_BLOCKS, _REFUSED = 0xFFFF, 256, 2
 _Held = dict[int, int]
@@ -105,7 +105,7 @@ def _is_a_word(point: Point) -> bool:
 
 def _devices(found: Found, base: Base, block: int, length: int, *, many: bool) -> Iterator[_Held]:
     """Yield what devices hold that have the block somewhere, or not; `many` yields broken ones, too."""
-    first, last, behind = found.places[0], found.places[-1], len(found.words)
+    first, last, size = found.places[0], found.places[-1], len(found.words)
     words = [0] * (2 * length)
     for number, (_, address, _) in enumerate(base.counts, 1):
         words[address - 2] = number
@@ -118,14 +118,14 @@ def _devices(found: Found, base: Base, block: int, length: int, *, many: bool) -
     if not many:
         return
     yield _chain(found, first, this)
-    yield {place + at: word ^ (at == behind - 1) for place in found.places for at, word in enumerate(found.words)}
-    yield _chain(found, last) | {last + behind: other[0], last + behind + 1: _LAST - 1}
-    yield dict(list(_chain(found, last, this).items())[: behind + 1])
+    yield {place + at: word ^ (at == size - 1) for place in found.places for at, word in enumerate(found.words)}
+    yield _chain(found, last) | {last + size: other[0], last + size + 1: _LAST - 1}
+    yield dict(list(_chain(found, last, this).items())[: size + 1])
     yield _chain(found, min(found.places), *[(other[0], [])] * _MOST_BLOCKS)
 
 
 def _chain(found: Found, place: int, *blocks: tuple[int, list[int]]) -> _Held:
-    """Return the words of a marker at a place and of the blocks behind it."""
+    """Return the words of a marker at a place and of the blocks after it."""
     words = [*found.words, *(word for block, held in blocks for word in (block, len(held), *held)), found.end, 0]
     return dict(enumerate(words, place))
 

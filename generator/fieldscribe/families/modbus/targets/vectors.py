@@ -85,7 +85,7 @@ class ModbusWire:
         return (sent, _reply_frame(self.framing, request, words)) if status == "ok" else None
 
     def _moved(self, data: bytes, address: int) -> bytes:
-        """Return the same frame for another address, which stands behind the function."""
+        """Return the same frame for another address, which stands after the function."""
         if self.framing == "tcp":
             return data[:8] + address.to_bytes(2, "big") + data[10:]
         body = data[:2] + address.to_bytes(2, "big") + data[4:-2]
