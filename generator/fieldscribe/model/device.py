@@ -18,7 +18,7 @@ WHOLE_WORD = 0xFFFF
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` stay as the device has them."""
+    """A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` keep what the device holds."""
 
     constant: int
     factor: int = 0
@@ -34,16 +34,16 @@ class Word:
         return product if sign == "+" and not self.constant else f"{self.constant} {sign} {product}"
 
     def of(self, arguments: Mapping[str, int]) -> int:
-        """Return the word with these arguments; 0 outside the mask."""
+        """Return the word for these arguments; bits outside the mask are 0."""
         return (self.constant + (self.factor * arguments[self.argument] if self.argument else 0)) & self.mask
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One request: it writes words with the function `write`, or reads with `read` until all words are these.
+    """One request: it writes words with the function `write`, or reads with `read` until the device holds them.
 
-    With both functions, words are read first, and what is outside the masks is written as it was. `within` are the
-    milliseconds that the words may take to come. `says` is what the author says: points with their values, or words.
+    With both functions, words are read first, and bits outside the masks are written back unchanged. `within` is the
+    time in milliseconds until the words must be there. `says` is the author's text: points with values, or words.
     `base` is the name of what the address counts from; None if that is 0.
     """
 
@@ -58,7 +58,7 @@ class Step:
     base: str | None = None
 
     def arguments_in(self, words: Sequence[int], ends: Mapping[str, tuple[int, int]]) -> dict[str, int] | None:
-        """Return the arguments, within these ends, that give the words; None if none do."""
+        """Return the arguments, within these ends, that produce the words; None if there are none."""
         given: dict[str, int] = {}
         for word, number in zip(self.words, words, strict=True):
             if word.argument is not None and word.argument not in given:
@@ -72,9 +72,9 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class SteppedCommand:
-    """Requests in order under a name. `every` are the milliseconds after which it is given again, if `run` says so.
+    """A command of several requests, in order. `every` is the period in milliseconds, if `run` asks for repetition.
 
-    `arguments` are the least and the greatest number of each that whoever gives the command chooses.
+    `arguments` gives the least and the greatest number of each argument, which the caller chooses.
     """
 
     name: str
@@ -99,7 +99,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """What an erratum is about if it is no point: a `frame`, a `function`, ... by its name or its number."""
+    """The subject of an erratum other than a point: a `frame`, a `function`, ... by its name or number."""
 
     kind: str
     name: str | int
@@ -109,14 +109,14 @@ class Named:
 
 
 About = str | Named
-"""What a fact is about: a point by its name, or another thing."""
+"""The subject of a fact: a point by its name, or another thing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Erratum:
     """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, and how sure that is.
 
-    `where` says what it is about if that is no point: a thing of the device, or a place in words.
+    `where` is its subject if that is not a point: a thing of the device, or a place in words.
     """
 
     id: str
@@ -130,7 +130,7 @@ class Erratum:
     facts: tuple[tuple[str, str], ...] = ()
     """The printed facts by key; empty if the erratum states them in words only."""
     leaves_open: tuple[tuple[str, str], ...] = ()
-    """What nobody knows, by the key of the fact: the ends of sentences that begin with `the manual leaves open`."""
+    """By the key of the fact: the end of a sentence that begins `the manual leaves open`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +175,7 @@ class Role:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """Where a signal lies in the bits of a message, and in the words of its telegram.
+    """The place of a signal in the bits of a message and in the words of its telegram.
 
     `start` is its first bit as CAN databases count them: bit 0 of byte 0 is 0, bit 7 of byte 1 is 15. It is the least
     significant bit if the low byte comes first, else the most significant one. `word` is its first word in the
@@ -190,7 +190,7 @@ class Field:
 
     @property
     def words(self) -> int:
-        """Return how many words it takes, the high one first; above the number they are 0."""
+        """Return how many words it takes. The high one is first; its unused bits are 0."""
         return -(-self.width // 16)
 
     @property
@@ -292,14 +292,14 @@ class Found:
 
     @property
     def words(self) -> tuple[int, ...]:
-        """Return the words of the marker."""
+        """Return the text of the marker as words."""
         data = self.marker.encode("ascii")
         return tuple(data[at] << 8 | data[at + 1] for at in range(0, len(data), 2))
 
 
 @dataclass(frozen=True, slots=True)
 class Base:
-    """What addresses of a group count from: `offset` plus multiples of given numbers, or a place in a found block.
+    """The base of the addresses of a group: `offset` plus multiples of given numbers, or a place in a found block.
 
     `terms` has pairs of a given number and its factor. `block` is the id of the block; the base is `offset` words
     after its start, plus multiples of what `counts` hold: each a point, its address in the block, and its factor.
@@ -319,11 +319,11 @@ class Base:
 
     @property
     def wanted(self) -> list[str]:
-        """Return what has to be given to know where this is."""
+        """Return the names of the numbers that must be given to compute the base."""
         return [name for name, _ in self.terms] if self.block is None else [self.name]
 
     def at(self, given: Mapping[str, int]) -> int:
-        """Return the base for these numbers; that of a found block stands under the name of the base."""
+        """Return the address for these numbers; that of a found block is given under the name of the base."""
         if self.block is not None:
             return given[self.name]
         return self.offset + sum(given[name] * factor for name, factor in self.terms)
@@ -335,8 +335,8 @@ class Code:
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
     once; None means that the protocol decides. `answers` has the positive responses of a request, or the requests that
-    a response or an error may answer; `refusals` has the negative responses of a request. `line` is where the manual
-    has it.
+    a response or an error may answer; `refusals` has the negative responses of a request. `line` is its line in the
+    manual.
     """
 
     number: int
@@ -351,7 +351,7 @@ class Code:
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A read of consecutive addresses within the limits and between the gaps, for `points`."""
+    """One read of consecutive addresses that covers `points`, within the limits and without touching a gap."""
 
     space: str
     function: int
@@ -363,7 +363,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the frames need to know of the device; `family_facts` are those of its family alone.
+    """What the frames need to know about the device; `family_facts` belong to its family alone.
 
     `line_numbers` are the times and settings under `timing` and `serial` that programs compute with.
     """
@@ -381,13 +381,13 @@ class Bus:
     line_numbers: Mapping[str, int] = field(default_factory=dict)
 
     def codes(self, section: str) -> tuple[Code, ...]:
-        """Return the numbered codes under a key of `bus`, which only this family may have."""
+        """Return the numbered codes under a key of `bus`; a key of another family gives none."""
         codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.family_facts, section, ())
         return codes
 
     @property
     def usual_unit(self) -> int:
-        """Return the unit for examples: 1, or the lowest that the device may have."""
+        """Return the unit number for examples: 1, or the lowest that the device may have."""
         low, high = self.units
         return 1 if low <= 1 <= high else low
 
@@ -407,7 +407,7 @@ class Document:
 class Device:
     """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
 
-    `command` has the words of the command that writes the output, if that is not `fieldscribe generate`; it is no fact.
+    `command` is the command line that writes the output, if that is not `fieldscribe generate`; it is not a fact.
     """
 
     id: str
@@ -438,7 +438,7 @@ class Device:
     command: tuple[str, ...] = field(default=(), repr=False)
 
     def base_of(self, point: Point) -> Base | None:
-        """Return what the addresses of a point count from; None if they count from 0."""
+        """Return the base of a point's addresses; None if they count from 0."""
         return next((base for base in self.bases if base.name == point.terms.base), None)
 
     @property
@@ -448,7 +448,7 @@ class Device:
 
     @property
     def doubts(self) -> tuple[Erratum, ...]:
-        """The errata that leave something open that is no fact of a point."""
+        """The errata that leave something open other than a fact of a point."""
         return tuple(erratum for erratum in self.errata if erratum.leaves_open and not erratum.points)
 
 
@@ -461,7 +461,7 @@ class Version(NamedTuple):
 
     @classmethod
     def of(cls, text: str) -> Self:
-        """Return the version of a text of that form."""
+        """Return the version that such a text gives."""
         return cls(*map(int, text.split(".")))
 
     @property

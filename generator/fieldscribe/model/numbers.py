@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 Titles = Mapping[str, str]
-"""Text for people by language code; `en` is always there."""
+"""Text for people by language code; `en` is always present."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ NOTATIONS: Mapping[str, int] = {
 
 
 def type_info(name: str) -> TypeInfo:
-    """Return what a wire type is, by its name: one of `TYPES`, or a sign and a width such as `u24`. Raises KeyError."""
+    """Return the facts of a wire type by its name: one of `TYPES`, or a sign and a width (`u24`). Raises KeyError."""
     known = TYPES.get("text" if name == "bytes" else name)
     if known is None and re.search(TYPE_PATTERN, name) is None:
         raise KeyError(name)
@@ -82,7 +82,7 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class Special:
-    """A special code: raw numbers low..high that are no quantity; `no_value` if they mean that there is no value.
+    """A special code: raw numbers low..high that are not a quantity; `no_value` if they mean that there is no value.
 
     It may be written only if `writable`; it is shown in hexadecimal if the manual prints it so. A `shared` code comes
     from a type, a group or a format, which many points have.
@@ -100,7 +100,7 @@ class Special:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """How the characters of a text stand in words, the first one in the first word.
+    """The layout of a text in words, the first character in the first word.
 
     A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. `padding` fills the
     rest: a blank, or a 0, which ends the text. Plain bytes have their notation as `encoding`, and no rest.
@@ -119,12 +119,12 @@ class Text:
 
     @property
     def is_bytes(self) -> bool:
-        """Return True for plain bytes, which are no characters."""
+        """Return True for plain bytes, which are not characters."""
         return self.encoding in NOTATIONS
 
     @property
     def is_unicode(self) -> bool:
-        """Return True for UTF-8, whose bytes are counted as characters, and UTF-16, whose 16-bit units are."""
+        """Return True for UTF-8 (each byte counts as a character) and UTF-16 (each 16-bit unit does)."""
         return self.encoding.startswith("utf")
 
     @property
@@ -134,13 +134,13 @@ class Text:
 
     @property
     def is_plain(self) -> bool:
-        """Return True for whole words of two bytes that are characters, the first one high, filled with blanks."""
+        """Return True for two characters a word, the first in the high byte, padded with blanks."""
         return self == Text(2 * self.words, self.encoding) and not self.is_unicode
 
 
 @dataclass(frozen=True, slots=True)
 class Digits:
-    """A word whose decimal digits have separate meanings; `enum` names the numbers that each digit may be."""
+    """A word whose decimal digits have separate meanings; `enum` names the values of a digit."""
 
     count: int
     enum: Enum

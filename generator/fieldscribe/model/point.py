@@ -51,7 +51,7 @@ class Unit:
 class Place:
     """Where a point is read or written: its addresses, high part first, and the numbers that the manual prints.
 
-    `signal` has the first bit of a signal in its message, and whether its low byte comes first; its addresses are words
+    `signal` is the first bit of a signal in its message, and True if its low byte comes first; its addresses are words
     of the telegram of the message.
     """
 
@@ -61,7 +61,7 @@ class Place:
 
     @property
     def is_scattered(self) -> bool:
-        """Return True if words of other points lie between its own, so that no request of its words alone reads it."""
+        """Return True if words of other points lie between its own: then one request must read those too."""
         return len(self.addresses) > 1 and max(self.addresses) - min(self.addresses) >= len(self.addresses)
 
     @property
@@ -110,7 +110,7 @@ def item_of(name: str, variant: Variant | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """Facts that points of a group share in addition to their shape, such as space and unit.
+    """Facts beside the shape that points of a group share, such as space and unit.
 
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
     `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
@@ -118,7 +118,8 @@ class Terms:
     same words. `certainty` says where the facts come from, None if it is the manual. `base` names what the addresses
     count from, None if that is 0; a point that repeats `to_end` exists where the found block is long enough.
     `takes_effect` says when the device uses a written value, None if at once; `write_with` names the points that are
-    written in the same request. `selects` has points with what they must hold before the address means this point.
+    written in the same request. `selects` lists points with the raw number
+    that each must hold before the address means this point.
     """
 
     group: str
@@ -151,7 +152,7 @@ class Terms:
 class Point:
     """One addressable datum: its identity, and the shape and terms that it shares with others.
 
-    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no addresses if the
+    `name` is unique, except that points of the same name may differ in `variant`. `place` has no addresses if the
     manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is the factory
     setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a floating-point
     number has only the first. `Final` keeps the fields as they are made; `frozen` would take three times as long.
@@ -238,7 +239,7 @@ class Point:
 
     @property
     def raw_only(self) -> bool:
-        """Return True if only its address is known, not the meaning of its words: it is read and written raw."""
+        """Return True if its address is known and the meaning of its words is not: it is read and written raw."""
         return not (self.generated or self.reserved) and self.access != "none" and bool(self.place.addresses)
 
     @property
@@ -265,7 +266,7 @@ class Point:
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Return where the point is read, and where else it is written; empty if the manual prints no address."""
+        """Return where the point is read, then where it is written if that differs; empty without an address."""
         elsewhere = () if self.write_place is None else (self.write_place,)
         return (self.place, *elsewhere) if self.place.addresses else ()
 
@@ -280,10 +281,10 @@ class Point:
 
     @property
     def rank(self) -> tuple[bool, str, int]:
-        """Return the rank of the point: a text that many points share stands at the point of least rank.
+        """Return the rank of the point: a text that many points share is printed at the point of least rank.
 
         The rank follows the address, because new points usually have higher addresses than old ones, wherever they
-        stand in the description. A point without an address comes last.
+        are in the description. A point without an address comes last.
         """
         addresses = self.place.addresses
         return not addresses, self.space, min(addresses, default=0)

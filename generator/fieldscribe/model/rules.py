@@ -9,7 +9,7 @@ from functools import cached_property
 class Factor:
     """A run-time factor: (raw * slope + intercept) of a point, or ten to the power of that; `power` is 1 or -1.
 
-    `within` are the raw numbers of the point with which the rule is computed, None for all; with others it overflows.
+    `within` limits the raw numbers of the point (None: no limit); with others, the rule overflows.
     """
 
     point: str
@@ -37,7 +37,7 @@ class Linear:
 class ScaleCase:
     """raw = `rule`(value). It holds always if `point` is None, else while the raw number of `point` equals `raw`.
 
-    `written` is the formula as the author wrote it. It is for people and no fact: equal rules are equal, and points
+    `written` is the formula as the author wrote it. It is for people and not a fact: equal rules are equal, and points
     whose rules are equal show the text of the first.
     """
 

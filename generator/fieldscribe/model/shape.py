@@ -1,4 +1,4 @@
-"""What many points share: everything about their raw numbers, but not their names and addresses."""
+"""The facts that many points share: everything about their raw numbers, without names and addresses."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,12 +11,12 @@ from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
 class Shape:
     """What the raw numbers of points are: their type, their meaning, and whether they can be read and written.
 
-    `type` is the one that code holds the raw number in. `width` is the number of its bits: all of the type, or
+    `type` is the type that code uses for the raw number. `width` is the number of its bits: all of the type, or
     those of a bit group or of a narrower wire type. `scale` is None if the raw number is the value. `decimals` k
     fixes the unit of the integer path, 10^-k units; it is None if the counts do not fit 64 bits, and then the point
     has no integer path. `encodes_values` is False if raw numbers or the products of the scale exceed 53 bits: then
     values are only decoded. `most_raw` is the greatest raw number that a run-time scale can compute with, if the
-    type holds larger ones: those are an overflow. `specials` are no quantities; `specials_of` names the type, group
+    type holds larger ones: those are an overflow. `specials` are not quantities; `specials_of` names the type, group
     or format of those that the point shares with others. `display` is the number of decimals that people see, None
     if the description gives none; no computation depends on it. `patterns` is True if an enum names floating-point
     numbers: raw numbers are their patterns. `swapped` is True if the low byte of each word comes first.
@@ -47,14 +47,14 @@ class Shape:
     epoch: str = ""
 
     def __hash__(self) -> int:
-        """Hash the facts that usually differ, because titles have no hash; equality compares all facts."""
+        """Hash the facts that usually differ: titles have no hash. Equality compares all facts."""
         enum = () if self.enum is None else (self.enum.name, self.enum.closed)
         names = tuple([flag.name for flag in self.flags]), tuple([special.name for special in self.specials])
         return hash((self.type, self.width, self.access, self.scale, self.decimals, enum, names, self.fixed))
 
     @cached_property
     def info(self) -> TypeInfo:
-        """Return what the wire type is."""
+        """Return the facts of the wire type."""
         return TYPES[self.type]
 
     @cached_property
@@ -73,7 +73,7 @@ class Shape:
 
     @cached_property
     def narrow(self) -> bool:
-        """Return True if the raw number has words of its own, and its type has more bits than these."""
+        """Return True if the raw number fills whole words, and its type in code is wider."""
         return 16 < self.width < self.info.bits
 
     @cached_property
@@ -88,7 +88,7 @@ class Shape:
 
     @cached_property
     def held(self) -> tuple[int, int]:
-        """Return the least and greatest number of the wire type, which is wider than a bit group."""
+        """Return the least and greatest number of the wire type; for a bit group, that of its whole word."""
         bits, signed = self.info.bits, self.info.signed
         return (-(1 << (bits - 1)) if signed else 0, (1 << (bits - signed)) - 1)
 
@@ -109,7 +109,7 @@ class Shape:
 
     @cached_property
     def form(self) -> str:
-        """Return the form that a user sees: `float` (a pattern), `text`, ..., or `integer` (raw is the value)."""
+        """Return the form that users see: `float` (a pattern), `text`, ..., or `integer` (the raw number)."""
         forms = (
             (self.info.floating, "float"),
             (self.text is not None, "text"),
@@ -143,7 +143,7 @@ class Shape:
 
 
 class Interner:
-    """Keeps one object of all equal shapes and limits, so that facts derived from them are computed once."""
+    """Keeps one object for all equal shapes and limits, so that derived facts are computed once."""
 
     def __init__(self) -> None:
         self._shapes: dict[Shape, Shape] = {}
