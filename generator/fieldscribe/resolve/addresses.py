@@ -24,7 +24,7 @@ from fieldscribe.text import counted
 from fieldscribe.wording.exact import number_text
 
 WIRE = "wire"
-"""The name of the address on the wire in formulas of `numbering`."""
+"""The name of the wire address in formulas of `numbering`."""
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
 _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
@@ -35,16 +35,16 @@ _NO_ADDRESS = "add `at: …`, or `at: ~` if the manual prints none"
 _MOST_PARTED_WORDS = 2
 """The most words of a number that two frames carry: with more, old and new words could mix unnoticed."""
 _PROBES = (0, 1, 2, 0xFFFF)
-"""The addresses at which a formula of `numbering` is tried, to see whether it is a straight line."""
+"""The addresses at which a formula of `numbering` is evaluated to test that it is linear."""
 
 _Line = tuple[int, int]
-"""Slope and offset of a printed number over the address."""
+"""Slope and offset of a printed number as a function of the address."""
 
 
 class _Layout(NamedTuple):
     """How points of one kind lie in a space: the number of words, their order, and the last possible first address.
 
-    `last` is -1 where the place of each point must be worked out from its row.
+    `last` is -1 if the place of each point must be worked out from its row.
     """
 
     words: int
@@ -69,7 +69,7 @@ class Places:
         self._wrong_rules: set[int] = set()
 
     def of(self, facts: PointFacts, encoding: Encoding, kind: int) -> tuple[Place, Place | None]:
-        """Return where a point is, and where it is written if that is elsewhere.
+        """Return the place of a point, and the place where it is written if that differs.
 
         The first has no addresses if the manual prints none, or after a finding. `kind` is the same for points that
         differ in their numbers only: if `at` is a plain number, the layout of the kind decides the rest.
@@ -202,7 +202,7 @@ class Places:
         return words
 
     def _check_parted(self, facts: PointFacts, words: tuple[int, ...]) -> None:
-        """Report a number of more than two words that comes in several frames: old and new words could mix."""
+        """Report a number of more than two words that arrives in several frames: old and new words could mix."""
         carried = self._words_per_frame(facts)
         if carried and len(words) > _MOST_PARTED_WORDS and words[0] // carried != words[-1] // carried:
             message = f"the {len(words)} words of `{facts.name}` come in several frames"
@@ -211,12 +211,12 @@ class Places:
 
     def _count(self, facts: PointFacts, encoding: Encoding) -> int:
         """Return how many addresses a number takes."""
-        if encoding.bits is not None or encoding.space in self.scope.family.indexed:  # an index names a whole value
+        if encoding.bits is not None or encoding.space in self.scope.family.indexed:  # one index holds a whole value
             return 1
         return -(-encoding.width // 16) if facts.untyped is None else int(facts.get("length", 1))
 
     def _text_words(self, facts: PointFacts, raw: object, last: int, key: str) -> tuple[int, ...]:
-        """Return the words of a text in reading order: from its first word, or from one end to the other.
+        """Return the words of a text in reading order, from its first word or between its two ends.
 
         Raises FactError.
         """
@@ -251,7 +251,7 @@ class Places:
         return None if facts.use is not None and facts.use.get("at", 0) is None else layer[key]
 
     def _address(self, facts: PointFacts, raw: object, key: str) -> int:
-        """Return the address on the wire that a YAML value means. Raises FactError."""
+        """Return the wire address that a YAML value gives. Raises FactError."""
         return self._address_of(facts, raw if isinstance(raw, int) else self._number(facts, str(raw), key))
 
     def _number(self, facts: PointFacts, text: str, key: str) -> int:
@@ -333,7 +333,7 @@ class Places:
         try:
             expression = parse_expression(text)
             if any(known.get(used.name, 0) is None for used in names(expression)):
-                return None  # that numbering has a finding of its own
+                return None  # that numbering has a finding already
             lines = {other: line for other, line in known.items() if line is not None}
             at = [
                 evaluate(expression, {other: Fraction(line[0] * wire + line[1]) for other, line in lines.items()})

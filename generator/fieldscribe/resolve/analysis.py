@@ -23,12 +23,12 @@ from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
 
 _NO_VERSION = "0.0.0"
-"""The version of a device whose version has a finding: its names are compared all the same."""
+"""Stands in for a version that has a finding, so that names can still be compared."""
 
 
 @dataclass
 class Analysis:
-    """One resolved device. The checks fill `frames`; `cited` finds errata by what they are about."""
+    """One resolved device. The checks fill `frames`; `cited` finds errata by their subject."""
 
     scope: Scope
     symbols: SymbolTable
@@ -64,7 +64,7 @@ class Analysis:
     def device(self) -> Device:
         """Return the model, without a digest.
 
-        If there are errors, it has only the points that have no finding and need no point that has one.
+        If there are errors, it has only points without a finding that need no point with a finding.
         """
         resolved = {entry.point.item: entry for entry in self.resolved}
         if self.report.has_errors:
@@ -82,7 +82,7 @@ class Analysis:
     @property
     def digested(self) -> tuple[Device, Device]:
         """Return `device` and `code_device` with their digest, which takes as long as all checks."""
-        from fieldscribe.facts.digest import with_digest  # `check` does without the table of facts
+        from fieldscribe.facts.digest import with_digest  # `check` does not need the table of facts
 
         return with_digest(self.device, self.code_device)
 

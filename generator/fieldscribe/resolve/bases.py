@@ -12,15 +12,15 @@ from fieldscribe.resolve.values import FactError, formula_multiples, integer, in
 from fieldscribe.text import shortened
 
 _MOST_BASES = 65536
-"""The most bases of a group: all of them are worked out."""
+"""The most bases of a group: each of them is checked."""
 _LAST = 65535
 _NO_COUNTS = frozenset(("bits", "format", "indices", "record", "scale", "sets", "space", "variants", "cases"))
-"""Keys of a row that is no plain word."""
+"""Keys that a row of a plain word does not have."""
 _USUAL_SPACE, _USUAL_END = "holding", 0xFFFF
 
 
 def read_bases(scope: Scope) -> None:
-    """Add to the scope what is given and found, and the base of each group that has one."""
+    """Add to the scope the given numbers, the chain of blocks, and the base of each group that has one."""
     header, report = scope.header, scope.report
     for key in ("given", "found"):
         if key in header and not scope.family.has_bases:
@@ -35,7 +35,7 @@ def read_bases(scope: Scope) -> None:
             base = _base_of(scope, group)
         except FactError as error:
             error.report(report)
-            scope.bases[id(group)] = Base(str(group["group"]), "", 0, (), None)  # its points meet no others
+            scope.bases[id(group)] = Base(str(group["group"]), "", 0, (), None)  # its points meet no other points
             continue
         if base is not None:
             name = next((known for known, formula in names.items() if formula == base.formula), base.name)
@@ -59,7 +59,7 @@ def _given(scope: Scope, nodes: Map) -> Iterator[Given]:
 
 
 def _found(scope: Scope, nodes: Map) -> Found | None:
-    """Return the chain of blocks; report what cannot be searched for."""
+    """Return the chain of blocks; report a marker or a place that cannot be searched for."""
     report = scope.report
     for name in list(nodes)[1:]:
         message, hint = f"`{name}` is a second chain of blocks", "a device has one chain: describe it once"
@@ -117,7 +117,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
 
 
 def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
-    """Return the base that lies after the start of a block, by what points of the block hold. Raises FactError."""
+    """Return a base that is counted from the start of a block, which points of the block may move. Raises FactError."""
     span, places = group.span("base"), dict(_counting_points(scope, group))
     unknown = f"points of the block that can count are: {', '.join(places) or 'none'}"
 
@@ -129,7 +129,7 @@ def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
 
 
 def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
-    """Yield the points of the same block that can count words, with their addresses: whole words in plain places."""
+    """Yield the points of the same block that can count words, with their addresses: whole words at fixed places."""
     for other in scope.groups:
         if _whole(other.get("block")) == _whole(group["block"]) and other.keys().isdisjoint(("base", "addressing")):
             for row in other["points"]:
@@ -147,7 +147,7 @@ def _whole(value: object) -> int | None:
 
 
 def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
-    """Return the base that a formula of given numbers makes; it lies in 0..65535 for all of them. Raises FactError."""
+    """Return the base that a formula gives; it is within 0..65535 for all given numbers. Raises FactError."""
     span, given = group.span("base"), scope.given
     if not given and scope.header.get("given"):
         raise FactError  # they have findings
@@ -168,6 +168,6 @@ def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
 
 
 def last_address(base: Base, given: Mapping[str, Given]) -> int:
-    """Return the last address that may count from a base, whatever is given."""
+    """Return the last address that fits after a base for all given numbers."""
     ends = [(factor * (given[name].high if factor > 0 else given[name].low)) for name, factor in base.terms]
     return _LAST - base.offset - sum(ends)

@@ -1,4 +1,4 @@
-"""How a manual numbers the bits of a word: from 0 or 1, at the lowest or the highest one. The model counts from 0."""
+"""The numbering of bits in a manual: from 0 or 1, from the lowest or the highest bit. The model counts from 0."""
 
 from typing import NamedTuple
 
@@ -17,22 +17,22 @@ _NUMBERINGS = {
 
 
 class BitNumbers(NamedTuple):
-    """The numbering of so many bits: the number of its first bit, and whether that is the highest one."""
+    """The numbering of a number of bits: the number of its first bit, and whether that is the highest one."""
 
     width: int
     first: int = 0
     from_top: bool = False
 
     def bit(self, number: int) -> int:
-        """Return the bit to which the manual gives a number."""
+        """Return the bit that the manual numbers so."""
         return self.width - 1 + self.first - number if self.from_top else number - self.first
 
     def number(self, bit: int) -> int:
         """Return the number that the manual gives a bit."""
         return self.width - 1 + self.first - bit if self.from_top else bit + self.first
 
-    def said(self, high: int, low: int) -> str:
-        """Return how bits are written, as the manual numbers them."""
+    def written(self, high: int, low: int) -> str:
+        """Return an interval of bits as text, in the numbers of the manual."""
         return f"{self.number(high)}..{self.number(low)}"
 
     def range_of(self, text: str, span: Span, report: Report) -> tuple[int, int] | None:
@@ -42,7 +42,7 @@ class BitNumbers(NamedTuple):
             return None
         high, low = map(self.bit, ends)
         if high < low:
-            message, hint = f"bits `{text}` run upwards", f"the higher bit stands first: {self.said(low, high)}"
+            message, hint = f"bits `{text}` run upwards", f"the higher bit comes first: {self.written(low, high)}"
             report.error("range-reversed", message, span, hint)
             return None
         return high, low

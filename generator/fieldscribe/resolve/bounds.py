@@ -1,4 +1,4 @@
-"""The least and the greatest number that a point, or a formula of points, can be."""
+"""The least and the greatest number that a point, or a formula of points, can hold."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -38,7 +38,7 @@ def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
 
 
 class Bounds:
-    """Computes bounds of raw numbers. A type holds an interval; a point's hull is what its range leaves of it."""
+    """Computes bounds of raw numbers. A type holds an interval; a point's hull is the part that its range allows."""
 
     def __init__(self, scales: Scales, encodings: Mapping[PointFacts, Encoding]) -> None:
         self.scales = scales
@@ -59,7 +59,7 @@ class Bounds:
     def _end(self, facts: PointFacts, end: int) -> int:
         """Return the least (`end` 0) or the greatest (1) number of the hull.
 
-        Each end is computed alone, because a fixed end often breaks a circle of points that limit each other.
+        Each end is computed separately, because a fixed end often breaks a circle of points that limit each other.
         """
         key = (facts, end)
         bound = self._ends.get(key)
@@ -73,7 +73,7 @@ class Bounds:
         return bound
 
     def ends_of(self, factor: Factor, *, held: bool = False) -> tuple[int, int]:
-        """Return raw * slope + intercept at both ends of the range of the factor's point, or of what its type holds."""
+        """Return raw * slope + intercept at both ends of the range of the factor's point, or of its type."""
         facts = self.scales.symbols.by_item(factor.point)
         low, high = self.encodings[facts].holds if held else self.hull(factor.point)
         return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
@@ -114,7 +114,7 @@ class Bounds:
         return {Fraction(1, divisor) for divisor in {low, high, *nearest} if divisor} or {Fraction(1)}
 
     def with_exponents(self, rule: Linear, span: Span) -> Linear:
-        """Return the rule with the raw numbers that each exponent of ten may be.
+        """Return the rule with the raw numbers that each exponent of ten may hold.
 
         Raises FactError for an exponent that can exceed MOST_EXPONENT.
         """
@@ -170,7 +170,7 @@ class Bounds:
         return self.encoded(facts, rule, span) if in_units else rule
 
     def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
-        """Return a point's number in a limit of another point. Raises FactError."""
+        """Return the number of one point in a limit of another. Raises FactError."""
         used = self.scales.symbols.find(name, facts)
         if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
@@ -179,12 +179,12 @@ class Bounds:
         return self.scales.affine(facts, name, part, formula)
 
     def falls(self, facts: PointFacts) -> bool:
-        """Return True if a larger value is a smaller raw number."""
+        """Return True if the raw number falls as the value rises."""
         cases = self.scales.cases(facts)
         return cases is not None and cases[0].rule.ratio < 0
 
     def _computed_end(self, facts: PointFacts, end: int) -> int:
-        """Return one end of what the range leaves of the type; the end of the type if the range is unusable."""
+        """Return one end of the part of the type that the range allows; that of the type if the range is unusable."""
         key = "range" if facts.layer("range") is not None else "range_in_units"
         least, greatest = self.encodings[facts].holds
         if facts.layer(key) is None or facts.floating or facts.text:

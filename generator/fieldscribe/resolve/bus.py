@@ -1,4 +1,4 @@
-"""Reads the facts under `bus`, and defines how a family reads the keys that only it has."""
+"""Reads the facts under `bus`, and defines how a family reads its own keys."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -22,13 +22,13 @@ class FamilyReader:
     """Reads the facts that only one family has. A family offers its reader as `READING` in its module `reading`."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> FamilyFacts | None:
-        """Return what only the family knows of the bus; report what its protocol cannot do."""
+        """Return the facts of the bus that only this family has; report what its protocol cannot do."""
 
     def frame(self, scope: Scope, node: Map, framing: str) -> FamilyFacts | None:
-        """Return what only the family knows of a worked example."""
+        """Return the facts of a worked example that only this family has."""
 
     def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
-        """Report a worked example that cannot be one of this bus, and return True for it."""
+        """Report a worked example that cannot occur on this bus; return True if it cannot."""
         del scope, bus, node
         return False
 
@@ -46,7 +46,7 @@ class FamilyReader:
         return messages, list(points)
 
     def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
-        """Report a telegram that the family's own frames cannot carry."""
+        """Report a telegram that the frames of the family cannot carry."""
 
     def writes(self, space: str) -> tuple[int, ...]:
         """Return the functions that write into a space."""
@@ -54,14 +54,14 @@ class FamilyReader:
         return ()
 
     def able(self, bus: Bus, space: str, count: int, *, writes: bool) -> tuple[int, ...]:
-        """Return the functions of the device that read or write so many items at once, the usual one first."""
+        """Return the functions of the device that read or write this many items at once, the usual one first."""
         del bus, space, count, writes
         return ()
 
     def blocks(
         self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]
     ) -> tuple[Block, ...] | None:
-        """Return the reads that bring all points of a group; None if the family plans none."""
+        """Return the reads that fetch all points of a group; None if the family plans none."""
 
 
 def reader_of(scope: Scope) -> FamilyReader:
@@ -121,7 +121,7 @@ def _times(timing: Mapping[str, str]) -> Iterator[tuple[str, int]]:
 
 
 def _settings(serial: Mapping[str, Mapping[str, str]]) -> Iterator[tuple[str, int]]:
-    """Yield the codes of serial settings, by what they mean, and settings that are a single number."""
+    """Yield the codes of serial settings by their meaning, and settings that are a single number."""
     for key, codes in serial.items():
         for code, text in codes.items():
             if not _NUMBER.fullmatch(code) or "." in code or (code == text and len(codes) > 1):
@@ -140,13 +140,13 @@ def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
     for key in node:
         if not _knows(scope.family, key) and not key.startswith("x-"):
             known = sorted(other.name for other in families() if _knows(other, key))
-            message = f"`{key}` is nothing that the family {family} knows"
+            message = f"the family {family} has no key `{key}`"
             hint = f"it belongs to {' and '.join(known)}: leave it out"
             scope.report.error("family-key", message, node.key_span(key), hint)
     stated = {*node, *(key for holder in ("serial", "timing") for key in node.get(holder, ()))}
     for key in node.get("lines", ()):
         if key not in stated:
-            message = f"`lines` names `{key}`, which the bus does not say"
+            message = f"`lines` names `{key}`, which is not under `bus`"
             scope.report.error("unknown-key", message, node["lines"].key_span(key), "leave it out, or say it")
     if keys.broadcast is not None and node.get("broadcast", keys.broadcast) != keys.broadcast:
         message = f"{node['broadcast']} is no broadcast of the family {family}"
@@ -206,7 +206,7 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
 
 
 def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
-    """Return the numbers of a list of codes, where `11..14` stands for several."""
+    """Return the numbers of a list of codes; `11..14` stands for several."""
     codes: dict[int, None] = {}
     items: Seq = node.get(key) or Seq(node.file, node.start)
     for place, item in enumerate(items):

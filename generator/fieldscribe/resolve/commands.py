@@ -46,7 +46,7 @@ def commands_of(
 
 
 def _lacks(scope: Scope, node: Map) -> bool:
-    """Return True if a command that is one constant lacks a key; report it."""
+    """Report the keys that a command of one constant lacks; return True if there are any."""
     lacked = [key for key in _NEEDED if key not in node]
     for key in lacked:
         if key not in node.broken:
@@ -55,7 +55,7 @@ def _lacks(scope: Scope, node: Map) -> bool:
 
 
 def _refuse_other_keys(scope: Scope, node: Map) -> None:
-    """Report keys of a constant beside steps."""
+    """Report keys of a constant in a command that has steps."""
     for key in node.keys() & set(_ALONE):
         hint = "leave it out, or write it at a step"
         scope.report.error("steps", f"`{key}` does not belong beside `steps`", node.key_span(key), hint)
@@ -89,7 +89,7 @@ def _command(scope: Scope, bus: Bus, node: Map) -> Command | None:
 
 
 def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) -> bool:
-    """Return True if the space has the address and holds the value; report what does not fit."""
+    """Return True if the space has the address and can hold the value; report what does not fit."""
     last = scope.family.last_address
     greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
     inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest

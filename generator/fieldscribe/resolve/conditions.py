@@ -36,10 +36,10 @@ from fieldscribe.resolve.values import FactError, Written, formula_finding
 from fieldscribe.resolve.word_contents import enum_of
 
 _MOST_STEPS = 16
-"""The most points that exist by one another, in a row."""
+"""The longest chain of points whose existence depends on the next one."""
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-"""The test of raw numbers for a test of values, if raw numbers fall while the value rises."""
+"""The test of the raw number for each test of the value, if the raw number falls as the value rises."""
 
 
 def condition_of(facts: PointFacts, scales: Scales) -> Condition | None:
@@ -119,10 +119,10 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
         scales.symbols.unknown(name, written.of(name))
         raise FactError
     if len(asking) > _MOST_STEPS:
-        message = f"`{name}` exists by more than {_MOST_STEPS} conditions, one after the other"
+        message = f"`{name}` exists under more than {_MOST_STEPS} conditions, each naming the next"
         raise FormulaError(message, column, "compare what the first of them compares")
     if any(point in asking for point in points):
-        raise FormulaError(f"`{name}` exists by a condition that leads back to itself", column, "write it out")
+        raise FormulaError(f"`{name}` exists under a condition that leads back to itself", column, "write it out")
     versions = next((key for point in points for key in ("since", "until") if _is_open(key, point, asking[0])), None)
     if versions is not None:
         raise FormulaError(
@@ -137,7 +137,7 @@ def _existence(scales: Scales, comparison: Comparison, written: Written, asking:
 
 
 def _is_open(key: str, point: PointFacts, asking: PointFacts) -> bool:
-    """Return True if a point has a first (last) version, and the point that asks is there in others, too."""
+    """Return True if a point has a first or last version, and the point that names it exists in others too."""
     version, mine = point.get(key), asking.get(key)
     if version is None:
         return False
@@ -176,7 +176,7 @@ def _comparison(
         raise FormulaError(message, comparison.name.column, "a condition compares whole numbers and names")
     if used.name == facts.name:
         raise FormulaError(
-            f"`{name}` cannot say itself whether it exists", comparison.name.column, "name another point"
+            f"the condition of `{name}` cannot name the point itself", comparison.name.column, "name another point"
         )
     rule = scales.affine(facts, name, comparison.name.part, written)
     raws = [_raw(scope, used, rule, constant, written) for constant in comparison.constants]

@@ -1,4 +1,4 @@
-"""Finds how the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
+"""Resolves how the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
 
 from typing import NamedTuple
 
@@ -35,7 +35,7 @@ class Encoding(NamedTuple):
 
 
 class Encodings:
-    """Finds the encodings of points, once for all points of a kind."""
+    """Resolves the encodings of points, once for all points of a kind."""
 
     def __init__(self, scope: Scope) -> None:
         self._scope = scope
@@ -54,7 +54,7 @@ class Encodings:
         info = type_info(name)
         width = info.bits if bits is None else bits[0] - bits[1] + 1
         if self._scope.family.spaces[space] == "signal" and width < 16:
-            bits = (width - 1, 0)  # of a word of its own
+            bits = (width - 1, 0)  # of a whole word
         coding = _coding_of(self._scope, facts, name, width)
         holds = coded_ends(width, coding) if coding else ends_of(width, signed=info.signed)
         carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
@@ -66,7 +66,7 @@ class Encodings:
 
 
 def low_first(facts: PointFacts, key: str, order: object, carrier: str) -> bool:
-    """Return True if the low part comes first: as the point or its group says, else `order` of the bus for its type."""
+    """Return True if the low part comes first: by the point or its group, else by the order of the bus for its type."""
     name = f"f{facts.pattern_bits}" if facts.pattern_bits else carrier
     usual = order.get(name) if isinstance(order, Map) else order
     return bool((facts.get(key) or usual) == "low first")
@@ -83,7 +83,7 @@ def _coding_of(scope: Scope, facts: PointFacts, name: str, width: int) -> str:
     other = name in ("text", "bit") or any(facts.get(key) for key in ("flags", "digits", "fixed"))
     plain = other or info.floating or scope.family.spaces.get(str(facts.get("space"))) == "signal"
     if plain or info.signed != (coding == MAGNITUDE) or (coding == BCD and width % 4) or width < 2:
-        if facts.layer("coding") is not facts.group and not info.floating and name != "text":  # these are told anyway
+        if facts.layer("coding") is not facts.group and not info.floating and name != "text":  # reported anyway
             needs = "an s type" if coding == MAGNITUDE else "a u type whose bits are a multiple of 4"
             message, hint = f"`coding: {coding}` is for numbers of {needs}", "correct `type` or `bits`, or leave it out"
             scope.report.error("wrong-choice", message, facts.span("coding"), hint)
@@ -127,7 +127,7 @@ def _parse_bits(scope: Scope, text: str, span: Span, numbers: BitNumbers) -> tup
     outside = next((bit for bit in ends or () if not 0 <= bit <= 15), None)
     if outside is not None:
         message = f"bit {numbers.number(outside)} lies outside the 16-bit word"
-        hint = f"bits are numbered {numbers.said(15, 0)}"
+        hint = f"bits are numbered {numbers.written(15, 0)}"
         hint += "" if numbers.from_top else f"; bit {numbers.number(16)} is bit {numbers.first} of the next address"
         scope.report.error("bit-outside-word", message, span, hint)
         return None
@@ -135,7 +135,7 @@ def _parse_bits(scope: Scope, text: str, span: Span, numbers: BitNumbers) -> tup
 
 
 def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] | None) -> str:
-    """Return the point's wire type: as stated, else by its space and bits; report a type that does not fit them."""
+    """Return the point's wire type: the stated one, else that of its space and bits; report one that does not fit."""
     single = scope.family.spaces[space] == "bit"
     if scope.family.spaces[space] == "signal":
         return _type_of_signal(scope, facts)
@@ -153,7 +153,7 @@ def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] 
 
 
 def _type_of_signal(scope: Scope, facts: PointFacts) -> str:
-    """Return the wire type of a signal; report a missing one, and one that has no bits of its own."""
+    """Return the wire type of a signal; report a missing one, and a type that a signal cannot have."""
     stated = facts.get("type")
     if stated is not None and stated not in ("bit", "text", "bytes"):
         return str(stated)

@@ -24,7 +24,7 @@ _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"
 class PrintedFact:
     """A printed fact that differs from the description.
 
-    `about` names the point or thing, `span` is the place of the fact. `taken` is the value in the description, None if
+    `about` is its subject, `span` its place. `taken` is the value in the description, None if
     only an erratum can give the right value. `right` decides whether the `taken` of an erratum is correct, where
     comparing numbers or texts is not enough. `flag` names the flag that the fact is about; `hint` replaces the usual
     advice.
@@ -55,7 +55,7 @@ class LocatedErratum:
 
     @property
     def subjects(self) -> tuple[About, ...]:
-        """Return what it is about: its points, or another named thing, or nothing."""
+        """Return its subjects: its points, or another named thing, or nothing."""
         where = self.erratum.where
         return self.erratum.points or ((where,) if isinstance(where, Named) else ())
 
@@ -66,7 +66,7 @@ class LocatedErratum:
 
 
 def errata_of(scope: Scope, symbols: SymbolTable, bus: Bus) -> list[LocatedErratum]:
-    """Return all errata in the order of the text, without those that are about nothing that exists."""
+    """Return all errata in the order of the text, without those whose subject does not exist."""
     result = []
     for node in scope.unique("errata", "id"):
         points = tuple(_points(scope, symbols, node))
@@ -105,7 +105,7 @@ def _points(scope: Scope, symbols: SymbolTable, node: Map) -> Iterator[str]:
 
 
 def _leaves_open(scope: Scope, node: Map) -> Iterator[tuple[str, str]]:
-    """Yield what an erratum leaves open by the key of the fact; report what does not go with its certainty."""
+    """Yield what an erratum leaves open by the key of the fact; report what contradicts its certainty."""
     texts: Map | dict[str, str] = node.get("leaves_open", {})
     if not texts and node["certainty"] == "unknown":
         message = f"the erratum `{node['id']}` does not say what is `unknown`"
@@ -136,7 +136,7 @@ def _flag_exists(scope: Scope, symbols: SymbolTable, node: Map) -> None:
 
 
 def _where(scope: Scope, node: Map, bus: Bus) -> Named | str | None:
-    """Return what an erratum is about if it names no point: a thing, or a place in words; None after a finding."""
+    """Return the subject of an erratum that names no point: a thing, or a place in words; None after a finding."""
     for section, key in _NAMED:
         if key in node:
             known = [str(item["name"]) for item in scope.listed(section)]
@@ -159,7 +159,7 @@ def _where(scope: Scope, node: Map, bus: Bus) -> Named | str | None:
 
 
 def in_one_line(value: Any) -> str:
-    """Return what is printed or taken as one line."""
+    """Return a printed or taken text as one line."""
     facts = _facts(value)
     return "; ".join(f"{key.replace('_', ' ')} {text}" for key, text in facts) if facts else str(value)
 
@@ -170,7 +170,7 @@ def _facts(value: Any) -> tuple[tuple[str, str], ...]:
 
 
 def _fact_text(value: Any, key: str) -> str:
-    """Return a fact as people read it: masks in hexadecimal, lists with slashes."""
+    """Return a fact as text: masks in hexadecimal, lists with slashes."""
     if key == "mask" and isinstance(value, int):
         return f"{value:04X}h"
     if isinstance(value, Seq):

@@ -13,11 +13,11 @@ from fieldscribe.resolve.point_facts import Element, PointFacts, elements_of, se
 from fieldscribe.resolve.scope import Scope, humanised, titles
 
 MOST_POINTS = 100_000
-"""The most points of a device. Without a limit, rows that stand for many points could fill the memory."""
+"""The most points of a device. Without a limit, rows that repeat could fill the memory."""
 
 _LAST_SET = 999
 _AXES = frozenset(("sets", "indices", "set", "index"))
-"""Keys of a row that stands for several points, or for one of several."""
+"""Keys of a row that describes several points, or one of several."""
 _OWN = identifying_keys(POINT)
 """Keys that a further set does not inherit from the row that it repeats; the title is extended instead."""
 _OF_RECORDS = inherited(USE)
@@ -56,7 +56,7 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterable[PointFacts]:
 
 
 def _cases(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
-    """Yield a point for each meaning of the row; report a case without a condition, and what repeats besides."""
+    """Yield a point for each meaning of the row; report a case without a condition, and keys that repeat it too."""
     row = PointFacts(point["name"], (point, *_format(scope, point)), group, point, _title(point))
     row.set_number = row.get("set")
     row.element = _single_element(scope, row)
@@ -256,7 +256,7 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> PointFacts:
 
 
 def _whole_record(use: Map) -> Map:
-    """Return what the use of a record states for all its members: the place in the manual, and the common code."""
+    """Return what a use of a record gives all its members: the place in the manual, and the common code."""
     result = Map(use.file, use.start)
     for key in _OF_RECORDS:
         if key in use:

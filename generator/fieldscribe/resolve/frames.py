@@ -23,7 +23,7 @@ RAW = ".raw"
 
 @dataclass(frozen=True, slots=True)
 class LocatedFrame:
-    """A frame with its text, and what it says of numbers that bases follow from."""
+    """A frame with its text, and what it states about given numbers and found blocks."""
 
     frame: Frame
     node: Map
@@ -35,7 +35,7 @@ class LocatedFrame:
         return Named("frame", self.frame.name)
 
     def printed(self, key: str, printed: Any, taken: Any, message: str, *, at: str = "bytes") -> PrintedFact:
-        """Return a fact of the frame that is printed otherwise; `at` is the key that has it."""
+        """Return a fact of the frame that is printed differently; `at` is its key."""
         return PrintedFact(self.about, key, printed, taken, self.node.span(at), message)
 
 
@@ -102,7 +102,7 @@ def _foreign_keys(scope: Scope, node: Map) -> None:
     for other in families():
         for key in other.frame_keys:
             if key in node and key not in scope.family.frame_keys:
-                message = f"`{key}` is nothing that the family {scope.family.name} knows"
+                message = f"the family {scope.family.name} has no key `{key}`"
                 hint = f"it belongs to {other.name}: leave it out"
                 scope.report.error("family-key", message, node.key_span(key), hint)
 
@@ -124,12 +124,12 @@ def _meaning_of(scope: Scope, node: Map, symbols: SymbolTable, points: Mapping[s
 
 
 def _bases(scope: Scope) -> set[str]:
-    """Return the names of what is given or found."""
+    """Return the names of given numbers and of found blocks."""
     return {*scope.given, *(base.name for base in scope.bases.values() if base.block is not None)}
 
 
 def _given(scope: Scope, node: Map) -> Mapping[str, int]:
-    """Return what the frame says of numbers that are given, and of places of found blocks."""
+    """Return what the frame states about given numbers, and about the places of found blocks."""
     settings = node.get("with", {})
     numbers = {name: integer(settings[name], settings.span(name), scope.report) for name in _bases(scope) & {*settings}}
     return {name: number for name, number in numbers.items() if number is not None}
@@ -195,7 +195,7 @@ class StatedValues:
         if point.info.floating:
             message = f"`{word}` cannot be {self.values[word]}: the type is too small"
             return FactError("bad-number", message, span, "correct it")
-        message = f"`{word}` has no scale with what `with` says"
+        message = f"`{word}` has no scale for the values under `with`"
         return FactError("bad-formula", message, span, "check the values under `with`")
 
 

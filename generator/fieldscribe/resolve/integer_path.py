@@ -1,4 +1,4 @@
-"""Decides which ways to compute a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
+"""Decides which computations of a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
 
 from fractions import Fraction
 from typing import NamedTuple
@@ -30,10 +30,10 @@ _NARROW = 1 << 33
 """All raw numbers of 32 bits are smaller."""
 
 _HALF = (1 << 52) - (1 << 8)
-"""Half a raw step in units of 2^-53, less a margin for numbers that were rounded before."""
+"""Half a raw step in units of 2^-53, less a margin for constants that are rounded."""
 
 _MOST_ROUNDINGS = 5
-"""The roundings on the way back if other points choose the rule: value, product, quotient, sum and offset."""
+"""The number of roundings in encoding if other points decide the rule: value, product, quotient, sum and offset."""
 
 _MANTISSA = 24
 """The bits of an f32's mantissa. As a factor they widen the integers; the exponent only shifts the result."""
@@ -45,7 +45,7 @@ class Paths(NamedTuple):
     `encodes_values` is True if every raw number comes back from its value in binary64. `most_raw` is the largest size
     of a raw number for which a scale with factors is exact, if the type holds larger ones. `in_ranges` is True if that
     holds only while the factors lie in the declared ranges of their points. `raw_alone` is True if the scale itself
-    needs more than 64 bits: then nothing is computed.
+    needs more than 64 bits: then code offers only the raw number.
     """
 
     decimals: int | None
@@ -109,7 +109,7 @@ def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bou
 
 
 def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
-    """Return True if code computes every value with so many decimals by integers alone.
+    """Return True if code computes every value with this many decimals by integers alone.
 
     If other points choose the rule, the numerator of a point with counts has 64 bits, and 40 more for the decimals stay
     below 128. With a fixed scale any raw number of the type may occur.
@@ -127,7 +127,7 @@ def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
 
 
 def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
-    """Return True if every raw number survives the way to its value and back in binary64.
+    """Return True if every raw number comes back from its value in binary64.
 
     Decoding gives the binary64 nearest to the exact value. Encoding rounds the product, the quotient and the sum, and
     uses rounded constants where binary64 does not hold them. Each rounding is off by at most 2^-53 of a number that is
@@ -145,7 +145,7 @@ def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
 
 
 def asks_limits(holds: tuple[int, int]) -> bool:
-    """Return True if a type that holds such numbers is so wide that the limits decide how code computes a point."""
+    """Return True if the type is so wide that the limits decide how code computes a point."""
     return max(map(abs, holds)) >= _NARROW
 
 
@@ -160,7 +160,7 @@ def _largest(facts: PointFacts, bounds: Bounds) -> int:
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
-    """Return the largest numerator with which every way to compute a point is exact; None if 128 bits hold any.
+    """Return the largest numerator for which all computations of a point are exact; None if 128 bits hold any.
 
     Values in binary64 need a numerator that is exact there. Counts are 10^decimals times as large, and rounding
     compares them with their own half: twice that must stay within the bound.
@@ -203,7 +203,7 @@ def _decimals(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, n
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """Return a hint for a scale whose integers do not fit: a change that helps and causes no other finding."""
+    """Return a hint for a scale whose integers do not fit: a change that causes no other finding."""
     factors = [factor for case in cases for factor in case.rule.factors]
     names = " and ".join(
         f"`{name}`" for name in sorted({bounds.scales.symbols.by_item(factor.point).name for factor in factors})
@@ -224,9 +224,9 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
-    """Return True if counts of so many decimals, and all integers on the way, stay within 62 bits.
+    """Return True if counts of this many decimals, and all intermediate integers, stay within 62 bits.
 
-    Both ways between counts and raw numbers compute the same three products: the raw number with its offset times
+    Encoding and decoding of counts compute the same three products: the raw number with its offset times
     `down`, and the constants times at most 10^decimals. The factor of two is for the half that rounding compares with.
     """
     return all(2 * max(need.numerator, need.constant) * 10**decimals <= _COUNTED for need in needs)

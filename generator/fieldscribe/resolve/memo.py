@@ -1,4 +1,4 @@
-"""Facts that follow from the YAML of a point: worked out once for all points whose YAML states the same."""
+"""Facts that follow from the YAML of a point, computed once for all points whose YAML is the same."""
 
 from collections.abc import Callable, Hashable
 from decimal import Decimal
@@ -16,18 +16,18 @@ _IDENTITY = identifying_keys(POINT) | {*keys_of(SOURCE), "source", "lines", "not
 """Keys that identify or annotate a point: no shape, scale or limit depends on them."""
 
 _NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))
-"""Keys of which only the presence counts: points with the same facts have numbers of their own there."""
+"""Keys of which only the presence counts, because each point has its own number there."""
 
 
 class FactKeys:
-    """Numbers points: those with the same number state the same facts, but for identity and numbers of limits."""
+    """Numbers kinds of points: those of a kind state the same facts, except for identity and numbers of limits."""
 
     def __init__(self) -> None:
         self._keys: dict[Hashable, int] = {}
         self._layers: dict[int, Hashable] = {}
 
     def of(self, point: PointFacts) -> int:
-        """Return the key of a point. A point with a variant or with findings has a key of its own."""
+        """Return the kind of a point. A point with a variant or with findings is a kind of its own."""
         if point.variant is not None or point.failed:
             stated: Hashable = point
         else:
@@ -37,7 +37,7 @@ class FactKeys:
         return self._keys.setdefault(stated, len(self._keys))
 
     def _shared(self, layer: Map) -> Hashable:
-        """Return what a layer states that many points have, such as a format."""
+        """Return what a shared layer states, such as a format."""
         if id(layer) not in self._layers:
             self._layers[id(layer)] = _stated(layer)
         return self._layers[id(layer)]
@@ -63,7 +63,7 @@ def hashable(value: object) -> Hashable:
 
 
 class Memo(Generic[Fact]):
-    """Remembers a fact by what it follows from. A fact with a finding is worked out again for every point."""
+    """Remembers a fact by what it follows from. A fact with a finding is computed again for every point."""
 
     def __init__(self, report: Report) -> None:
         self._report = report

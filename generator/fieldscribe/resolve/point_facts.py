@@ -1,6 +1,6 @@
-"""The facts that a description states about one point, each with the layer and the place in the text it is from.
+"""The facts that a description states about one point, each with its layer and its place in the text.
 
-Also sets and arrays: which points a row stands for if it has `sets`, `indices` or both.
+Also sets and arrays: the points of a row that has `sets`, `indices` or both.
 """
 
 import re
@@ -23,7 +23,7 @@ from fieldscribe.resolve.values import integer, interval
 from fieldscribe.wording.exact import number_text
 
 MOST_ELEMENTS = 4096
-"""The most points that one row may stand for."""
+"""The most points of one row."""
 
 _INHERITED = inherited(GROUP)
 """Keys that a group may set for its points."""
@@ -37,20 +37,20 @@ _RIVALS = {
 
 
 TO_END = "to end"
-"""The value of `indices` for what repeats to the end of a found block."""
+"""The value of `indices` for points that repeat to the end of a found block."""
 
 _COUNTED = re.compile(rf"{TO_END}|(?P<low>[0-9]{{1,5}})\.\.(?P<point>[A-Za-z_]\w*(?<![hH])|[g-zG-Z_]\w*)")
-"""`to end`, or an interval whose last number a point holds."""
+"""`to end`, or an interval whose last number is in a point."""
 _SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
 _INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One of the points that a row stands for.
+    """One of the points of a row.
 
     `set_number` and `index` are None if the row has no sets or indices; `sets` and `indices` say how many there are.
-    `counted` holds those of the keys `sets` and `indices` that the row has.
+    `counted` names which of `sets` and `indices` the row has.
     """
 
     set_number: int | None
@@ -60,7 +60,7 @@ class Element:
     suffix: str
     counted: tuple[str, ...]
     exists: tuple[tuple[str, str], ...] = ()
-    """Conditions for the element to exist, each with the key that says so: `1..phases` gives `phases >= 2`."""
+    """Conditions for the element to exist, each with its key: `1..phases` gives `phases >= 2`."""
 
     def values(self, number: int) -> Mapping[str, Fraction]:
         """Return the names that an addressing rule may use; outside sets and arrays the set and the index are 1."""
@@ -110,7 +110,7 @@ class PointFacts:
     """The facts of one expanded point, in layers: the point's own row first, then formats and records, the group last.
 
     `use` is the row that uses the point's record. `failed` collects the keys that have findings, so that no later step
-    reports what was assumed in their place.
+    reports the values assumed instead.
     """
 
     name: str
@@ -158,7 +158,7 @@ class PointFacts:
 
     @property
     def text(self) -> bool:
-        """Return True if the type is `text`, or `bytes`, which are held as one."""
+        """Return True if the type is `text` or `bytes`, which share a representation."""
         return self.get("type") in ("text", "bytes")
 
     @property
@@ -168,7 +168,7 @@ class PointFacts:
 
     @property
     def untyped(self) -> str | None:
-        """Return the words in place of a type, "" if the manual leaves the type open; None if there is a type."""
+        """Return the text given instead of a type, "" if the manual leaves the type open; None if there is a type."""
         words, typed = self.layer("untyped"), self.layer("type")
         if words is not None and (typed is None or self._rank(words) <= self._rank(typed)):
             return str(words["untyped"])
@@ -176,7 +176,7 @@ class PointFacts:
 
     @property
     def keeps(self) -> str | None:
-        """Return what keeps a written value: the nearer one of `keep_with` (a command) and `keeps`."""
+        """Return how a written value is kept: the nearer of `keep_with` (a command) and `keeps`."""
         keeps: str | bool | None = self.get("keep_with", self.get("keeps"))
         return {True: "yes", False: "no"}[keeps] if isinstance(keeps, bool) else keeps
 
@@ -194,7 +194,7 @@ class PointFacts:
         return self._where.get(key)
 
     def get(self, key: str, otherwise: Any = None) -> Any:
-        """Return the fact, or `otherwise`."""
+        """Return the fact; `otherwise` if no layer states it."""
         layer = self._where.get(key)
         return otherwise if layer is None else layer[key]
 
@@ -207,14 +207,14 @@ class PointFacts:
 
     @property
     def conditions(self) -> tuple[tuple[str, str], ...]:
-        """Return the conditions for the point to exist, each with the key that says so."""
+        """Return the conditions for the point to exist, each with its key."""
         when = self.get("when")
         stated = () if when is None else ((str(when), "when"),)
         counted = () if self.element is None else self.element.exists
         return (*stated, *counted, *self._selecting()) if self.layer("select") else stated + counted
 
     def _selecting(self) -> Iterator[tuple[str, str]]:
-        """Yield that each point that selects holds its number: a name, or a formula of what `addressing` knows."""
+        """Yield a condition for each selecting point: it holds a name, or the result of a formula of an element."""
         numbers = (self.element or ALONE).values(plain_number(self.get("at")) or 0)
         for name, text in self.get("select").items():
             try:
@@ -236,7 +236,7 @@ class PointFacts:
 
     @property
     def old_enum_names(self) -> tuple[str, ...]:
-        """Return the names that an enum in this row had when the row, or the record's member, had its old names."""
+        """Return the names that an enum in this row had under the old names of the row, or of the record's member."""
         head = ""
         if self.use is not None:
             head = f"{self.use['name' if self.enum_name.startswith(self.name) else 'record']}_"
@@ -245,7 +245,7 @@ class PointFacts:
 
     @property
     def row(self) -> Map:
-        """Return the row that the point comes from, also if a further set has facts of its own."""
+        """Return the row that the point comes from, even if a further set adds facts."""
         return next((layer for layer in self.layers if "name" in layer), self.node)
 
     @property
@@ -294,7 +294,7 @@ def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """The sets or the indices of a row: how many exist, which ones the row stands for, and their word in names."""
+    """The sets or the indices of a row: how many exist, which ones the row describes, and their word in names."""
 
     count: int
     used: tuple[int | None, ...]
@@ -339,7 +339,7 @@ def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | 
 
 
 def _most(scope: Scope, row: PointFacts, plural: str, text: str) -> int | None:
-    """Return the greatest index of a row whose number of elements the device decides; None after a finding."""
+    """Return the greatest described index if the device decides the number of elements; None after a finding."""
     most: int | None = row.get("most")
     if text == TO_END and (plural != "indices" or "block" not in row.group):
         message, hint = "nothing ends here: the group counts from no found block", "write `block: …` at the group"

@@ -1,4 +1,4 @@
-"""Makes the model's points from their facts: places, shapes, limits, and what points of a group share."""
+"""Builds the points of the model from their facts: places, shapes, limits, and what points of a group share."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -33,7 +33,7 @@ _CITING = {*keys_of(SOURCE), "source"}
 
 
 class ResolvedPoint(NamedTuple):
-    """A point with the facts that it was made from: checks need their places in the text; the model has none."""
+    """A point with the facts that it was built from. Checks need their places in the text; the model has none."""
 
     point: Point
     facts: PointFacts
@@ -42,7 +42,7 @@ class ResolvedPoint(NamedTuple):
 def resolve_points(
     scope: Scope, all_facts: list[PointFacts], symbols: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
-    """Return all points of the device; a wrong fact is reported, and the usual one is assumed in its place."""
+    """Return all points of the device; report wrong facts, and assume defaults for them."""
     kind_of, encoding_of = FactKeys().of, Encodings(scope).of
     kinds = {facts: kind_of(facts) for facts in all_facts}
     encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
@@ -58,7 +58,7 @@ def resolve_points(
 
 
 class _Points:
-    """Puts points together from their identity and what they share with others."""
+    """Builds points from their identity and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
@@ -146,7 +146,7 @@ class _Points:
 
 
 def _are_general(terms: Terms) -> bool:
-    """Return True if points of a kind share these terms: they name no other points, and are no part of a block."""
+    """Return True if all points of a kind share these terms: they name no other points and do not depend on a block."""
     others = terms.changes_with or terms.view_of or terms.write_with
     return terms.when is None and not others and not terms.to_end
 
@@ -165,10 +165,10 @@ def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:
 
 
 def _untyped(scope: Scope, facts: PointFacts) -> str | None:
-    """Return what stands in place of a type; report a type beside it, and `length` beside a type."""
+    """Return the text given instead of a type; report a type beside it, and `length` beside a type."""
     words, typed = facts.layer("untyped"), facts.layer("type")
     if words is not None and words is typed and words["type"] is not None:
-        message, hint = f"`{facts.name}` has a type, and words that stand in place of one", "leave one of them out"
+        message, hint = f"`{facts.name}` has both a type and `untyped`", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
     elif facts.untyped is None and "length" in facts.node and not (facts.bytes or facts.failed & {"type", "untyped"}):
         is_text = facts.get("type") == "text"
@@ -179,10 +179,10 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
 
 
 def _keeps(scope: Scope, facts: PointFacts) -> str | None:
-    """Return what keeps a written value; report `keeps` and `keep_with` in one place."""
+    """Return how a written value is kept; report `keeps` and `keep_with` in the same mapping."""
     kept, command = facts.layer("keeps"), facts.layer("keep_with")
     if kept is not None and kept is command:
-        message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
+        message, hint = "`keeps` and `keep_with` exclude each other", "leave one of them out"
         scope.report.error("two-meanings", message, kept.key_span("keep_with"), hint)
     return facts.keeps
 
@@ -235,7 +235,7 @@ def _other_points(facts: PointFacts, key: str, symbols: SymbolTable) -> tuple[st
         if not used:
             symbols.unknown(word, words.span(place))
         if facts in used:
-            message = f"`{facts.name}` cannot stand under its own `{key}`"
+            message = f"`{facts.name}` cannot name itself under `{key}`"
             symbols.scope.report.error("two-meanings", message, words.span(place), "name other points")
         names.update(dict.fromkeys(writer.name for writer in used))
     return tuple(names)
@@ -257,7 +257,7 @@ def _view_of(facts: PointFacts, symbols: SymbolTable) -> str | None:
 
 
 def _certainty(scope: Scope, facts: PointFacts) -> str | None:
-    """Return where the facts come from if that is not the manual: by the point, its group or the device."""
+    """Return where the facts come from if not from the manual: as the point, its group or the device says."""
     certainty = facts.get("certainty", scope.header.get("certainty"))
     return None if certainty == "manual" else certainty
 

@@ -1,4 +1,4 @@
-"""Resolves which raw numbers a point allows: by ranges, enums and types, with limits that other points set."""
+"""Resolves which raw numbers a point allows, from range, enum and type, with limits that other points set."""
 
 import re
 from collections.abc import Iterable
@@ -30,7 +30,7 @@ class Ranges:
         self.report = bounds.scales.scope.report
 
     def allowed(self, facts: PointFacts, enum: Enum | None) -> Allowed:
-        """Return what may be written: the point's range, else the numbers of its enum, else all that the type holds."""
+        """Return what may be written: the point's range, else the numbers of its enum, else all of the type."""
         if facts.floating:
             return Allowed((), False, self._float_range(facts))
         if facts.text:
@@ -51,7 +51,7 @@ class Ranges:
         return type_range
 
     def _values_alone(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...] | None:
-        """Return constant limits in the unit that have no raw numbers, as the scale is unknown; None for others."""
+        """Return constant limits in the unit whose raw numbers are unknown, as the scale is; None for others."""
         if facts.layer("scale") is None or facts.get("scale") is not None:
             return None
         try:
@@ -113,7 +113,7 @@ class Ranges:
         if not all(isinstance(end, int | Decimal) for end in (first, last)) or last - first <= 1:
             return False
         message = f"[{first}, {last}] could be an interval or two single numbers"
-        hint = f"write `{first}..{last}` for all between them, `{first} | {last}` for these two alone"
+        hint = f"write `{first}..{last}` for all between them, `{first} | {last}` for only these two"
         self.report.error("two-meanings", message, span, hint)
         return True
 
@@ -150,7 +150,7 @@ class Ranges:
         return True
 
     def _limit(self, facts: PointFacts, rule: Linear, span: Span) -> Limit:
-        """Return a limit that other points set, with the least and greatest number that it can be."""
+        """Return a limit that other points set, with its least and greatest possible number."""
         rule = self.bounds.with_exponents(rule, span)
         own_least, own_greatest = self.bounds.encodings[facts].holds
         corners = [half_away(corner) for corner in self.bounds.corners(rule)]

@@ -20,11 +20,11 @@ IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
 
 _LONGEST_CHAIN = 100
-"""The most points that the search for a circle visits. Longer circles are refused for another reason."""
+"""The most points that the search for a circle visits; longer circles are refused elsewhere."""
 
 
 class Scales:
-    """Resolves the scale of every point when it is first asked for; reports scales that need themselves."""
+    """Resolves the scale of a point when it is first needed; reports scales that need themselves."""
 
     def __init__(self, scope: Scope, symbols: SymbolTable) -> None:
         self.scope = scope
@@ -59,7 +59,7 @@ class Scales:
         return Affine(self._model_name(facts, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
     def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
-        """Report a point that is no number, or whose type or scale is not settled. Raises FactError."""
+        """Raise FactError for a point that is not a number, or whose type or scale is not settled."""
         if used.text:
             raise bad_formula(place, f"`{name}` is a text", "name a number")
         if used.untyped:
@@ -79,9 +79,9 @@ class Scales:
         return used.name
 
     def _check_floating(self, used: PointFacts, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
-        """Report a floating-point number that cannot stand here; a scale may have an f32's value as a factor."""
+        """Report a floating-point number that is not allowed here; a scale may have the value of an f32 as a factor."""
         if not in_scale:
-            message = f"`{name}` is a floating-point number and cannot stand in a limit"
+            message = f"`{name}` is a floating-point number, which a limit cannot name"
             raise bad_formula(place, message, "write the widest range")
         if part == "raw":
             message = f"the raw number of `{name}` is a floating-point pattern"
@@ -164,7 +164,7 @@ class Scales:
         return IDENTITY if cases is None else cases[0].rule
 
     def _circle(self, facts: PointFacts, used: PointFacts) -> list[str]:
-        """Return the names from `facts` over `used` back to `facts` if their values need each other in a circle."""
+        """Return the names from `facts` through `used` back to `facts` if their values need each other in a circle."""
         came_from: dict[PointFacts, PointFacts | None] = {used: None}
         waiting = [used]
         while waiting and len(came_from) < _LONGEST_CHAIN:

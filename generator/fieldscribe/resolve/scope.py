@@ -1,4 +1,4 @@
-"""Looks up what the files of a device declare for all points: units, enums, formats, records, documents, variants.
+"""Finds what the files of a device declare for all points: units, enums, formats, records, documents, variants.
 
 `open_scope` makes the scope from the files; every later step of `resolve` asks it by name and reports through it.
 """
@@ -29,7 +29,7 @@ _SECTIONS = {
     "entry": "enum",
     "space": "space",
 }
-"""The key under which a kind of thing is declared, if it is not the plural of the kind, as `formats` is."""
+"""The keys of declarations that are not the plural of their kind, as `formats` is."""
 
 
 @dataclass(slots=True)
@@ -48,10 +48,10 @@ class Scope:
     given: Mapping[str, Given] = field(default_factory=dict)
     found: Found | None = None
     bases: dict[int, Base] = field(default_factory=dict)
-    """What the addresses of a group count from, by the id of the group; `read_bases` adds it."""
+    """The base of the addresses of each group, by the id of the group; `read_bases` adds it."""
 
     def base_of(self, group: Map) -> Base | None:
-        """Return what the addresses of a group count from; None if that is 0."""
+        """Return the base of the addresses of a group; None if they count from 0."""
         return self.bases.get(id(group))
 
     @property
@@ -159,7 +159,7 @@ def humanised(name: str) -> str:
 
 
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:
-    """Return a title by language from its YAML value; `otherwise` stands in for a missing English one."""
+    """Return a title by language from its YAML value; `otherwise` replaces a missing English one."""
     if value is None:
         return {"en": otherwise} if otherwise else _NO_TITLES
     if isinstance(value, str):

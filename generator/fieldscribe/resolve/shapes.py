@@ -32,14 +32,14 @@ _NO_QUANTITY = {
     "text": "a text",
     "bit": "a single bit",
 }
-"""The forms of points that are no quantity, in words."""
+"""The forms of points that are not a quantity, in words."""
 
 
 class ShapeAndLimits(NamedTuple):
     """The shape of a point and its limits.
 
     `raw_alone` says that code computes no values, only raw numbers. `free` says that the shape does not depend on the
-    limits: any other interval that the type holds could stand in their place.
+    limits: it is the same for any interval that the type holds.
     """
 
     shape: Shape
@@ -49,12 +49,12 @@ class ShapeAndLimits(NamedTuple):
 
     @property
     def is_general(self) -> bool:
-        """Return True if all points of a kind share this: it depends on no other point and on no point's name."""
+        """Return True if all points of a kind share this: it depends neither on another point nor on a name."""
         return self.shape.digits is None and not self.shape.scale_arguments and not self.allowed.moves
 
 
 class Shapes:
-    """Finds the shapes and limits of all points."""
+    """Resolves the shapes and limits of all points."""
 
     def __init__(self, scope: Scope, encodings: Mapping[PointFacts, Encoding], ranges: Ranges, places: Places) -> None:
         self._scope, self._encodings, self._ranges, self._places = scope, encodings, ranges, places
@@ -74,7 +74,7 @@ class Shapes:
         return self._with_own_enum(facts, found)
 
     def _with_own_enum(self, facts: PointFacts, found: ShapeAndLimits) -> ShapeAndLimits:
-        """Name the enum after this point if its names stand in the point's row."""
+        """Name the enum after this point if the point's row defines it."""
         enum, name = found.shape.enum, facts.enum_name
         if enum is None or enum.name == name or not isinstance(facts.get("enum"), Map):
             return found
@@ -134,7 +134,7 @@ def _plain_ends(limits: object, holds: tuple[int, int]) -> tuple[int, int] | Non
 
 
 def _is_free(facts: PointFacts, shape: Shape, encoding: Encoding) -> bool:
-    """Return True if any interval of whole numbers could stand in place of the limits without changing the shape."""
+    """Return True if the shape is the same for any interval of whole numbers as limits."""
     named = shape.enum is not None or shape.digits is not None or bool(encoding.specials)
     other = facts.floating or facts.text or facts.layer("range_in_units") is not None
     return not (named or other or (shape.scale is not None and asks_limits(encoding.holds)))
@@ -162,7 +162,7 @@ def _all_named(allowed: Allowed, enum: Enum) -> bool:
 
 
 def _display_of(facts: PointFacts, shape: Shape, bounds: Bounds) -> int | None:
-    """Return the decimals that `display` gives; report a point that has no value to show with them."""
+    """Return the decimals of `display`; report a point without a value to show with them."""
     display = facts.get("display")
     if display is None:
         return None

@@ -16,7 +16,7 @@ from fieldscribe.resolve.values import integer
 from fieldscribe.resolve.word_contents import entry_titles, name_of
 
 _PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
-"""Marks a number that is not decimal: manuals print such codes as the pattern of bits."""
+"""Matches a number that is not decimal: manuals print such codes as bit patterns."""
 
 
 class _Code(NamedTuple):
@@ -137,10 +137,10 @@ class SpecialCodes:
                 yield _Code(low, high, all(patterns), None if value is None else name_of(value), node, key)
 
     def _merged(self, levels: list[tuple[_Code, ...]]) -> list[_Code]:
-        """Return the codes of all levels, nearest first, without those that a nearer level removes."""
+        """Return the codes of all levels, nearest first, without those that a nearer level removes or replaces."""
         kept: list[_Code] = []
         away: list[_Code] = []
-        used: set[int] = set()  # by identity: places in the file are looked up for findings alone
+        used: set[int] = set()  # by identity: comparing places would look them up in the file
         for codes in levels:
             nearer, takers = list(kept), list(away)
             for code in codes:
@@ -152,19 +152,19 @@ class SpecialCodes:
                     kept.append(code)
         for taker in away:
             if id(taker) not in used:
-                message = f"there is no special code {taker.key} to take away"
-                hint = "give it a name, or leave it out; a band is taken away as it was declared"
+                message = f"there is no inherited special code {taker.key} to remove"
+                hint = "give it a name, or leave it out; a band is removed as a whole, as it was declared"
                 self._report("unknown-code", message, taker.span, hint)
         return kept
 
     def _beats(self, nearer: _Code, code: _Code) -> bool:
-        """Return True if a nearer code replaces this one by its name or its numbers; report a partial overlap."""
+        """Return True if a nearer code with the same name or numbers replaces this one; report a partial overlap."""
         if nearer.name == code.name or nearer[:2] == code[:2]:
             return True
         if not _overlap(code, nearer):
             return False
         message = f"the special code {nearer.key}, `{nearer.name}`, shares numbers with the inherited {code.key}, "
-        hint = f"take that away (`{code.key}: ~`) and name what is left of it"
+        hint = f"remove that (`{code.key}: ~`) and name the rest of it"
         related = code.span, "inherited from here"
         self._report("special-twice", f"{message}`{code.name}`", nearer.span, hint, related)
         return True
@@ -172,7 +172,7 @@ class SpecialCodes:
     def _clash(self, code: _Code, other: _Code) -> bool:
         """Return True if two codes of one place share a number or a name, after reporting both places.
 
-        An entry that removes an inherited code may stand beside entries that name its numbers anew.
+        An entry that removes an inherited code goes with entries that name its numbers anew.
         """
         if (code.name is None) != (other.name is None):
             return False
@@ -197,7 +197,7 @@ class SpecialCodes:
 
 
 def _not_decimal(codes: tuple[Special, ...], width: int) -> tuple[Special, ...]:
-    """Return the codes of bits that are no decimal number: all numbers with too many digits that no code names."""
+    """Return the special codes of bits that are no decimal number: numbers out of digits that no code names."""
     first = coded_ends(width, BCD)[1] + 1
     parts = [part.fixed for part in _without(first, mask_of(width), codes) if part.fixed is not None]
     title = {"en": "Not a decimal number"}
@@ -236,7 +236,7 @@ def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | 
 
 
 def quantities(scope: Scope, facts: PointFacts, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
-    """Return what a range allows without the special codes; report a range of which nothing is left."""
+    """Return what a range allows without the special codes; report a range that has nothing else."""
     remaining = without_codes(allowed, specials)
     if remaining.intervals or not allowed.intervals:
         return remaining

@@ -1,4 +1,4 @@
-"""Resolves `steps`: requests in order, from values of points and formulas of arguments to words."""
+"""Resolves `steps`: turns values of points and formulas of arguments into the words of requests, in order."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -24,7 +24,7 @@ from fieldscribe.wording import meaning_text
 MOST_STEPS = 1000
 MOST_ARGUMENTS = 8
 _LEAST, _GREATEST = -0x8000, 0xFFFF
-"""What a word can be, with or without a sign."""
+"""The numbers that a word can hold, with or without a sign."""
 _MILLISECONDS = {"ms": 1, "s": 1000, "min": 60_000}
 _ACTIONS = ("write", "words", "wait")
 
@@ -36,7 +36,7 @@ class Steps:
         self.scope, self.bus, self.symbols, self.points = scope, bus, symbols, points
         self.arguments: dict[str, tuple[int, int]] = {}
         self._said: list[str] = []
-        """What the points of the step are to hold."""
+        """The values that the points of the step shall hold."""
 
     def command(self, node: Map) -> SteppedCommand | None:
         """Return a command; None after a finding."""
@@ -86,7 +86,7 @@ class Steps:
         """Return a step. Raises FactError."""
         actions = [key for key in _ACTIONS if key in node]
         if node.broken or ("words" in node and "at" not in node) or ("wait" in node) != ("within" in node):
-            raise FactError  # what is wrong with it is reported already
+            raise FactError  # it has a finding already
         if len(actions) != 1:
             hint = "write `write: {POINT: value}`, `at` and `words`, or `wait: {POINT: value}` and `within`"
             raise FactError("steps", "a step writes or waits, one of the two", node.span(), hint)
@@ -113,7 +113,7 @@ class Steps:
         )
 
     def _by_address(self, node: Map) -> tuple[str, int, tuple[Word, ...]]:
-        """Return the space, the first address and the words that a step gives itself. Raises FactError."""
+        """Return the space, the first address and the words of a step by address. Raises FactError."""
         space, known = str(node.get("space", self.scope.family.commands_in)), self.scope.family.spaces
         if space not in known:
             self.scope.unknown("space", space, node.span("space"), known, space_hint(space, known))
@@ -132,7 +132,7 @@ class Steps:
         return space, address, words
 
     def _word(self, value: Any, span: Span, ends: tuple[int, int]) -> Word:
-        """Return the word of a number or a formula. Raises FactError if it does not always lie within the ends."""
+        """Return the word of a number or a formula. Raises FactError if it can leave the ends."""
         word = self._formula(value, span)
         if low := next((number for number in self._extremes(word) if not ends[0] <= number <= ends[1]), None):
             raise FactError("steps", f"a word cannot be {low}", span, f"{ends[0]}..{ends[1]} can be written")
@@ -150,7 +150,7 @@ class Steps:
         return Word(constant)
 
     def _extremes(self, word: Word) -> Iterator[int]:
-        """Yield the least and the greatest number that a word can be."""
+        """Yield the least and the greatest number that a word can hold."""
         for end in self.arguments.get(word.argument or "", (0,)):
             yield word.constant + word.factor * end
 
@@ -239,7 +239,7 @@ class Steps:
             raise FactError("range-outside-type", message, span, "write what its range and its type allow")
 
     def _function(self, node: Map, space: str, count: int, *, writes: bool) -> int:
-        """Return the function that the step says, or that the device has for so many words. Raises FactError."""
+        """Return the function of the step, or the one that the device has for this many words. Raises FactError."""
         able = reader_of(self.scope).able(self.bus, space, count, writes=writes)
         function = next(iter(able), 0)
         if writes and "function" in node:
@@ -253,7 +253,7 @@ class Steps:
         return function
 
     def _condition(self, node: Map) -> Condition | None:
-        """Return the condition under which the step is a part of the command. Raises FactError."""
+        """Return the condition of the step. Raises FactError."""
         if "when" not in node:
             return None
         asking = PointFacts("", (node,), Map(node.file, node.start), node, {})

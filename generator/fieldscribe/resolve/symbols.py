@@ -21,9 +21,8 @@ class SymbolTable:
     def find(self, word: str, used_by: PointFacts | None = None) -> PointFacts | None:
         """Return the point that a word names: by its name, or by a code that no other point has.
 
-        What stands at an element of an array names other rows of the array as if there were no array: their elements
-        with the same index. Of a point that differs by variant, return the one of the variant that uses it, else the
-        first.
+        An element of an array refers to the elements of other arrays that have its own index. Of a point that differs
+        by variant, return the one of the variant that uses it, else the first.
         """
         of_element = () if used_by is None else self.by_name.get(word + used_by.suffix, ())
         found = self.by_name.get(word) or of_element or self.by_code.get(word, [])
@@ -59,7 +58,7 @@ class SymbolTable:
 
 
 def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
-    """Return the symbol table; report and remove points whose name another point has that is not their variant."""
+    """Return the symbol table; report and remove a point with the name of another, unless both are variants."""
     symbols = SymbolTable(scope, {}, {}, {})
     kept = []
     for facts in points:

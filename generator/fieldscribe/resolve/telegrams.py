@@ -9,7 +9,7 @@ from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 
 Telegrams = Mapping[str, tuple[Telegram, int]]
-"""By name: the telegram, and how many of its words one multiplexed frame carries (0 if it is not multiplexed)."""
+"""Telegrams by name, each with how many of its words one multiplexed frame carries (0: not multiplexed)."""
 
 SPACE = "telegram"
 """The space whose points are words of a telegram."""
@@ -19,7 +19,7 @@ KEY_OF = {SPACE: "telegram", SIGNAL: "message"}
 """What a group of such a space names."""
 
 _MULTIPLEXED = 256
-"""How many different frames a multiplexer can number."""
+"""The number of frames that a multiplexer can distinguish."""
 
 
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
@@ -74,7 +74,7 @@ def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts, space: st
 
 
 def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
-    """Report a telegram without a message, with one of the other direction, or with one that another telegram has."""
+    """Report a telegram without a message, with one of another direction, or with one that another telegram uses."""
     name, direction, carrier = str(node["name"]), node["direction"], node.get("message")
     if not scope.family.lays_out_messages:
         reader_of(scope).telegram(scope, node, before)

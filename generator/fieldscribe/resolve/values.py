@@ -25,13 +25,13 @@ class FactError(Exception):
 
 
 class Written(NamedTuple):
-    """A formula with its place in a file."""
+    """A formula with its place in the file."""
 
     text: str
     span: Span
 
     def of(self, name: str) -> Span:
-        """Return the place of a name in the formula, where it stands first."""
+        """Return the place of a name in the formula, at its first use."""
         match = re.search(rf"\b{re.escape(name)}\b", self.text)
         return self.span.moved(match.start() if match else 0, len(name))
 
@@ -48,7 +48,7 @@ def number(value: Any, span: Span, report: Report) -> Fraction | None:
 
 
 def pattern(value: Fraction | None, bits: int, span: Span, report: Report) -> int | None:
-    """Return the pattern of a floating-point number; None for none, or after a finding."""
+    """Return the bit pattern of a floating-point number; None without a number, or after a finding."""
     try:
         return None if value is None else pattern_of(value, bits)
     except OverflowError:
@@ -123,7 +123,7 @@ def formula_multiples(text: str, names: Collection[str], span: Span, unknown: st
 
 
 def _unknown_or_wrong(error: FormulaError, span: Span, unknown: str) -> FactError:
-    """Return the finding of a formula, with this hint if it names what is not known."""
+    """Return the finding of a formula, with this hint if it names something unknown."""
     if unknown and "is not known" in error.message:
         error.hint = unknown
     return formula_fault(error, span)

@@ -1,4 +1,4 @@
-"""What words hold beside plain numbers: enums, texts, decimal digits, flags, and bits that are written as constants."""
+"""What words hold other than plain numbers: enums, texts, decimal digits, flags, and constant bits."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -26,7 +26,7 @@ _OF_TEXTS = facts_of(POINT, TEXTS)
 _WIDEST = 63
 """The highest bit of the widest type: a greater number cannot be a bit number."""
 _MASKS = 3
-"""As many successive powers of two as keys are probably masks, not bit numbers."""
+"""From this many keys on, successive powers of two are probably masks, not bit numbers."""
 
 
 def enum_of(scope: Scope, facts: PointFacts, closed: bool) -> Enum | None:
@@ -62,7 +62,7 @@ def named_enum(scope: Scope, facts: PointFacts, raw: Map | str, span: Span, *, c
 
 
 def entries_of(scope: Scope, node: Map, floating: int = 0) -> tuple[Entry, ...]:
-    """Return the named numbers in the author's order; of `floating` bits, the patterns of the numbers."""
+    """Return the named numbers in the author's order; for `floating` points, their bit patterns."""
     taken = Taken(scope.report, "number")
     entries = ((key, _entry(scope, node, key, value, floating)) for key, value in node.items())
     return tuple(
@@ -91,7 +91,7 @@ def _entry(scope: Scope, node: Map, key: str, value: Any, floating: int) -> Entr
 
 
 def name_of(value: Map | str) -> str:
-    """Return the name of an entry, which stands alone or among other facts."""
+    """Return the name of an entry, which is a text or a mapping with a name."""
     return value if isinstance(value, str) else str(value["name"])
 
 
@@ -105,7 +105,7 @@ def entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
 
 @dataclass(slots=True)
 class Taken:
-    """The numbers and names that were given so far, with their places. `what` is the word for a number in messages."""
+    """The numbers and names given so far, with their places. `what` is the word for a number in messages."""
 
     report: Report
     what: str
@@ -226,7 +226,8 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
             if not facts.failed & {"type", "bits"}:
                 outside = numbers.number(high if high >= word else low)
                 message = f"bit {outside} lies outside the {word} bits of the word"
-                scope.report.error("bit-outside-word", message, span, f"bits are numbered {numbers.said(word - 1, 0)}")
+                hint = f"bits are numbered {numbers.written(word - 1, 0)}"
+                scope.report.error("bit-outside-word", message, span, hint)
         elif not 0 <= number <= greatest:
             message = f"{content} does not fit into {text}"
             scope.report.error("range-outside-type", message, node.span(key), f"write 0..{greatest}")
@@ -263,7 +264,7 @@ def flags_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
             if not facts.failed & {"type", "bits"}:
                 outside = high if high > last else low
                 message = f"bit {numbers.number(outside)} lies outside the {width} bits of the point"
-                hint = f"bits are numbered {numbers.said(last, first)}{', as in the word' if bits else ''}"
+                hint = f"bits are numbered {numbers.written(last, first)}{', as in the word' if bits else ''}"
                 place = outside.bit_length() - 1
                 if outside > _WIDEST and outside == 1 << place and first <= place <= last:
                     hint += f"; the mask {key} is bit {place}"
