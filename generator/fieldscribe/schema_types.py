@@ -62,7 +62,7 @@ class Items:
 
     words, schema_type = "a list", "array"
 
-    def __init__(self, item: Shape, least: int = 0) -> None:
+    def __init__(self, item: ValueShape, least: int = 0) -> None:
         self.item, self.least = item, least
 
 
@@ -83,14 +83,14 @@ class Place:
         *,
         before: tuple[Kind, ...] = (),
         after: tuple[Kind, ...] = (),
-        by_form: Mapping[Form, Shape] | None = None,
+        by_form: Mapping[Form, ValueShape] | None = None,
         least: int = 0,
         required: tuple[str, ...] = (),
         may_be: Place | None = None,
     ) -> None:
         self.name, self.heading, self.may_be = name, heading, may_be
         self.by_form, self.least, self.required = by_form or {}, least, required
-        self.shape = Shape("", (), *before, self, *after)
+        self.shape = ValueShape("", (), *before, self, *after)
 
     def means(self, meaning: str, examples: Sequence[Any]) -> Place:
         """Say what the mapping means, with examples, the best one first."""
@@ -98,7 +98,7 @@ class Place:
         return self
 
 
-def by(form: Form, shape: Shape, least: int = 0, required: tuple[str, ...] = ()) -> Place:
+def by(form: Form, shape: ValueShape, least: int = 0, required: tuple[str, ...] = ()) -> Place:
     """Return a mapping from keys of a form to values of one shape."""
     return Place(by_form={form: shape}, least=least, required=required)
 
@@ -106,7 +106,7 @@ def by(form: Form, shape: Shape, least: int = 0, required: tuple[str, ...] = ())
 Kind: TypeAlias = Text | Whole | Plain | Items | Place
 
 
-class Shape:
+class ValueShape:
     """What a value may be: its kinds (none: anything), its meaning, and examples, the best one first."""
 
     def __init__(self, meaning: str, examples: Sequence[Any], *kinds: Kind) -> None:
@@ -132,7 +132,7 @@ class Key:
         self,
         name: str,
         places: Place | tuple[Place, ...] | Places,
-        meaning: str | Shape,
+        meaning: str | ValueShape,
         *,
         required: bool | tuple[Place, ...] = (),
         needs: tuple[str, ...] = (),
@@ -140,7 +140,7 @@ class Key:
         of: str = "",
     ) -> None:
         self.name = name
-        self.shape = meaning if isinstance(meaning, Shape) else Shape(meaning, ())
+        self.shape = meaning if isinstance(meaning, ValueShape) else ValueShape(meaning, ())
         if isinstance(places, Place):
             places = (places,)
         if isinstance(places, tuple):
@@ -151,13 +151,13 @@ class Key:
 
     def takes(self, examples: Sequence[Any], *kinds: Kind) -> Key:
         """Set which values the key takes: examples, the best one first, and the kinds that they are of."""
-        self.shape = Shape(self.shape.meaning, examples, *kinds)
+        self.shape = ValueShape(self.shape.meaning, examples, *kinds)
         return self
 
 
 WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"
 
 
-def says_yes_or_no(shape: Shape) -> bool:
+def says_yes_or_no(shape: ValueShape) -> bool:
     """Return True if `yes` and `no` mean true and false here; elsewhere they may be names."""
     return any(isinstance(kind, Text) and "yes" in kind.choices for kind in shape.kinds)

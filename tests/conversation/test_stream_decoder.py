@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder
-from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span
+from fieldscribe.families.decoded_frame import AddressSpan, DecodedFrame, OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Item
 from support.models import sample_device
 
@@ -60,7 +60,7 @@ def test_which_request_is_open(frames: list[DecodedFrame], expected: DecodedFram
 
 def carrying(*words: int) -> DecodedFrame:
     """The words of one span, the first of them a power factor."""
-    return DecodedFrame(QUIET, (Span("holding", 0x2002, len(words), words),))
+    return DecodedFrame(QUIET, (AddressSpan("holding", 0x2002, len(words), words),))
 
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:

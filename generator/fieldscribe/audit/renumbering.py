@@ -14,7 +14,7 @@ from fieldscribe.language.load import as_yaml
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.source import SourceFile
 from fieldscribe.language.value_checks import compiled_pattern
-from fieldscribe.schema_types import Items, Place, Shape
+from fieldscribe.schema_types import Items, Place, ValueShape
 from fieldscribe.wording import LINES_NAMED
 
 _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P<last>[0-9]+))?)""")
@@ -152,7 +152,7 @@ class _Walk:
         self.found: list[WrittenLines] = []
         self._scalars: dict[str, list[tuple[int, int]]] = {}
 
-    def mapping(self, value: Map, shape: Shape, document: str) -> None:
+    def mapping(self, value: Map, shape: ValueShape, document: str) -> None:
         source = value.get("source")
         document = str(value.get("document") or (source.get("document") if isinstance(source, Map) else "") or document)
         for key, item in value.items():
@@ -206,7 +206,7 @@ class _Walk:
                 self.found.append(WrittenLines(source, *number.span(), int(number[0]), 0, "sentence", span))
 
 
-def _shape_of(key: str, shape: Shape) -> Shape | None:
+def _shape_of(key: str, shape: ValueShape) -> ValueShape | None:
     for kind in shape.kinds:
         if isinstance(kind, Place):
             if key in (keys := keys_of(kind)):

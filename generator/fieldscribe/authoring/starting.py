@@ -18,7 +18,7 @@ from fieldscribe.language.shape import check_of
 from fieldscribe.language.source import SourceFile
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE, load_analysis
-from fieldscribe.schema_types import Place, Shape
+from fieldscribe.schema_types import Place, ValueShape
 
 SCHEMA_FILE = "schema.json"
 """The name of the schema in the folder of a description, or above it."""
@@ -87,7 +87,7 @@ def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
     return next(((finding.message, finding.hint or "") for finding in report.findings), None)
 
 
-def _shape_of(name: str) -> Shape:
+def _shape_of(name: str) -> ValueShape:
     """Return the shape of the key that holds an answer."""
     keys = keys_of(DEVICE)
     if name in keys:

@@ -16,7 +16,7 @@ from fieldscribe.conversation.decode_state import (
 )
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
-from fieldscribe.families.decoded_frame import Element, Span, Word
+from fieldscribe.families.decoded_frame import AddressSpan, Element, Word
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Command, Place, Point
 from fieldscribe.text import counted, line
@@ -30,7 +30,7 @@ _MOST_WORDS = 16
 """How many words without a point are printed."""
 
 
-def span_items(state: DecodeState, span: Span) -> list[Item]:
+def span_items(state: DecodeState, span: AddressSpan) -> list[Item]:
     """Return the items of consecutive addresses; neighbours without a point are one item."""
     is_whole = span.learned and not span.written and len(span.words or ()) >= span.count
     if is_whole and not state.directory.has_selections:
@@ -60,7 +60,7 @@ class _Step(NamedTuple):
     at: tuple[int, ...] = ()
 
 
-def _items_read(state: DecodeState, span: Span) -> list[Item]:
+def _items_read(state: DecodeState, span: AddressSpan) -> list[Item]:
     """Return the items of a span whose values came from the device: a plan is made once for its addresses."""
     plans, key = state.directory.plans, ((span.space, span.address, 0), span.count)
     if key not in plans:
@@ -81,7 +81,7 @@ def _items_read(state: DecodeState, span: Span) -> list[Item]:
     return items
 
 
-def _plan(state: DecodeState, span: Span) -> tuple[list[tuple[Point, Any, tuple[int, ...]]], list[_Step]]:
+def _plan(state: DecodeState, span: AddressSpan) -> tuple[list[tuple[Point, Any, tuple[int, ...]]], list[_Step]]:
     """Return the points of a span that are settings for others, and the steps to its items."""
     here, directory = _SpanItems(state, span, taught=False), state.directory
     taught, steps, unknown = [], list[_Step](), list[int]()
@@ -110,7 +110,7 @@ def _plan(state: DecodeState, span: Span) -> tuple[list[tuple[Point, Any, tuple[
 class _SpanItems:
     """Makes the items of one span; its points are settings for each other."""
 
-    def __init__(self, state: DecodeState, span: Span, *, taught: bool = True) -> None:
+    def __init__(self, state: DecodeState, span: AddressSpan, *, taught: bool = True) -> None:
         """`taught`: what the points of the span say of each other is not known yet."""
         self._state, self._device, self._directory = state, state.device, state.directory
         self._space, self._start, self._written = span.space, span.address, span.written

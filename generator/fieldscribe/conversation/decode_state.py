@@ -12,7 +12,7 @@ from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, moved, same_meaning
 from fieldscribe.families import family
-from fieldscribe.families.decoded_frame import Span
+from fieldscribe.families.decoded_frame import AddressSpan
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Found, Place, Point
 from fieldscribe.text import line
@@ -232,7 +232,7 @@ class DecodeState:
     blocks: FoundBlocks | None = None
     """The blocks that a master searches for, if the device has such."""
 
-    def locate(self, span: Span, described: Device) -> None:
+    def locate(self, span: AddressSpan, described: Device) -> None:
         """Move the points of blocks to where these are, as far as the words that the unit reported show it."""
         if self.blocks is not None and self.blocks.take(span.space, span.address, span.words or ()):
             self.device = moved(described, self.blocks.starts, self.blocks.lasts)

@@ -19,7 +19,7 @@ from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import misprint_text
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
-    decoded_frame.Span: span_items,
+    decoded_frame.AddressSpan: span_items,
     decoded_frame.Element: element_items,
     decoded_frame.Word: word_items,
     decoded_frame.ProcessData: process_items,
@@ -107,7 +107,7 @@ class StreamDecoder:
         if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] == state.version:
             return kept[3]
         for content in decoded.contents if state.blocks else ():
-            if isinstance(content, decoded_frame.Span) and content.learned and not content.written:
+            if isinstance(content, decoded_frame.AddressSpan) and content.learned and not content.written:
                 state.locate(content, self._device)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         framings = self._framings
@@ -129,7 +129,7 @@ class StreamDecoder:
             yield f"the manual knows only {known.upper()} frames; {framing.upper()} takes a gateway"
             self._framings = ()
         for content in decoded.contents if decoded.request else ():
-            if isinstance(content, decoded_frame.Span):
+            if isinstance(content, decoded_frame.AddressSpan):
                 yield from _off_by_one(directory, content)
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
@@ -144,7 +144,7 @@ def logged_frame(text: str) -> str | None:
     return match["id"] + "#" + re.sub(", *| ", "", match["data"]) if match["id"] else match["data"]
 
 
-def _off_by_one(directory: Directory, span: decoded_frame.Span) -> Iterator[str]:
+def _off_by_one(directory: Directory, span: decoded_frame.AddressSpan) -> Iterator[str]:
     """Return a note if a point starts one below the address, and none at it: probably a Modicon number (from 1)."""
     if span.address == 0 or directory.starting_at(span.space, span.address):
         return

@@ -16,7 +16,7 @@ MOST_STATES = 256
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
+class AddressSpan:
     """Consecutive addresses of a space with their words or bits; `words` is None where the frame only names them."""
 
     space: str
@@ -94,7 +94,7 @@ class Piece(NamedTuple):
     pieces: Pieces
 
 
-Content = Span | Element | Word | ProcessData | Masks | Piece | Item
+Content = AddressSpan | Element | Word | ProcessData | Masks | Piece | Item
 
 
 class DecodedFrame(NamedTuple):

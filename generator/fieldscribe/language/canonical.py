@@ -17,7 +17,7 @@ _BEFORE_A_VALUE = frozenset(":-")
 
 
 def canonical(text: str) -> str:
-    """Return the canonical form of a text without errors, with one kind of line break. Raises OddError."""
+    """Return the canonical form of a valid text, with one kind of line break. Raises OddError."""
     layout = _Layout()
     for piece in _without_last_commas(pieces(text)):
         layout.place(piece)
@@ -44,7 +44,7 @@ def _both(first: Gap, second: Gap) -> Gap:
 
 @dataclass(slots=True)
 class _Frame:
-    """A mapping or list that the current piece stands in: its column in the text, and in the canonical form."""
+    """An open mapping or list: its column in the text, and in the canonical form."""
 
     kind: str
     was: int
@@ -66,7 +66,7 @@ class _Layout:
     anchored: bool = False
     """True if the previous piece is an anchor or a tag."""
     left: dict[int, int] = field(default_factory=dict)
-    """The columns of what the previous piece stands in: in the text, and in the canonical form."""
+    """The columns of the mapping or list around the previous piece: in the text, and in the canonical form."""
 
     def text(self) -> str:
         """Return the canonical text."""
@@ -91,7 +91,7 @@ class _Layout:
         self.opened = self.at_key = False
 
     def _note(self, piece: Piece) -> None:
-        """Note a piece without text: a block mapping or list opens or ends, or a key comes."""
+        """Handle a piece without text: the start or the end of a block mapping or list, or a key."""
         if piece.kind == "key":
             self.at_key = True
         elif piece.kind == "close":
@@ -114,13 +114,13 @@ class _Layout:
         return frame.column + (0 if starts or self.last not in _BEFORE_A_VALUE else _INDENT)
 
     def _breaks_before(self, piece: Piece) -> bool:
-        """Return True if a piece starts a line: the first one, or where the author broke the line and may."""
+        """Return True if a piece starts a line: it is the first, or the author broke the line where that is allowed."""
         if not (self.line or self.lines):
             return True
         return piece.gap.breaks and (piece.gap.has_comment or not self._joins(piece))
 
     def _joins(self, piece: Piece) -> bool:
-        """Return True if a piece always stands on the line of the previous one."""
+        """Return True if a piece always stays on the line of the previous one."""
         if self.last in _OPENING or piece.kind in _CLOSING or piece.kind == ",":
             return True
         empty = self.at_key or piece.kind in ("-", "document", "end")
@@ -149,7 +149,7 @@ class _Layout:
             self.within.clear()
 
     def _refuse_mark(self, piece: Piece) -> None:
-        """Refuse a key that a reader would take for the mark of a document once it starts its line."""
+        """Refuse a key that would be read as a document marker at the start of a line."""
         if not self.line and piece.text[:3] in _DOCUMENT_MARKS:
             message = f"a key that starts with `{piece.text[:3]}` has no canonical form"
             raise OddError(piece.line, piece.column + 1, message, "write the key in quotes")
@@ -168,7 +168,7 @@ class _Layout:
         if self.line or self.lines:
             self.lines.append(_with_comment(self.line.rstrip(), gap))
         columns = self.left | self._columns()
-        if gap.trailing is not None:  # a comment that goes on below stays below
+        if gap.trailing is not None:  # a comment that continues below stays aligned
             columns[gap.trailing.column] = len(self.lines[-1]) - len(gap.trailing.text)
         for comment in gap.lines:
             if comment is not None:
@@ -177,7 +177,7 @@ class _Layout:
                 self.lines.append("")
 
     def _comment_column(self, comment: Comment, gap: Gap, columns: dict[int, int]) -> int:
-        """Return the column of a comment that has its line: that of the mapping or list at its column or left of it."""
+        """Return the column of a comment on a line of its own: that of the mapping or list at it or left of it."""
         goes_on = gap.trailing is not None and gap.trailing.column == comment.column
         if self.within and self.within[-1].kind == "flow" and not goes_on:
             return self.within[-1].column
@@ -196,14 +196,14 @@ def _with_comment(line: str, gap: Gap) -> str:
 
 
 def _ended(line: str) -> str:
-    """Return a line without blanks at its end; one blank after a backslash is escaped, and stays."""
+    """Return a line without trailing blanks; a blank after a backslash is escaped, so it stays."""
     ended = line.rstrip()
     escapes = len(ended) - len(ended.rstrip("\\"))
     return f"{ended} " if escapes % 2 and len(line) > len(ended) else ended
 
 
 def _quoted(text: str) -> str:
-    """Return a scalar in double quotes if it has single ones and needs no escape in double ones."""
+    """Return a scalar in double quotes if it is in single quotes and needs no escape in double ones."""
     if text[0] != "'" or '"' in text or "\\" in text:
         return text
     return '"' + text[1:-1].replace("''", "'") + '"'

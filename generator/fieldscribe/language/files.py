@@ -60,7 +60,7 @@ def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | 
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:
-    """Report a part that was given as device.yaml, with one finding in place of one for each key."""
+    """Report a part that was given as device.yaml: one finding instead of one for each key."""
     if any(key in header for key in ("device", "family", "vendor", "model")) or not _PART_KEYS & set(header):
         return False
     whole = file.parent / "device.yaml"

@@ -11,7 +11,7 @@ from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import LANGUAGES, key_suggestion, suggest_bits
-from fieldscribe.schema_types import Form, Shape, Text
+from fieldscribe.schema_types import Form, Text, ValueShape
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"
@@ -23,7 +23,7 @@ _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "
 
 
 def quoted(text: str) -> str:
-    """Return a text from a description in backquotes, shortened; blanks stay, for they may be what is wrong."""
+    """Return a text from a description in backquotes, shortened; blanks stay, because they may be the mistake."""
     return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
 
 
@@ -38,7 +38,7 @@ def value_text(value: Any) -> str:
     return f"the {'text' if isinstance(value, str) else 'number'} {quoted(str(value))}"
 
 
-def type_hint(value: Any, accepted: Collection[type], shape: Shape) -> str:
+def type_hint(value: Any, accepted: Collection[type], shape: ValueShape) -> str:
     """Return the hint for a value whose type is not one of the accepted types of its shape."""
     example = next(iter(shape.examples), None)
     if value is None:
@@ -108,13 +108,13 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
     if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
         return _GROUP
     if "group" in known and key in keys_of(DEVICE):
-        return "this stands in the head of device.yaml, its first document"
+        return "this key belongs in the head of device.yaml, its first document"
     suggestion = key_suggestion(key, value, known)
     return _spelling_hint(key, known, written) if suggestion is None else suggestion
 
 
 def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) -> str:
-    """Return the hint for a key that is misspelled, or that nothing is known of."""
+    """Return the hint for a key that is misspelled or not known at all."""
     written = [form for form in written if form is not forms.PRIVATE]
     language = LANGUAGES.get(key.lower()) if forms.LANGUAGE in written else None
     if named := suggest_bits(key) if forms.BITS in written else language:

@@ -8,7 +8,7 @@ from typing import Any
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, PART, PLACES
 from fieldscribe.language.load import flow_text
-from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Key, Kind, Place, Shape, Text, Whole, says_yes_or_no
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Key, Kind, Place, Text, ValueShape, Whole, says_yes_or_no
 
 SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
 _MARKUP = re.compile(r"[\\*_{}\[\]<>#]")
@@ -49,20 +49,20 @@ class _Definitions:
             return self.shape(key.shape)
         return self._named(f"at_{key.name}", key.shape)
 
-    def shape(self, shape: Shape) -> dict[str, Any]:
+    def shape(self, shape: ValueShape) -> dict[str, Any]:
         """Return the schema of a shape, or a reference to it if the shape is a named place."""
         place = _place(shape)
         if place is None or not place.name:
             return self._written(shape)
         return self._named(place.name, shape)
 
-    def _named(self, name: str, shape: Shape) -> dict[str, Any]:
+    def _named(self, name: str, shape: ValueShape) -> dict[str, Any]:
         if name not in self.by_name:
             self.by_name[name] = {}  # reserves the position before inner definitions are added
             self.by_name[name] = self._written(shape)
         return {"$ref": _REFERENCE + name}
 
-    def _written(self, shape: Shape) -> dict[str, Any]:
+    def _written(self, shape: ValueShape) -> dict[str, Any]:
         if not shape.kinds:
             return {}
         types: list[str] = []
@@ -104,7 +104,7 @@ class _Definitions:
         }
 
 
-def _documentation(shape: Shape) -> dict[str, Any]:
+def _documentation(shape: ValueShape) -> dict[str, Any]:
     """Return what editors show: the meaning, and examples.
 
     Editors also offer `examples` as values, but only those without keys. The others are shown below the meaning, as
@@ -147,7 +147,7 @@ def _not_empty(**words: Any) -> dict[str, Any]:
     return {word: value for word, value in words.items() if value}
 
 
-def _place(shape: Shape) -> Place | None:
+def _place(shape: ValueShape) -> Place | None:
     """Return the place that this shape belongs to; None for any other shape."""
     return next((kind for kind in shape.kinds if isinstance(kind, Place) and kind.shape is shape), None)
 
@@ -183,13 +183,13 @@ def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
         yield from _inside(shape, f"{prefix}{form.sign}.")
 
 
-def _inside(shape: Shape, prefix: str) -> Iterator[tuple[str, ...]]:
+def _inside(shape: ValueShape, prefix: str) -> Iterator[tuple[str, ...]]:
     for kind in shape.kinds:
         if isinstance(kind, Place) and not kind.heading and forms.LANGUAGE not in kind.by_form:
             yield from _rows(kind, prefix)
 
 
-def _leads_to_a_table(shape: Shape) -> bool:
+def _leads_to_a_table(shape: ValueShape) -> bool:
     """Return True if the values inside have a table, so that their keys need not be repeated."""
     inner = [
         kind
@@ -201,11 +201,11 @@ def _leads_to_a_table(shape: Shape) -> bool:
     return any(isinstance(kind, Place) and kind.heading for kind in inner)
 
 
-def _meaning(shape: Shape) -> str:
+def _meaning(shape: ValueShape) -> str:
     return shape.meaning.replace("|", "\\|")
 
 
-def _type(shape: Shape) -> str:
+def _type(shape: ValueShape) -> str:
     kinds = [kind for kind in shape.kinds if kind is not BOOLEAN or not says_yes_or_no(shape)]
     return ", ".join(map(_kind_in_words, kinds)) or "any"
 
@@ -216,5 +216,5 @@ def _kind_in_words(kind: Kind) -> str:
     return "`~`" if kind is NOTHING else kind.words.removeprefix("a ")
 
 
-def _example(shape: Shape) -> str:
+def _example(shape: ValueShape) -> str:
     return f"`{flow_text(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""

@@ -100,7 +100,7 @@ _SYNTAX_HINTS = (
 
 
 class _StopReading(Exception):  # noqa: N818  # no error: the finding is already reported
-    """The rest of the file is not read."""
+    """Raised to leave the rest of the file unread."""
 
 
 def load(source: SourceFile, report: Report) -> list[Map | None]:

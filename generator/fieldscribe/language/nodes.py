@@ -31,11 +31,11 @@ class Map(dict[str, Any]):
         return copy
 
     def span(self, key: str | None = None) -> Span:
-        """Return where the value of `key` stands, or the whole mapping."""
+        """Return the place of the value of `key`, or of the whole mapping."""
         return Span.sought(self.file.name, lambda: self._places(key)[2:])
 
     def key_span(self, key: str) -> Span:
-        """Return where `key` itself stands."""
+        """Return the place of `key` itself."""
         return Span.sought(self.file.name, lambda: self._places(key)[:2], max(1, len(key)))
 
     def _places(self, key: str | None) -> tuple[int, int, int, int]:
@@ -64,11 +64,11 @@ class Seq(list[Any]):
         return copy
 
     def drop(self, index: int) -> None:
-        """Remove an item; the places of the others stay right."""
+        """Remove an item; the places of the others stay correct."""
         del self[index], self._places[index]
 
     def span(self, index: int | None = None) -> Span:
-        """Return where the item stands, or the whole list."""
+        """Return the place of the item, or of the whole list."""
         if index is None:
             return Span.sought(self.file.name, lambda: self.file.positions.starts.get(self.start, (1, 1)))
         return Span.sought(self.file.name, lambda: self._places[index])
@@ -84,7 +84,7 @@ Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 
 
 def share(value: Value) -> None:
-    """Mark a value that an alias repeats, and all inside it: each place where it stands is checked on a copy."""
+    """Mark a value that an alias repeats, with everything inside: each use of it is checked on a copy."""
     waiting = [value]
     while waiting:
         node = waiting.pop()

@@ -40,7 +40,7 @@ class Comment(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """What stands before a piece: a comment after the previous one, then lines (None for an empty one)."""
+    """The text before a piece: a trailing comment of the previous one, then lines (None for an empty one)."""
 
     trailing: Comment | None
     blanks: int
@@ -109,7 +109,7 @@ def pieces(text: str) -> Iterator[Piece]:
             yield Piece(kind, "", mark.line + 1, mark.column, _NO_GAP)
         elif kind:
             piece = text[mark.index : token.end_mark.index]
-            if kind == "block":  # its mark may stand after comments and empty lines that are not its own
+            if kind == "block":  # its end may lie after comments and empty lines that do not belong to it
                 piece = piece.rstrip("\n ")
             yield Piece(kind, piece, mark.line + 1, mark.column, _gap(text, end, mark.index))
             end = mark.index + len(piece)
@@ -140,7 +140,7 @@ def _gap(text: str, start: int, end: int) -> Gap:
     comment = None if trailing is None else Comment(trailing[0].rstrip(), column + trailing.start())
     blanks = 0 if trailing is None else trailing.start()
     lines = [_line(line) for line in rest[:-1]]
-    if start == 0:  # nothing stands before the first line
+    if start == 0:  # nothing precedes the first line
         lines = [_line(first), *lines] if rest else []
         comment = None
     return Gap(comment, blanks, tuple(lines), bool(rest) or comment is not None)

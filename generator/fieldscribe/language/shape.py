@@ -14,12 +14,12 @@ from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import reversed_hint
 from fieldscribe.language.value_checks import Check, NumberCheck, ShapeCheck, TextCheck, compiled_pattern
-from fieldscribe.schema_types import Items, Kind, Place, Shape, Text, Whole
+from fieldscribe.schema_types import Items, Kind, Place, Text, ValueShape, Whole
 
 _ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 _NAMING = ("name", "code", "id")
 _MOST_PLANS = 1000
-_checks: dict[Shape, ShapeCheck] = {}
+_checks: dict[ValueShape, ShapeCheck] = {}
 
 
 def check_shape(value: Map, place: Place, report: Report) -> bool:
@@ -27,14 +27,14 @@ def check_shape(value: Map, place: Place, report: Report) -> bool:
     return not report.full and check_of(place.shape)(value, value, None, report)
 
 
-def check_of(shape: Shape) -> ShapeCheck:
+def check_of(shape: ValueShape) -> ShapeCheck:
     """Return the check for a shape; it is built once."""
     if shape not in _checks:
         _checks[shape] = _build(shape)
     return _checks[shape]
 
 
-def _build(shape: Shape) -> ShapeCheck:
+def _build(shape: ValueShape) -> ShapeCheck:
     checks: dict[type, Check | None] = {}
     for kind in shape.kinds:
         for python_type, check in _by_python_type(kind):
@@ -64,7 +64,7 @@ class ListCheck:
         self.item, self.least = item, least
 
     def fits(self, value: Seq) -> bool:
-        """Return True if the list is right as it stands."""
+        """Return True if the list is right as it is."""
         return value.uses is None and len(value) >= self.least and all(map(self.item.fits, value))
 
     def __call__(self, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
@@ -105,7 +105,7 @@ class MappingCheck:
         self.plans: dict[tuple[str, ...], Plan] = {}
 
     def fits(self, value: Map) -> bool:
-        """Return True if such keys were met before, and the mapping is right as it stands."""
+        """Return True if such keys were met before, and the mapping is right as it is."""
         plan = self.plans.get(tuple(value))
         if plan is None or not plan.complete or value.uses is not None:
             return False
@@ -127,7 +127,7 @@ class MappingCheck:
             return False
         deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
         for key, message in plan.missing.items():
-            if key not in deeper:  # else it stands a level too deep, and the finding there says so
+            if key not in deeper:  # else it is nested a level too deep, and the finding there says so
                 report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.place.least:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
@@ -189,7 +189,7 @@ class MappingCheck:
 
 
 def _check_aliased(check: Check, value: Any, holder: Any, at: Any, report: Report) -> bool:
-    """Check a value that aliases repeat: once for each check, on a copy that keeps what is right for that check."""
+    """Check a value that aliases repeat: each check has its own copy, which keeps what passes that check."""
     if report.full:
         return False
     if check not in value.uses:

@@ -1,4 +1,4 @@
-"""Reads the text files of a description, within limits, and finds where keys, values and items stand in them."""
+"""Reads the text files of a description, within limits, and finds the places of keys, values and items in them."""
 
 import re
 from bisect import bisect_right
@@ -31,7 +31,7 @@ KeyPlaces = tuple[int, int, int, int]
 class Positions(NamedTuple):
     """The places in a text: of each mapping and list, of the keys in a mapping, and of the items in a list.
 
-    All three are by the offset where the mapping or list starts.
+    All three are keyed by the offset where the mapping or list starts.
     """
 
     starts: dict[int, Place]
@@ -56,7 +56,7 @@ class SourceFile:
 
     @cached_property
     def positions(self) -> Positions:
-        """Where its keys, values and items stand; found when a finding first asks."""
+        """The places of its keys, values and items, computed for the first finding."""
         return find_positions(self.text)
 
     @cached_property
@@ -77,7 +77,7 @@ class SourceFile:
 def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
     """Return the text of a file; None, with a finding, if it cannot be read or is no text that YAML allows.
 
-    `inputs` takes note of the bytes that were read.
+    `inputs` records the bytes that were read.
     """
     name = shown_path(path)
     content = _content(path, Span(name, 1, 1), report)
@@ -147,7 +147,7 @@ def find_positions(text: str) -> Positions:
 
 
 def _add(result: Positions, start: Any, inside: list[Any]) -> None:
-    """Note where a mapping or list stands, and what is inside; of two equal keys the first counts."""
+    """Record the place of a mapping or list, and of what is inside; of two equal keys the first counts."""
     offset = start.start_mark.index
     result.starts[offset] = _place(start)
     if isinstance(start, yaml.SequenceStartEvent):

@@ -1,8 +1,8 @@
 """What to write instead of what other tools and languages would have: tables of keys, patterns and hints.
 
-A new suggestion is one row of `VALUES` (by the key that the value stands under) or of `KEYS`; those for formulas stand
+A new suggestion is one row of `VALUES` (by the key of the value) or of `KEYS`; those for formulas stand
 in `formula/suggestions.py`.
-`tests/language/test_hints.py` holds that what a hint says to write passes.
+`tests/language/test_hints.py` checks that what a hint suggests is accepted.
 """
 
 import re
@@ -128,7 +128,7 @@ def _words(match: re.Match[str]) -> str:
 
 
 def _family(match: re.Match[str]) -> str | None:
-    """Suggest a family for one with something after its name, such as a framing; or say that it is not known yet."""
+    """Suggest a family for a name with an addition, such as a framing; or say that the family is not known yet."""
     from fieldscribe.families import families
 
     known, text = families(), match[0].lower()
@@ -308,7 +308,7 @@ KEYS: Mapping[str, tuple[str, str]] = {
 
 
 def value_hint(key: Any, value: Any) -> str | None:
-    """Return the hint what to write under a key instead of this value; None if there is no suggestion."""
+    """Return the hint for a wrong value of a key; None if there is no suggestion."""
     text = _flow(value)
     if not isinstance(key, str) or len(text) > _LONGEST:
         return None
@@ -337,7 +337,7 @@ def space_hint(space: str, known: Collection[str]) -> str | None:
 
 
 def key_suggestion(key: str, value: Any, known: Collection[str]) -> str | None:
-    """Return the hint what to write instead of a key of other tools; None if there is no suggestion."""
+    """Return the hint for a key of other tools; None if there is no suggestion."""
     ours, hint = KEYS.get(key.lower().replace("-", "_"), ("", ""))
     if ours == "range" and isinstance(value, Map) and "enum" in known:
         return "did you mean `enum`?"  # such as `values: {0: off}`

@@ -11,7 +11,7 @@ from fieldscribe.language.keys import forms
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
-from fieldscribe.schema_types import Shape, Text, Whole, says_yes_or_no
+from fieldscribe.schema_types import Text, ValueShape, Whole, says_yes_or_no
 
 _YES_NO = {"yes": True, "no": False}
 
@@ -47,13 +47,13 @@ class ShapeCheck:
 
     __slots__ = ("checks", "notation", "quick", "shape", "yes_no")
 
-    def __init__(self, shape: Shape, checks: Mapping[type, Check | None]) -> None:
+    def __init__(self, shape: ValueShape, checks: Mapping[type, Check | None]) -> None:
         self.shape, self.checks, self.yes_no = shape, checks, says_yes_or_no(shape)
         self.notation = int in checks and str not in checks
         self.quick = {kind: check for kind, check in checks.items() if not (self.yes_no and kind is str)}
 
     def fits(self, value: Any) -> Any:
-        """Return a true value if the value is right as it stands."""
+        """Return a true value if the value is right as it is."""
         kind = type(value)
         if kind not in self.quick:
             return False
@@ -69,7 +69,7 @@ class ShapeCheck:
                 value = holder[at] = _YES_NO[value]
         if type(value) not in self.checks:
             wanted = "yes or no" if self.yes_no else " or ".join(kind.words for kind in self.shape.kinds)
-            message = f"{value_text(value)} stands where {wanted} belongs"
+            message = f"expected {wanted}, found {value_text(value)}"
             hint = value_hint(at, value) or type_hint(value, self.checks, self.shape)
             report.error("wrong-type", message, holder.span(at), hint)
             return False

@@ -6,7 +6,7 @@ from fieldscribe.families.can.frames import LONGEST
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
 from fieldscribe.language.keys.shapes import DIRECTION, NAMED
-from fieldscribe.schema_types import Key, Shape, Text, Whole, by
+from fieldscribe.schema_types import Key, Text, ValueShape, Whole, by
 
 _BITS = Whole(choices=(11, 29))
 
@@ -29,7 +29,7 @@ KEYS = (
         "`xor 0..5`, the high byte first. Without it the message holds signals.",
     ).takes(
         [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
-        by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
+        by(forms.BITS, ValueShape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
     ),
     Key("length", MESSAGE, "With signals: the number of bytes; 8 by default, more take CAN FD.").takes(
         [8], Whole(0, LONGEST)

@@ -4,11 +4,11 @@ from collections.abc import Collection
 
 from fieldscribe.families.modbus import FAMILY
 from fieldscribe.language.keys.places import BUS
-from fieldscribe.schema_types import Items, Key, Shape, one_of
+from fieldscribe.schema_types import Items, Key, ValueShape, one_of
 
 KEYS = (
     Key("framings", BUS, "The framings the device speaks (modbus).").takes(
-        [["rtu"]], Items(Shape("One framing.", ["rtu"], one_of(*FAMILY.framings)), 1)
+        [["rtu"]], Items(ValueShape("One framing.", ["rtu"], one_of(*FAMILY.framings)), 1)
     ),
     Key("pad_coil_bytes", BUS, "Function 0Fh carries an even number of data bytes.").takes(["even"], one_of("even")),
 )

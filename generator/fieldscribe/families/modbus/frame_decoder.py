@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span, cut_apart
+from fieldscribe.families.decoded_frame import AddressSpan, DecodedFrame, OpenRequests, cut_apart
 from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
 from fieldscribe.families.modbus.exchange import Reply, Request, confirmed_write, reply_in, request_in
@@ -184,7 +184,7 @@ def _unmatched_read(unwrapped: Unwrapped, request: Request | None, faults: tuple
 def _reply(
     unwrapped: Unwrapped,
     request: Request,
-    contents: tuple[Span | Item, ...],
+    contents: tuple[AddressSpan | Item, ...],
     faults: tuple[str, ...],
     *,
     answers: bool = False,
@@ -195,14 +195,14 @@ def _reply(
     return DecodedFrame(result, contents, answers=answers)
 
 
-def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
+def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> AddressSpan:
     """Return the addresses of a request, with the values that it writes, or that its reply brings."""
     count = min(request.count, 0x10000 - request.address)
     written, words = request.function not in READS, request.values or None if words is None else words
-    return Span(FUNCTIONS[request.function].space, request.address, count, words, written, learned)
+    return AddressSpan(FUNCTIONS[request.function].space, request.address, count, words, written, learned)
 
 
-def _contents(request: Request, span: Span) -> tuple[Span | Item, ...]:
+def _contents(request: Request, span: AddressSpan) -> tuple[AddressSpan | Item, ...]:
     if request.function == 0x08:
         text = f"test data {hex_words(span.words or ())}; the device sends it back unchanged"
         return (Item("", request.address, 1, text, subject="test data"),)

@@ -4,13 +4,13 @@ from collections.abc import Collection
 
 from fieldscribe.language.keys.bus import CODES
 from fieldscribe.language.keys.places import BUS, FRAME
-from fieldscribe.schema_types import Items, Key, Shape, Text, Whole
+from fieldscribe.schema_types import Items, Key, Text, ValueShape, Whole
 
 PKW = Whole(choices=(0, 3, 4, 127))
 
 KEYS = (
     Key("pkw", BUS, "USS: the lengths in words that the parameter part can have; 127 is variable.").takes(
-        [[0, 3, 4, 127]], Items(Shape("A length.", [4], PKW), 1)
+        [[0, 3, 4, 127]], Items(ValueShape("A length.", [4], PKW), 1)
     ),
     Key("pzd", BUS, "USS: how many words of process data there may be.").takes(["0..8"], Text(40), Whole()),
     Key("responses", BUS, "USS: the response ids with the tasks that they answer.").takes(

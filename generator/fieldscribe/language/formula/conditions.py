@@ -181,7 +181,7 @@ def _constant(parser: Parser) -> Constant:
 
 
 def wrong_number(text: str, column: int) -> FormulaError:
-    """Return the error for a word that starts with a digit, where it can be no name."""
+    """Return the error for a word that starts with a digit where no name can start so."""
     try:
         number(Token("number", text, "", column))
     except FormulaError as error:

@@ -61,7 +61,7 @@ def parse_move(text: str) -> Move:
 
 
 def _parts(text: str) -> dict[str, tuple[int, str]]:
-    """Return what stands after each word, with its column; the words are in order."""
+    """Return the text after each word, with its column, in the order of the words."""
     if len(text) > LONGEST:
         raise FormulaError(f"a move has at most {LONGEST} characters", LONGEST, "split it")
     words = list(_WORD.finditer(text))
@@ -73,7 +73,7 @@ def _parts(text: str) -> dict[str, tuple[int, str]]:
         if following is not None and following[1] == "down at":
             part = part.removesuffix(",").rstrip()
         if not part.strip():
-            raise FormulaError(f"nothing stands after `{word[1]}`", word.start(), _HOW)
+            raise FormulaError(f"nothing follows `{word[1]}`", word.start(), _HOW)
         parts[word[1]] = word.end() + len(part) - len(part.lstrip()), part.strip()
     return parts
 

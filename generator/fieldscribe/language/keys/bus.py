@@ -4,7 +4,7 @@ from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, CODE
 from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
-from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
+from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Text, ValueShape, Whole, by
 
 _BY_TYPE = Place()
 _PRINTED = Place().means(
@@ -12,13 +12,13 @@ _PRINTED = Place().means(
     "list contradicts another.",
     [{"bytes": 8}],
 )
-_SETTING = Shape(
+_SETTING = ValueShape(
     "One setting.",
     [{"4": 4800}],
     Text(200),
     Whole(),
-    Items(Shape("One choice.", [8], Text(80), Whole())),
-    by(forms.ANY, Shape("What the code means.", [4800], Text(80), Whole())),
+    Items(ValueShape("One choice.", [8], Text(80), Whole())),
+    by(forms.ANY, ValueShape("What the code means.", [4800], Text(80), Whole())),
 )
 CODES = by(forms.NUMBER, CODE.shape, least=1)
 
@@ -47,10 +47,10 @@ KEYS = (
         [{"holding": ["0030h..08FFh"]}],
         by(
             forms.ANY,
-            Shape(
+            ValueShape(
                 "Intervals of wire addresses.",
                 [["0030h..08FFh"]],
-                Items(Shape("One interval, or one address.", ["0030h..08FFh", 2000], Text(40), Whole()), 1),
+                Items(ValueShape("One interval, or one address.", ["0030h..08FFh", 2000], Text(40), Whole()), 1),
             ),
         ),
     ),
@@ -58,7 +58,7 @@ KEYS = (
         "timing", BUS, "Times as the manual gives them. A number, and a time in ms or s at the start, are macros in C."
     ).takes(
         [{"silent_characters": 3.5, "response_delay": "0..1000 ms"}],
-        by(forms.ANY, Shape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
+        by(forms.ANY, ValueShape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
     ),
     Key("serial", BUS, "Settings of the serial line: lists of choices, or codes with their meanings.").takes(
         [{"baud": {"4": 4800}, "stop_bits": [1, 2]}], by(forms.ANY, _SETTING)

@@ -4,19 +4,19 @@ from fieldscribe.families import FAMILIES
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
-from fieldscribe.schema_types import BOOLEAN, NUMBER, Items, Key, Place, Places, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import BOOLEAN, NUMBER, Items, Key, Place, Places, Text, ValueShape, Whole, by, one_of
 
 _DOCUMENT = Place().means("One manual.", [{"title": "ModBus", "language": "de"}])
 _AXIS = Place().means("One axis.", [{"values": {"200V": {}}}])
 _UNIT = Place().means("One unit.", [{"name": "hertz", "quantity": "frequency"}])
-_PROPERTY = Shape(
+_PROPERTY = ValueShape(
     "A property of the variant. `pzd` (family uss): the most words of process data that it takes.",
     [3],
     *(Text(200), NUMBER),
 )
 _GIVEN = Place().means("One number.", [{"range": "1..15"}])
 _FOUND = Place().means("One chain of blocks.", [{"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}])
-_HELD = Shape("One of several.", [3], Whole(), Text(250))
+_HELD = ValueShape("One of several.", [3], Whole(), Text(250))
 _VALUE = Place(by_form={forms.ANY: _PROPERTY}).means(
     "One value of the axis, and its properties.", [{"title": "200 V class"}]
 )
@@ -42,11 +42,11 @@ HEADS = (
     Key(
         "identify",
         (DEVICE, _VALUE),
-        "What tells this device, or this variant, from others: points by code or name, in the order of reading, each "
+        "The points that identify this device, or this variant: by code or name, in the order of reading, each "
         "with its raw number, name or text, or a list of them.",
     ).takes(
         [{"signature": "MAP12E", "hardware": [3, 4]}],
-        by(forms.ANY, Shape("What the point holds.", ["MAP12E", 3], Whole(), Text(250), Items(_HELD, 1)), least=1),
+        by(forms.ANY, ValueShape("What the point holds.", ["MAP12E", 3], Whole(), Text(250), Items(_HELD, 1)), least=1),
     ),
     Key(
         "given", DEVICE, "Numbers that a client is given when it opens a device, by name; a `base` may count with them."
@@ -60,19 +60,17 @@ HEADS = (
         [{"models": {"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}}],
         by(forms.NAME, _FOUND.shape, least=1),
     ),
-    Key("text", _FOUND, "What stands before the first block, two characters a word.", required=True).takes(
+    Key("text", _FOUND, "The text before the first block, two characters a word.", required=True).takes(
         ["SunS"], Text(16)
     ),
     Key("at", _FOUND, "The addresses where it may stand, in the order of the search.", required=True).takes(
-        [[40000, 0, 50000]], Items(Shape("An address.", [40000], Whole(), Text(40)), 1)
+        [[40000, 0, 50000]], Items(ValueShape("An address.", [40000], Whole(), Text(40)), 1)
     ),
     Key(
         "then", _FOUND, "The words that each block starts with. The length counts the words after them.", required=True
-    ).takes([["id", "length"]], Items(Shape("A word.", ["id"], one_of("id", "length")), 2)),
-    Key("space", _FOUND, "The space of the blocks; `holding` unless it is another.").takes(["input"], Text(40)),
-    Key("end", _FOUND, "What stands in place of an id after the last block; FFFFh unless it is another.").takes(
-        ["FFFFh"], Whole(0, 65535), Text(40)
-    ),
+    ).takes([["id", "length"]], Items(ValueShape("A word.", ["id"], one_of("id", "length")), 2)),
+    Key("space", _FOUND, "The space of the blocks; `holding` by default.").takes(["input"], Text(40)),
+    Key("end", _FOUND, "The id that ends the chain; FFFFh by default.").takes(["FFFFh"], Whole(0, 65535), Text(40)),
     Key("group", GROUP, NAME, required=True),
     Key("points", (GROUP, places.RECORD), "The points in the manual's order.", required=True).takes(
         [[{"name": "base_frequency", "at": "1028h"}]], Items(places.POINT.shape)
@@ -89,15 +87,15 @@ HEADS = (
     Key(
         "base",
         GROUP,
-        "What the addresses count from: a formula of numbers under `given`. `at` and `addressing` are relative to it. "
-        "With a `block`: how many words after its start, by the points of the block that count.",
+        "The base of the addresses: a formula of numbers under `given`. `at` and `addressing` are relative to it. "
+        "With a `block`: the number of words after its start, a formula of points of the block that count.",
     ).takes(["slot * 1000"], Whole(), Text(200)),
     Key("block", GROUP, "The found block that the addresses count from, by its id: its first word is 0.").takes(
         [103], Whole(0, 65535), Text(40)
     ),
     Key("numbering", GROUP, "How the printed numbers follow from the address on the wire.").takes(
         [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
-        by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
+        by(forms.NAME, ValueShape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
     ),
     Key("source", Places(GROUP, places.BUS, inherited=(GROUP,)), places.SOURCE.shape),
 )
@@ -109,7 +107,7 @@ def _listed(name: str, item: Place, meaning: str) -> Key:
     return Key(name, FILES, meaning).takes([item.shape.examples], Items(item.shape))
 
 
-_WORD = Shape("A word.", ["Parameter"], Text(200))
+_WORD = ValueShape("A word.", ["Parameter"], Text(200))
 
 SECTIONS = (
     Key("documents", DEVICE, "The manuals that the facts are taken from.", required=True).takes(
@@ -130,14 +128,17 @@ SECTIONS = (
         "titles, the `default`). An empty list: it does not print the title.",
     ).takes(
         [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"], "Basisfrequenz": ["Basisfrequ."], "Ausgang 2": []}],
-        by(forms.WRITTEN, Shape("Its words.", [["Parameter"]], Items(_WORD))),
+        by(forms.WRITTEN, ValueShape("Its words.", [["Parameter"]], Items(_WORD))),
     ),
     Key("access", _DOCUMENT, "For the audit: how the manual prints each access.").takes(
         [{"r": ["R/O"], "rw": ["R/W"]}],
-        by(forms.ACCESS, Shape("Its notations.", [["R/W"]], Items(Shape("A notation.", ["R/W"], Text(20)), least=1))),
+        by(
+            forms.ACCESS,
+            ValueShape("Its notations.", [["R/W"]], Items(ValueShape("A notation.", ["R/W"], Text(20)), least=1)),
+        ),
     ),
     Key("names", _DOCUMENT, "For the audit: names with digits in them that are no facts.").takes(
-        [["CRC-16", "RS485", "MICROMASTER 4"]], Items(Shape("A name.", ["CRC-16"], Text(80)))
+        [["CRC-16", "RS485", "MICROMASTER 4"]], Items(ValueShape("A name.", ["CRC-16"], Text(80)))
     ),
     Key("variants", DEVICE, "What is chosen when a device object is made, by axis.").takes(
         [{"voltage": {"values": {"200V": {}, "400V": {}}}}], by(forms.NAME, _AXIS.shape)
@@ -147,7 +148,8 @@ SECTIONS = (
         [{"200V": {"title": "200 V class"}}], by(forms.VARIANT_VALUE, _VALUE.shape, least=1)
     ),
     Key("parts", DEVICE, "The other files of the folder, in reading order.").takes(
-        [["bus.yaml", "standard_a.yaml"]], Items(Shape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1)
+        [["bus.yaml", "standard_a.yaml"]],
+        Items(ValueShape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1),
     ),
     Key("units", FILES, "Units that are not shipped with the compiler, by symbol.").takes(
         [{"rpm": {"name": "revolution per minute", "quantity": "speed"}}], by(forms.ANY, _UNIT.shape)
@@ -158,7 +160,7 @@ SECTIONS = (
         [{"contact": {"0": "open", "1": "closed"}}],
         by(
             forms.NAME,
-            Shape(
+            ValueShape(
                 "Numbers with their names, in the manual's order.",
                 [{"0": "keypad", "1": "terminal"}],
                 by(forms.NUMBER, places.ENTRY.shape, least=1),
@@ -183,7 +185,7 @@ SECTIONS = (
 
 
 _QUANTITY = Place(before=(NUMBER,)).means("One quantity.", [{"start": 40, "unit": "%"}])
-_MOVE = Shape("A move.", ["set 1 while external_trip == trip"], Text(2000))
+_MOVE = ValueShape("A move.", ["set 1 while external_trip == trip"], Text(2000))
 
 MOVING = (
     Key("behaviour", BEHAVIOUR, "The device that it belongs to.", required=True).takes(["hitachi_l200"], A_NAME),
@@ -192,9 +194,7 @@ MOVING = (
         BEHAVIOUR,
         "Quantities that no point holds, by name: of the machine, its surroundings, or a state inside the device.",
     ).takes([{"load": {"start": 40, "unit": "%"}, "emergency_stop": 0}], by(forms.NAME, _QUANTITY.shape)),
-    Key("start", _QUANTITY, "What it is when the simulation starts; 0 unless it is another number.").takes(
-        [40], NUMBER
-    ),
+    Key("start", _QUANTITY, "Its value when the simulation starts; 0 by default.").takes([40], NUMBER),
     Key("unit", _QUANTITY, "Its unit.").takes(["%"], Text(20)),
     Key("title", _QUANTITY, TITLE),
     Key(
@@ -204,7 +204,7 @@ MOVING = (
         "their default, or a plausible number.",
     ).takes(
         [{"F002": 10.0, "A001": "network"}],
-        by(forms.ANY, Shape("The value in the unit, or a name.", [10.0], Text(80), NUMBER, BOOLEAN)),
+        by(forms.ANY, ValueShape("The value in the unit, or a name.", [10.0], Text(80), NUMBER, BOOLEAN)),
     ),
     Key(
         "moves",
@@ -221,6 +221,6 @@ MOVING = (
                 "trip_count": "set trip_count + 1 when alarm == tripped",
             }
         ],
-        by(forms.ANY, Shape("What it does.", ["set load"], Text(2000), Items(_MOVE, 1)), least=1),
+        by(forms.ANY, ValueShape("What it does.", ["set load"], Text(2000), Items(_MOVE, 1)), least=1),
     ),
 )

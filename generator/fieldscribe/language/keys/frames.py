@@ -4,9 +4,11 @@ from fieldscribe.families import families
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, STEP, TELEGRAM
 from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
-from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Text, ValueShape, Whole, by, one_of
 
-_SAID = by(forms.ANY, Shape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, BOOLEAN))
+_SAID = by(
+    forms.ANY, ValueShape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, BOOLEAN)
+)
 _VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)
 
 KEYS = (
@@ -22,7 +24,7 @@ KEYS = (
     Key("at", (COMMAND, STEP), "The address on the wire; of the first word.").takes(["0900h"], Whole(), Text(64)),
     Key("function", (COMMAND, STEP), "The function code that writes it.").takes(["06h"], Whole(), Text(20)),
     Key("value", COMMAND, "The constant, or `any`.").takes(["any", 1], Whole(), Text(64)),
-    Key("wears", COMMAND, "How many times the memory survives it.").takes([100000], Whole(1, 1_000_000_000)),
+    Key("wears", COMMAND, "How many such writes the memory survives.").takes([100000], Whole(1, 1_000_000_000)),
     Key("busy", COMMAND, "The point that says that the command is still running.").takes(["writing_data"], Text(80)),
     Key(
         "run",
@@ -34,10 +36,11 @@ KEYS = (
     Key(
         "arguments",
         COMMAND,
-        "The numbers that whoever gives the command chooses, by name: what each may be.",
+        "The numbers that the caller chooses, by name, each with its range.",
         needs=("steps",),
     ).takes(
-        [{"unit": "1..32"}], by(forms.NAME, Shape("The least and the greatest number.", ["1..32"], Text(64), Whole()))
+        [{"unit": "1..32"}],
+        by(forms.NAME, ValueShape("The least and the greatest number.", ["1..32"], Text(64), Whole())),
     ),
     Key("steps", COMMAND, "Requests in order, in place of `at`, `function` and `value`.").takes(
         [[{"at": 4104, "words": ["unit", 2, "65535 - unit"]}, {"wait": {"result": 0}, "within": "2 s"}]],
@@ -56,13 +59,13 @@ KEYS = (
         needs=("at",),
     ).takes(
         [["unit", 2, "65535 - unit"]],
-        Items(Shape("A number, or a formula of an argument.", ["65535 - unit", 2], Whole(), Text(200)), 1),
+        Items(ValueShape("A number, or a formula of an argument.", ["65535 - unit", 2], Whole(), Text(200)), 1),
     ),
-    Key("wait", STEP, "Values that points must come to hold before the next step.", needs=("within",)).takes(
+    Key("wait", STEP, "Values that points must reach before the next step.", needs=("within",)).takes(
         [{"result": 0}], _SAID
     ),
     Key("within", STEP, "The longest time to wait.", needs=("wait",)).takes(["2 s"], Text(form=forms.TIME)),
-    Key("when", STEP, "The step is left out unless this holds: a condition as that of a point.").takes(
+    Key("when", STEP, "The step is skipped if this is false: a condition, written like `when` of a point.").takes(
         ["unit_mode == celsius"], Text(500)
     ),
     Key(
@@ -86,7 +89,7 @@ KEYS = (
     Key("id", ERRATUM, "A name that is never reused.", required=True).takes(["f004_wire_decimal"], Text(80, forms.ID)),
     Key("point", ERRATUM, "The point that it is about, by code or name.").takes(["F004"], Text(80)),
     Key("points", ERRATUM, "The points that it is about.").takes(
-        [["A061", "A261"]], Items(Shape("Code or name.", ["A061"], Text(80)), 1)
+        [["A061", "A261"]], Items(ValueShape("Code or name.", ["A061"], Text(80)), 1)
     ),
     Key("flag", ERRATUM, "The flag of the point that it is about.").takes(["ready"], NAMED),
     Key("frame", ERRATUM, "The worked example that it is about.").takes(["write_base_frequency"], NAMED),
@@ -99,14 +102,16 @@ KEYS = (
     Key(
         "printed", ERRATUM, "What is printed: keys of `printed` with the wrong values, or a sentence.", required=True
     ).takes(
-        [{"wire": 4219}, "no address"], Text(1000), by(forms.ANY, Shape("The printed value.", [4219], *_VALUE), least=1)
+        [{"wire": 4219}, "no address"],
+        Text(1000),
+        by(forms.ANY, ValueShape("The printed value.", [4219], *_VALUE), least=1),
     ),
     Key(
         "taken", ERRATUM, "What was taken instead: the same keys with the right values, or a sentence.", required=True
     ).takes(
         [{"wire": 4119}, "documented only"],
         Text(1000),
-        by(forms.ANY, Shape("The value taken.", [4119], *_VALUE), least=1),
+        by(forms.ANY, ValueShape("The value taken.", [4119], *_VALUE), least=1),
     ),
     Key("why", ERRATUM, "Why it was taken.", required=True).takes(["Both neighbours say so."], Text(2000)),
     Key("certainty", ERRATUM, "How sure that is: `certain`, `likely` or `unknown`.", required=True).takes(
@@ -116,10 +121,10 @@ KEYS = (
         "leaves_open",
         ERRATUM,
         "What the manual leaves open, by the key of the fact: the rest of a sentence that begins with `the manual "
-        "leaves open`. Code and documentation say it where the fact stands. Required if `certainty` is `unknown`.",
+        "leaves open`. Code and documentation say it beside the fact. Required if `certainty` is `unknown`.",
     ).takes(
         [{"range": "whether 5 may be written in a 200 V unit"}],
-        by(forms.NAME, Shape("What is open.", ["whether 5 may be written in a 200 V unit"], Text(200)), least=1),
+        by(forms.NAME, ValueShape("What is open.", ["whether 5 may be written in a 200 V unit"], Text(200)), least=1),
     ),
     Key("document", (ERRATUM, LOOKED_THROUGH), "The document, if it is not the first one.").takes(["manual"], Text()),
     Key("line", ERRATUM, "The line in the text extracted from the manual, or several as `780..790`.").takes(

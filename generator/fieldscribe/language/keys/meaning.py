@@ -13,8 +13,8 @@ from fieldscribe.schema_types import (
     Items,
     Key,
     Places,
-    Shape,
     Text,
+    ValueShape,
     Whole,
     by,
     one_of,
@@ -158,7 +158,9 @@ KEYS = (
     Key("fixed", FACTS, places.FIXED.shape, of=WHOLE_NUMBERS),
     Key(
         "changes_with", FACTS, "Points whose writes change this one: as a run-time factor it is read again after them."
-    ).takes([["transformer_primary"]], Items(Shape("A point by code or name.", ["transformer_primary"], Text(80)), 1)),
+    ).takes(
+        [["transformer_primary"]], Items(ValueShape("A point by code or name.", ["transformer_primary"], Text(80)), 1)
+    ),
     Key(
         "default",
         FACTS,
@@ -173,6 +175,6 @@ KEYS = (
         of=WHOLE_NUMBERS,
     ).takes(
         [{"1": 1, "10000": 10}],
-        by(forms.NUMBER, Shape("The step in raw numbers.", [10], Whole(1, 1_000_000_000)), least=1),
+        by(forms.NUMBER, ValueShape("The step in raw numbers.", [10], Whole(1, 1_000_000_000)), least=1),
     ),
 )

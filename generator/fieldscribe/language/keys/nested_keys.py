@@ -3,7 +3,7 @@
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.shapes import LINES_OF, NAMED, PRINTED_NUMBER, in_words
 from fieldscribe.model import TYPES
-from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
+from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Text, ValueShape, Whole, by
 
 _FLAG_PRINTED = Place(least=1).means(
     "What the manual prints a second time about the flag, in bits of the word.",
@@ -55,7 +55,7 @@ KEYS = (
     Key("choices", places.PRINTED, "The number of choices that the manual gives.").takes([5], Whole(0, 1_000_000_000)),
     Key("pairs", places.PRINTED, "Raw numbers with their values in the unit, as printed beside each other.").takes(
         [{"FF9Eh": -0.98, "0064h": 1.0}],
-        by(forms.NUMBER, Shape("The value in the unit.", [-0.98], NUMBER, Text(64)), least=1),
+        by(forms.NUMBER, ValueShape("The value in the unit.", [-0.98], NUMBER, Text(64)), least=1),
     ),
     *(Key(fact, places.LINES, LINES_OF) for fact in _CITED),
     Key("lines", places.LOOKED_THROUGH, LINES_OF, required=True),

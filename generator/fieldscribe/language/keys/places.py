@@ -2,7 +2,7 @@
 
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.shapes import A_NAME, ANYTHING, PRINTED_NUMBER, in_language
-from fieldscribe.schema_types import NOTHING, Items, Place, Shape, Text, Whole
+from fieldscribe.schema_types import NOTHING, Items, Place, Text, ValueShape, Whole
 
 _PRIVATE = {forms.PRIVATE: ANYTHING}
 
@@ -62,7 +62,10 @@ FORMAT = Place("format", "A format, under `formats`").means(
     "What a point means, shared by name.", [{"scale": "value = raw * 0.1", "unit": "%"}]
 )
 FIXED = Place(
-    "fixed", "Fixed bits, under `fixed`", by_form={forms.BITS: Shape("The constant.", [1], Whole(), Text(40))}, least=1
+    "fixed",
+    "Fixed bits, under `fixed`",
+    by_form={forms.BITS: ValueShape("The constant.", [1], Whole(), Text(40))},
+    least=1,
 ).means("Bits of the word that are always written as a constant, `7..3` for several bits.", [{"10": 1}])
 DIGITS = Place("digits", "Decimal digits, under `digits`").means(
     "A word whose decimal digits each have a meaning, the highest first: how many digits, and the names of their "
@@ -111,7 +114,7 @@ PRINTED = Place(
     "printed",
     "What is printed twice, under `printed`",
     by_form={
-        forms.ANY: Shape(
+        forms.ANY: ValueShape(
             "The printed number in this numbering: `wire` or a name under `numbering`; with `low_` in front for the "
             "second word.",
             [["1029h", 4137]],
@@ -135,7 +138,7 @@ LOOKED_THROUGH = Place("looked_through", "Lines that hold nothing, under `looked
     [{"lines": "9..33", "why": "Wiring."}],
 )
 BUS = Place("bus", "The bus", by_form=_PRIVATE).means(
-    "What frames of the family need to know about this device.",
+    "What the frames of the family need to know about this device.",
     [{"framings": ["rtu"], "units": "1..32", "functions": {"03h": "read_holding_registers"}}],
 )
 CODE = Place(

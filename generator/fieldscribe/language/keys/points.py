@@ -3,7 +3,7 @@
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import CITED, DEVICE, FACTS, GROUP, MEMBER, POINT, POINTS, SET, USE, VARIANT
 from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, PRINTED_NUMBER, TITLE
-from fieldscribe.schema_types import BOOLEAN, NOTHING, YES_NO, Items, Key, Places, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import BOOLEAN, NOTHING, YES_NO, Items, Key, Places, Text, ValueShape, Whole, by, one_of
 
 _TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
 _NAMED = (places.ENTRY, places.FLAG, places.SPECIAL_CODE, places.CODE, *CITED)
@@ -136,7 +136,7 @@ USING = (
         "changes", _EVERYWHERE, "How often the value changes by itself; polling and run-time factors depend on it."
     ).takes(["never"], one_of("never", "rarely", "always")),
     Key("conditions", _EVERYWHERE, "What must be true before a write.").takes(
-        [["stopped"]], Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1)
+        [["stopped"]], Items(ValueShape("One condition in one or two words.", ["stopped"], Text(80)), 1)
     ),
     Key(
         "takes_effect",
@@ -146,19 +146,19 @@ USING = (
     Key(
         "write_with",
         FACTS,
-        "Points that the device takes together with this one alone: all are written in one request.",
-    ).takes([["minute", "second"]], Items(Shape("A point by code or name.", ["minute"], Text(80)), 1)),
+        "Points that must be written together with this one: all are written in one request.",
+    ).takes([["minute", "second"]], Items(ValueShape("A point by code or name.", ["minute"], Text(80)), 1)),
     Key("when", _EVERYWHERE, "The point exists only if this is true: comparisons joined by and, or, not.").takes(
         ["phases >= 2 and meter != none"], Text(500)
     ),
     Key(
         "select",
         Places(GROUP, POINT, inherited=(GROUP,)),
-        "What other points must hold before an address means the point: a number or a name of each, or a formula of "
-        "number, index, set, sets and indices. Clients write it before, unless it stands.",
+        "What other points must hold before the address means this point: a number or a name of each, or a formula of "
+        "number, index, set, sets and indices. Clients write it first, unless it is there already.",
     ).takes(
         [{"page": 3, "parameter_index": "index - 1"}],
-        by(forms.ANY, Shape("What the point must hold.", [3, "index - 1"], Whole(), Text(200)), least=1),
+        by(forms.ANY, ValueShape("What the point must hold.", [3, "index - 1"], Whole(), Text(200)), least=1),
     ),
     Key("since", _EVERYWHERE, "The first firmware that has the point.").takes(["firmware 2.1.0"], Text(80)),
     Key("until", _EVERYWHERE, "The last firmware that has the point.").takes(["firmware 3.7"], Text(80)),
