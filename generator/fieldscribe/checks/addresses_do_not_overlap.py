@@ -1,4 +1,4 @@
-"""No two points take the same bits of one address, none lies in a gap, and no command stands on a point."""
+"""No two points use the same bits of one address, none lies in a gap, and no command writes to a point."""
 
 from bisect import bisect_right
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ APART = (
 
 
 def check(analysis: Analysis) -> None:
-    """Report overlapping points, points in gaps, and commands on points or in gaps."""
+    """Report overlapping points, points in gaps, and commands at the addresses of points or in gaps."""
     overlaps = _Overlaps(analysis)
     gaps = any(analysis.bus.gaps.values())
     for resolved in analysis.resolved:
@@ -26,7 +26,7 @@ def check(analysis: Analysis) -> None:
             return
         if resolved.facts.failed & {"space", "view_of"}:
             continue
-        for address, key in _stands(resolved.point):
+        for address, key in _addresses(resolved.point):
             overlaps.add(resolved, address, key)
             if gaps:
                 _check_gap(analysis, resolved, address, key)
@@ -43,13 +43,13 @@ class _Overlaps:
         self._reported_rows: set[int] = set()
 
     def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
-        """Add a point at the address that it has by this key."""
+        """Add a point at the address that this key gives it."""
         others = self.taken.setdefault(word_key(self._analysis, resolved.point, address), [])
         rows = self._reported_rows
         fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in rows]
         if fresh:
             self._compare(resolved, fresh, address, key)
-        if len(fresh) == len(others):  # a reported row needs no more of its points here
+        if len(fresh) == len(others):  # one point of a reported row is enough here
             others.append(resolved)
 
     def _compare(self, resolved: ResolvedPoint, fresh: list[ResolvedPoint], address: int, key: str) -> None:
@@ -60,8 +60,8 @@ class _Overlaps:
             _report_overlap(report, [resolved, *rivals], address, key, place)
         rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
         if len(fresh) == _MOST:
-            message = f"more than {_MOST} points stand at {place}"
-            report.error("too-many-items", message, resolved.facts.span(key), "nobody needs so many")
+            message = f"more than {_MOST} points are at {place}"
+            report.error("too-many-items", message, resolved.facts.span(key), "more is certainly a mistake")
 
     def _overlap(self, mine: ResolvedPoint, other: ResolvedPoint) -> bool:
         """Return True if two points at one address have bits in common and can exist in the same device."""
@@ -77,16 +77,16 @@ def _are_views(point: Point, other: Point) -> bool:
     )
 
 
-def _stands(point: Point) -> Iterator[tuple[int, str]]:
-    """Yield the addresses where the point is read and those where it is written elsewhere, each with its key."""
+def _addresses(point: Point) -> Iterator[tuple[int, str]]:
+    """Yield the addresses where the point is read, and where it is written if that differs, each with its key."""
     for address in point.place.addresses:
         yield address, "at"
     for address in () if point.write_place is None else point.write_place.addresses:
         yield address, "write_at"
 
 
-def _stands_here(other: ResolvedPoint, address: int) -> tuple[Span, str]:
-    """Return the place in the text that puts a point at an address, with a remark."""
+def _address_place(other: ResolvedPoint, address: int) -> tuple[Span, str]:
+    """Return the place in the text that gives a point this address, with a remark."""
     if address in other.point.addresses:
         return other.facts.span("at"), f"`{other.point.name}` stands here"
     return other.facts.span("write_at"), f"`{other.point.name}` is written here"
@@ -102,7 +102,7 @@ def _place_in_words(analysis: Analysis, point: Point, address: int) -> str:
 
 
 def _row(mine: ResolvedPoint, other: ResolvedPoint) -> int | None:
-    """Return the row of the manual if both points were expanded from it: all its overlaps are one finding."""
+    """Return the row of the manual from which both points were expanded: its overlaps are one finding."""
     expanded = mine.facts.element and other.facts.element
     return id(mine.facts.node) if expanded and mine.facts.node is other.facts.node else None
 
@@ -110,7 +110,7 @@ def _row(mine: ResolvedPoint, other: ResolvedPoint) -> int | None:
 def _report_overlap(report: Report, together: list[ResolvedPoint], address: int, key: str, place: str) -> None:
     """Report all points that overlap at an address as one finding about the first of them."""
     mine, *others = together
-    related = [_stands_here(other, address) for other in others]
+    related = [_address_place(other, address) for other in others]
     what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
     if all(resolved.point.bits for resolved in together):
         bit = max(resolved.point.bits[1] for resolved in together[:2] if resolved.point.bits)
@@ -160,7 +160,7 @@ def _check_commands(analysis: Analysis, taken: dict[WordKey, list[ResolvedPoint]
         for other in taken.get((command.space, None, 0, command.address), ()):
             if _writes_a_value(command, other.point):
                 continue
-            related = [_stands_here(other, command.address)]
+            related = [_address_place(other, command.address)]
             message = f"the command `{command.name}` and the point `{other.point.name}` share an address"
             hint = "a command writes where no point is, or a value that the range of a whole writable word allows"
             analysis.report.error("address-taken", message, span, hint, related)

@@ -1,4 +1,4 @@
-"""The device fulfils what its family checks itself."""
+"""The device passes the checks of its own family."""
 
 from fieldscribe.resolve.analysis import Analysis
 

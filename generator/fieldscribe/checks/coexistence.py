@@ -1,4 +1,4 @@
-"""Tells which points share a word, which can exist in the same device, and which no frame of it can read or write."""
+"""Tells which points share a word, which can exist together, and which no frame of the device can read or write."""
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
@@ -14,14 +14,14 @@ WordKey = tuple[str, str | None, int, int]
 
 
 def word_key(analysis: Analysis, point: Point, address: int) -> WordKey:
-    """Return what tells the word of a point at an address from all other words of the device."""
+    """Return a key that identifies the word of a point at an address among all words of the device."""
     terms = point.terms
     index = point.index if point.index and terms.space in analysis.scope.family.indexed else 0
     return terms.space, terms.telegram or terms.base, index, address
 
 
 class Coexistence:
-    """Answers whether conditions, or points, can hold or exist together in one device."""
+    """Decides whether conditions can be true together, and whether points can exist together, in one device."""
 
     def __init__(self, analysis: Analysis) -> None:
         self.axes = {axis: tuple(entry["values"]) for axis, entry in analysis.scope.axes.items()}
@@ -60,7 +60,7 @@ class Coexistence:
 
 
 def clauses(point: Point) -> tuple[Clause, ...]:
-    """Return the clauses of which one must hold for the point to exist; each includes its variant."""
+    """Return the clauses of which one must be true for the point to exist; each includes its variant."""
     variant_clause: Clause = ()
     if point.variant is not None:
         variant_clause = (Comparison(point.variant.axis, "==", (point.variant.value,)),)
@@ -82,7 +82,7 @@ def _bands(point: Point) -> Iterator[tuple[int, int]]:
 
 
 Needs = Callable[["Analysis", list["Point"]], Iterable[tuple[int, str, str, str]]]
-"""Yields what the device lacks: how many points need it, what it is, the key under `bus` that gives it, and a hint."""
+"""Yields what the device lacks: how many points need it, what it is, the key under `bus` that adds it, and a hint."""
 
 
 def report_missing(analysis: Analysis, needs: Needs) -> None:

@@ -1,4 +1,4 @@
-"""Every point can exist: its `when` can be true and does not need itself, and `until` does not precede `since`."""
+"""Every point can exist: its `when` can be true without depending on itself, and `until` does not precede `since`."""
 
 from fieldscribe import wording
 from fieldscribe.checks.coexistence import Coexistence, clauses
@@ -18,7 +18,7 @@ def check(analysis: Analysis) -> None:
     for resolved in analysis.resolved:
         point = resolved.point
         if ends_before(point.until, point.since):
-            message = f"`{point.name}` ends with {point.until}, before it comes with {point.since}"
+            message = f"`{point.name}` ends with {point.until}, before it begins with {point.since}"
             hint = "`since` is the first firmware that has it, `until` the last"
             analysis.report.error("never-true", message, resolved.facts.span("until"), hint)
         if point.when is None or analysis.report.full:
@@ -54,7 +54,7 @@ def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, coexistence:
     points = {name: points_of_name[0] for name, points_of_name in coexistence.points.items()}
     alone = next((part for part in clause if not coexistence.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)
-    hint = "one thing has one value at a time: correct the condition, or join its parts with `or`"
+    hint = "a point has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
         hint = f"`{alone.of}` can be {_shown(coexistence.domain(alone.of))}"
     analysis.report.error("never-true", f"`{text}` is never true", resolved.facts.span("when"), hint)

@@ -20,7 +20,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _fault(point: Point) -> str | None:
-    """Return why the point does not take its default; None if it does, or if that depends on other points."""
+    """Return why the default cannot be written; None if it can, or if that depends on other points."""
     default, raw = point.default, point.default_raw
     if raw is not None:
         return None if point.special(raw) else _forbidden(point, raw)

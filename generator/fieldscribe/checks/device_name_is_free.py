@@ -24,5 +24,5 @@ def reasons(name: str) -> Iterator[str]:
     if name in _UNSAFE:
         yield "is no safe name for a folder on every system"
     if name == "fieldscribe" or name.startswith("fieldscribe_"):
-        yield "is taken by the runtime, which stands beside the generated files"
+        yield "is taken by the runtime beside the generated files"
     yield from filter(None, (target(name_of_target).device_name_taken(name) for name_of_target in TARGETS))

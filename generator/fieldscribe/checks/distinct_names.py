@@ -1,9 +1,9 @@
 """A quick proof that no two identifiers of a device are equal, without asking the targets for all of them.
 
-Points of one kind have the same identifiers but for the point's name. So a target lists the identifiers of one point of
-each kind: a start, the name, and an ending. Two names that differ can only give equal identifiers if one name begins
+Points of one kind have the same identifiers except for the point's name. So a target lists the identifiers of one point
+of each kind: a start, the name, and an ending. Two names that differ can only give equal identifiers if one name begins
 with the other, and an ending begins with the rest. Names are compared without case and underscores, because languages
-write them differently. If the proof fails, nothing is wrong yet: then all identifiers are compared.
+write them differently. If the proof fails, that is not yet a clash: then all identifiers are compared.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from fieldscribe.targets.identifiers import Names, Owner, clashes, resemblances
 
 
 class PointKinds:
-    """The points of a device by kind: those of a kind have the same text in generated code but for their names.
+    """The points of a device by kind: those of a kind have the same text in generated code except for their names.
 
     The keys of points, by their ids, tell their kinds. `names` are the plain names of all points of a kind with several
     points, each with that of the first point of its kind. `sample` is the device with the first point of each kind and
@@ -50,7 +50,7 @@ class PointKinds:
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]], before_points: Iterable[str]) -> bool:
         """Return True if all identifiers of a target are proven to differ, in the characters that it compares.
 
-        `before_points` are the words that may stand between the names of device and point.
+        `before_points` are the words that may come between the names of device and point.
         """
         if not self._are_unique or not self.names or not before_points:
             return False
@@ -63,10 +63,10 @@ class PointKinds:
         for namespace, owner, names, significant in listed:
             point = _point_of(owner)
             item = _plain(point)
-            shared = self.names.get(item) == item and point not in namespace  # a namespace of one point meets no other
+            shared = self.names.get(item) == item and point not in namespace  # it has no other names
             space = spaces[namespace]
             if shared and significant is not None:
-                most = significant - (self._longest[item] - len(point))  # of a longer name all need not be compared
+                most = significant - (self._longest[item] - len(point))  # a longer name is proven by its start
                 if any(len(name) >= most for name in names):
                     return False
             for name in map(_plain, names):
@@ -102,7 +102,7 @@ class PointKinds:
 
     @cached_property
     def _rests(self) -> dict[str, set[tuple[str, str]]]:
-        """What follows in names that begin with another name, with the kinds of both names, the shorter one first."""
+        """For each name that begins with another: the rest of it, and the kinds of both, the shorter name first."""
         rests: defaultdict[str, set[tuple[str, str]]] = defaultdict(set)
         lengths = sorted(set(map(len, self.names)))
         for name, kind in self.names.items():
@@ -114,7 +114,7 @@ class PointKinds:
 
 @dataclass
 class _Space:
-    """The identifiers of a namespace: what stands before and after the names of points, and those of other things.
+    """The identifiers of a namespace: the starts and endings around the names of points, and those of other things.
 
     Each ending has the kinds of points that have it.
     """
@@ -146,7 +146,7 @@ def _needed(device: Device) -> set[str]:
 
 
 def _point_of(owner: Owner) -> str:
-    """Return the item of the point that a thing is or is a part of, or the name of its enum; else nothing."""
+    """Return the item of the point that a thing is or belongs to, or the name of its enum; else nothing."""
     whole: Owner | None = owner
     while whole is not None and whole.kind not in ("point", "enum"):
         whole = whole.of
@@ -154,5 +154,5 @@ def _point_of(owner: Owner) -> str:
 
 
 def _plain(name: str) -> str:
-    """Return a name without what languages write differently."""
+    """Return a name without case and underscores, which languages write differently."""
     return name.replace("_", "").lower()

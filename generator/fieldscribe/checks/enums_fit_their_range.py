@@ -1,4 +1,4 @@
-"""Every entry of an enum can occur: it lies in the range and the type, and it is no special code."""
+"""Every entry of an enum can occur: it lies in the range and the type, and it is not a special code."""
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
@@ -41,7 +41,7 @@ def _specials(analysis: Analysis, resolved: ResolvedPoint) -> None:
             place = facts.span("special") if facts.layer("special") is not None else None
             related = [(place, "the special codes")] if place is not None else []
             message = f"{entry.raw} is `{entry.name}` of the enum and the special code `{special.name}`"
-            hint = "remove one of them; `special: {code: ~}` takes an inherited code away"
+            hint = "remove one of them; `special: {code: ~}` removes an inherited code"
             analysis.report.error("special-twice", message, _place(resolved, entry.raw), hint, related)
 
 

@@ -1,4 +1,4 @@
-"""Every erratum with printed values explains a disagreement that is really there."""
+"""Every erratum with printed values explains an existing disagreement."""
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named

@@ -1,4 +1,4 @@
-"""Bits that are always written as a constant leave a number to write and belong to no other point."""
+"""Bits that are always written as a constant leave numbers to write and belong to no other point."""
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
@@ -14,7 +14,7 @@ _MOST = 64
 
 
 def check(analysis: Analysis) -> None:
-    """Report fixed bits that no allowed number has, that two points write differently, or that another point takes."""
+    """Report fixed bits that no allowed number has, that two points write differently, or of another point."""
     coexistence = Coexistence(analysis)
     words: dict[WordKey, list[ResolvedPoint]] = {}
 
@@ -32,7 +32,7 @@ def check(analysis: Analysis) -> None:
         rivals = resolved.facts.floating or any(resolved.facts.get(key) is not None for key in _RIVALS)
         if point.bits is None and not rivals and not _leaves_any(point, point.fixed):
             message = f"no number that may be written to `{point.name}` has these bits"
-            hint = "numbers are the whole word, fixed bits with it: correct the range, or leave `fixed` out"
+            hint = "numbers are the whole word with its fixed bits: correct the range, or leave `fixed` out"
             analysis.report.error("two-meanings", message, resolved.facts.span("fixed"), hint)
         if point.bits is not None and point.addresses:
             others = words[written_word(point)][:_MOST]
@@ -50,7 +50,7 @@ def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: R
     related = [(other.facts.span(), f"`{other.point.name}` stands here")]
     if fixed.mask & mask:
         bit = (fixed.mask & mask).bit_length() - 1
-        message = f"writing `{resolved.point.name}` would always change bit {bit}, which is of `{other.point.name}`"
+        message = f"writing `{resolved.point.name}` always changes bit {bit}, which belongs to `{other.point.name}`"
         hint = "leave that bit out of `fixed`: the other bits of the word are written back as they were read"
         analysis.report.error("bits-overlap", message, resolved.facts.span("fixed"), hint, related)
     elif later and other_fixed is not None and (fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask:

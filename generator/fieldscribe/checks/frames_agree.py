@@ -14,15 +14,15 @@ from fieldscribe.resolve.frames import LocatedFrame
 from fieldscribe.wording.frames import units_text
 
 Words = Mapping[tuple[str, int, int], tuple[int, ...]]
-"""The words that a frame carries, by space or telegram, address, and the index that travels with it (0 without one)."""
+"""The words of a frame, by space or telegram, address, and the index beside it (0 without one)."""
 
 
 @dataclass(slots=True)
 class Seen:
-    """How the family read a frame.
+    """A worked example as the family read it.
 
     `request` is the family's own form of the frame, for parsing its answers. `words` is None if the device has no such
-    frame; with `written` they have the addresses at which points are written.
+    frame; if `written`, they have the addresses at which points are written.
     """
 
     frame: Frame
@@ -30,7 +30,7 @@ class Seen:
     words: Words | None = None
     written: bool = False
     starts: Mapping[str, int] = field(default_factory=dict)
-    """Where the bases are that the frame knows, by name."""
+    """The bases that the frame gives, by name."""
 
     def raw(self, point: Point, indexed: Collection[str]) -> int | None:
         """Return the raw number that the frame carries of a point; None if it carries none."""
@@ -44,7 +44,7 @@ class Seen:
 
 
 Reader = Callable[[Analysis, "LocatedFrame", dict[str, Seen]], Seen]
-"""Reads a frame as the family does, given the frames before it by name, and reports what disagrees."""
+"""Reads a frame, given the frames before it by name, and reports what disagrees."""
 
 
 def check(analysis: Analysis) -> None:
@@ -71,7 +71,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _unread(analysis: Analysis, located: LocatedFrame, seen: dict[str, Seen]) -> Seen:
-    """Read nothing, for families that do not read frames."""
+    """Return the frame unread, for families that do not read frames."""
     del analysis, seen
     return Seen(located.frame)
 
@@ -111,24 +111,24 @@ def _whole_word(point: Point) -> Point:
 
 
 def report_no_frame(analysis: Analysis, located: LocatedFrame, message: str) -> Seen:
-    """Report bytes that are no frame of the device; an erratum may give the right ones."""
+    """Report bytes that are not a frame of the device; an erratum may give the right ones."""
     printed = hex_of(located.frame.printed)
     analysis.report_printed(located.printed("form", printed, None, message))
     return Seen(replace(located.frame, valid=False))
 
 
 def report_refused(analysis: Analysis, located: LocatedFrame, status: str, unit: int = 0) -> Seen:
-    """Report a request that the device does not take, or a response that does not answer its request."""
+    """Report a request that the device does not accept, or a response that does not answer its request."""
     frame = located.frame
     if status == "bad_unit" and analysis.scope.bus is not None:
         return _report_unit(analysis, located, unit, analysis.scope.bus)
     asks = frame.direction == "request"
-    what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
+    what = "this device does not accept such a request" if asks else f"this does not answer `{frame.answers}`"
     return report_no_frame(analysis, located, f"{what}: {status.replace('_', ' ')}")
 
 
 def _report_unit(analysis: Analysis, located: LocatedFrame, unit: int, bus: Map) -> Seen:
-    """Report a unit that the device cannot have: once for all frames, at the units of the bus."""
+    """Report a unit number that the device cannot have: once for all frames, at `units` of the bus."""
     fact = located.printed("form", hex_of(located.frame.printed), None, "")
     fact = replace(
         fact,
@@ -149,7 +149,7 @@ def report_no_request(analysis: Analysis, located: LocatedFrame) -> None:
 
 
 def report_wrong_error(analysis: Analysis, located: LocatedFrame, carried: int | None) -> None:
-    """Report a frame that carries another error than the description states."""
+    """Report a frame whose error differs from the one in the description."""
     stated = located.node.get("error")
     if stated is not None and stated != carried:
         text = "refuses nothing" if carried is None else f"carries {carried}"
@@ -158,7 +158,7 @@ def report_wrong_error(analysis: Analysis, located: LocatedFrame, carried: int |
 
 
 def report_wrong_sum(analysis: Analysis, located: LocatedFrame, key: str, here: bytes, right: bytes) -> None:
-    """Report a checksum or a length that the bytes do not give."""
+    """Report a checksum or a length that does not follow from the bytes."""
     printed, taken = hex_of(here), hex_of(right)
     if printed != taken:
         what = "checksum" if key == "xor" else key.upper()
@@ -167,5 +167,5 @@ def report_wrong_sum(analysis: Analysis, located: LocatedFrame, key: str, here: 
 
 
 def hex_of(data: bytes) -> str:
-    """Bytes as manuals print them."""
+    """Return bytes as manuals print them."""
     return data.hex(" ").upper()

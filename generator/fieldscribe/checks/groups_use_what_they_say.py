@@ -1,4 +1,4 @@
-"""The `telegram` or `message`, the `block` and the `addressing` of a group apply to points of it."""
+"""The `telegram` or `message`, the `block` and the `addressing` of a group apply to some of its points."""
 
 from fractions import Fraction
 
@@ -13,7 +13,7 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(analysis: Analysis) -> None:
-    """Report a telegram or message without points, points outside of a block, and a rule that cannot be read."""
+    """Report a telegram or message without points, points outside their block, and a rule that cannot be evaluated."""
     groups: dict[int, Map] = {}
     used: set[tuple[int, str]] = set()
     for resolved in analysis.resolved:
@@ -47,5 +47,5 @@ def _check_rule(analysis: Analysis, group: Map) -> None:
     try:
         formula_value(group["addressing"], _KNOWN, group.span("addressing"), RULE_KNOWS)
     except FactError as error:
-        if "division by zero" not in error.args[1]:  # it was evaluated with ones; the real numbers may be fine
+        if "division by zero" not in error.args[1]:  # it was evaluated with 1 for every name
             error.report(analysis.report)

@@ -1,4 +1,4 @@
-"""Names the owners of identifiers for messages and finds their places in the description."""
+"""Words the owners of identifiers for messages, and finds their places in the description."""
 
 from collections.abc import Iterator
 from functools import cached_property
@@ -14,11 +14,11 @@ from fieldscribe.targets.identifiers import Owner
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
 _OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
-"""The key of a point that holds its parts of each kind."""
+"""The key of a point that holds its parts, by kind."""
 
 
 class Thing(NamedTuple):
-    """A named thing: how messages call it, and its place; the place is None if a target itself needs the name."""
+    """A named thing: its name in messages, and its place; the place is None if a target itself needs the name."""
 
     words: str
     place: Span | None
@@ -65,7 +65,7 @@ def _other_names(analysis: Analysis, facts: PointFacts, was: tuple[str, ...]) ->
 
 
 def thing_of(named: Named) -> Thing:
-    """Return the owner of a name as messages call it, with its place."""
+    """Return the owner of a name as messages word it, with its place."""
     return named if isinstance(named, Thing) else Thing(_point_words(named), named.span())
 
 
@@ -111,7 +111,7 @@ class IdentifierPlaces:
         self._analysis = analysis
 
     def thing(self, owner: Owner) -> Thing:
-        """Return the owner as messages call it, with its place."""
+        """Return the owner as messages word it, with its place."""
         if owner.kind == "target":
             return Thing(owner.name, None)
         if owner.kind == "enum":
@@ -180,7 +180,7 @@ class IdentifierPlaces:
 
 
 def _key_place(holder: object, name: str) -> Span | None:
-    """Return the place of the key that equals the name, or whose value is or has the name."""
+    """Return the place of the key with the name, or of the key whose value is or contains the name."""
     for key, value in holder.items() if isinstance(holder, Map) else ():
         if name in (key, value, value.get("name") if isinstance(value, Map) else None):
             return holder.key_span(key) if isinstance(holder, Map) else None

@@ -23,7 +23,7 @@ _RIVALS = (
     ("fixed", "scale", "fixed bits belong to words that are no quantity, or beside a bit group"),
     ("fixed", "enum", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("fixed", "digits", "fixed bits belong to words of flags or numbers, or beside a bit group"),
-    ("range", "range_in_units", "give one of them; what the manual prints besides goes under `printed`"),
+    ("range", "range_in_units", "give one of them; what the manual prints in addition goes under `printed`"),
     ("default", "default_in_units", "give one of them: `default` is a raw number, `default_in_units` a value"),
 )
 
@@ -62,14 +62,14 @@ def check(analysis: Analysis) -> None:
 
 
 def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:
-    """Return the keys that a text or a floating-point number cannot have, what it is, and why; None for the others."""
+    """Return the keys that a text or a floating-point number cannot have, what it is, and why; None for others."""
     if facts.floating:
         return _OF_INTEGERS, "a floating-point number", "the device sends the value itself in the unit"
     if facts.pattern_bits:
         return _OF_PATTERNS, "a floating-point number", "its enum names all that may be written"
     if facts.bytes:
-        return _OF_NUMBERS, "made of bytes", "its `notation` is all that it means"
-    return (_OF_NUMBERS, "a text", "its characters are all that it means") if facts.text else None
+        return _OF_NUMBERS, "made of bytes", "its `notation` says all about it"
+    return (_OF_NUMBERS, "a text", "its characters are its value") if facts.text else None
 
 
 def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
@@ -86,8 +86,8 @@ def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
             other = "the name of a flag"
         else:
             continue
-        message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
-        hint = "give the code another name, so that whoever writes the name means one number"
+        message = f"the special code `{code.name}` of `{point.name}` is also {other}"
+        hint = "give the code another name, so that the name stands for one number"
         analysis.report.error("special-twice", message, resolved.facts.span("special"), hint)
         resolved.facts.failed.add("special")
 

@@ -49,7 +49,7 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
 
 
 def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reported: set[frozenset[Thing]]) -> None:
-    """Report a pair once, because names that clash in one language mostly clash in the others too."""
+    """Report each pair once: names that clash in one language mostly clash in the others too."""
     pair = frozenset((first, second))
     if second.place is None:
         first, second = second, first
@@ -65,7 +65,7 @@ def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reporte
 
 
 def _warn(analysis: Analysis, alike: Resemblance, first: Thing, second: Thing, warned: set[tuple[str, int]]) -> None:
-    """Warn of names that a compiler need not tell apart; once for all names of what is described in one place."""
+    """Warn of names that a compiler need not distinguish; once for all names of one place in the description."""
     place = second.place or first.place
     if place is None or (place.file, place.line) in warned:
         return

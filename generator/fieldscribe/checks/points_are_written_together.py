@@ -1,4 +1,4 @@
-"""Points that the device takes together alone can be written in one request."""
+"""Points that must be written together can be written in one request."""
 
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
@@ -26,7 +26,7 @@ def check(analysis: Analysis) -> None:
             message = f"a request to the space `{point.space}` writes one number"
             hint = "say in a note how they are written, or use `steps` of a command"
         elif words and max(words) - min(words) >= len(words):
-            message = f"between the words of `{point.name}` and those of the others lie words of none of them"
+            message = f"between the words of `{point.name}` and those of the others lie words of other points"
             hint = "name all points that the request writes"
         else:
             continue
@@ -34,7 +34,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _meet(point: Point, other: Point) -> bool:
-    """Return True if both can be in the same device."""
+    """Return True if both can exist in the same device."""
     return point.variant is None or other.variant is None or point.variant == other.variant
 
 

@@ -31,7 +31,7 @@ _NEEDS = {
     "choices": {"enum", "range"},
     "pairs": {"type", "scale", "unit"},
 }
-"""The facts that each printed key is compared with; every other printed key is compared with the address."""
+"""The keys of the facts with which each printed key is compared; any other is compared with the address."""
 
 
 def check(analysis: Analysis) -> None:
@@ -48,7 +48,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _doubtful(printed: Map, point: Point) -> list[str]:
-    """Return the printed keys that are not plainly the numbers of the point, and need a closer look."""
+    """Return the printed keys that are not simply equal to the numbers of the point."""
     references, addresses = point.place.references, point.place.addresses
     wire = _first_word(point, addresses) if addresses else None
     return [
@@ -59,7 +59,7 @@ def _doubtful(printed: Map, point: Point) -> list[str]:
 
 
 def _is_plainly(value: object, number: int | str | None) -> bool:
-    """Return True if everything printed is plainly this number."""
+    """Return True if everything printed is this number in a usual notation."""
     if not isinstance(number, int):
         return False
     hexadecimal = f"{number:04X}h"
@@ -95,7 +95,7 @@ def _printed(analysis: Analysis, resolved: ResolvedPoint, printed: Map, keys: li
 def _numbers(analysis: Analysis, resolved: ResolvedPoint) -> Mapping[str, int]:
     """Return the point's number in every numbering of its group.
 
-    The prefixes `low_` and `high_` stand for the words with the low and the high part, `write_` for the write address.
+    The prefixes `low_` and `high_` mean the words with the low and the high part, `write_` the write address.
     """
     known: dict[str, int] = {}
     for place in resolved.point.places:
@@ -155,14 +155,14 @@ def _range(analysis: Analysis, resolved: ResolvedPoint, key: str, value: Any, sp
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
     taken = taken or as_text(facts.get(key) or facts.get("range") or "another")
     what = "range" if point.info.floating else key.replace("_", " ")
-    message = f"the {what} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
+    message = f"the {what} {as_text(value)} is printed for `{point.name}`, the fact is {taken}"
     key = "range_in_units" if in_units else key
     fact = PrintedFact(point.name, key, value, taken, span, message, lambda stated: bool(agrees(stated)))
     analysis.report_printed(fact)
 
 
 def _same_units(point: Point, printed: Any) -> bool:
-    """Return True if the printed limits of a floating-point number are those taken, or name other points."""
+    """Return True if the printed limits of a floating-point number agree, or name other points."""
     try:
         return constant_range(as_text(printed)) in (None, point.allowed.units)
     except FormulaError:
@@ -171,7 +171,7 @@ def _same_units(point: Point, printed: Any) -> bool:
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
     """Return True if the intervals are equal. Fixed ones need not be printed where other points set limits."""
-    moving = taken.intervals[len(taken.fixed) :]  # these stand after the fixed ones
+    moving = taken.intervals[len(taken.fixed) :]  # these follow the fixed ones
     if moving != printed.intervals[len(printed.fixed) :]:
         return False
     return taken.fixed == printed.fixed or (bool(moving) and not printed.fixed)
@@ -196,7 +196,7 @@ def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
     if rule is None or point.info.floating:
         why = "it is a floating-point number" if point.info.floating else "its scale is not fixed"
         message = f"the pairs of `{point.name}` cannot be checked: {why}"
-        analysis.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
+        analysis.report.error("bad-formula", message, pairs.span(), "leave them out, or put them into a `note`")
         return
     for key, value in pairs.items():
         raw = integer(key, pairs.key_span(key), analysis.report)
@@ -218,7 +218,7 @@ def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
 
 
 def _half_digit(value: Any) -> Fraction:
-    """Half a unit of the last printed digit: the error that rounding may have made."""
+    """Return half a unit of the last printed digit: the largest rounding error."""
     decimals = len(str(value).partition(".")[2])
     return Fraction(1, 2 * 10**decimals)
 
@@ -256,7 +256,7 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
             printed_number = integer(printed[key], span, analysis.report)
             if printed_number not in (None, right, other):
                 as_printed, taken = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
-                message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {taken}"
+                message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, the fact is {taken}"
                 analysis.report_printed(PrintedFact(point.name, key, as_printed, taken, span, message, flag=flag.name))
 
 
@@ -268,5 +268,5 @@ def _choices(analysis: Analysis, resolved: ResolvedPoint, value: int, span: Span
         ends = [(interval.low, interval.high) for interval in point.allowed.intervals if point.allowed.listed]
         right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
-        message = f"{value} choices are printed for `{point.name}`, taken are {right}"
+        message = f"{value} choices are printed for `{point.name}`, the facts have {right}"
         analysis.report_printed(PrintedFact(point.name, "choices", value, right, span, message))

@@ -1,4 +1,4 @@
-"""What selects the meaning of addresses can be written, by itself."""
+"""Points that select the meaning of addresses can be written, and are not selected themselves."""
 
 from fieldscribe.resolve.analysis import Analysis
 

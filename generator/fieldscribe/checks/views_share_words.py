@@ -1,4 +1,4 @@
-"""A point that is a view of another one shares words with it."""
+"""A point that is a view of another shares words with it."""
 
 from fieldscribe.checks.coexistence import WordKey, word_key
 from fieldscribe.model import Point, bits_of
@@ -6,7 +6,7 @@ from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:
-    """Report views that lie elsewhere than the point that they name."""
+    """Report views that share no words with the point that they name."""
     viewed: dict[str, list[Point]] = {}
     if any(resolved.point.view_of for resolved in analysis.resolved):
         for resolved in analysis.resolved:

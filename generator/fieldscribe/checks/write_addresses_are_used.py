@@ -1,4 +1,4 @@
-"""A write address differs from the read address, in a family that can write elsewhere."""
+"""A write address differs from the read address, in a family whose requests can write elsewhere."""
 
 from collections.abc import Iterator
 
@@ -21,10 +21,10 @@ def check(analysis: Analysis) -> None:
 
 
 def _wrong(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str]]:
-    """Yield what is wrong with a write address, the most telling reason first."""
+    """Yield what is wrong with a write address, the most helpful reason first."""
     point, family = resolved.point, analysis.scope.family
     if not family.writes_elsewhere:
-        yield f"is written where it is read: {family.name} devices know no other place", _LEAVE_OUT
+        yield f"is written where it is read: {family.name} devices have no separate write address", _LEAVE_OUT
     if point.access != "none" and not point.writable:
         yield "is only read", f"{_LEAVE_OUT}, or correct `access`"
     if point.access == "w":
@@ -32,7 +32,7 @@ def _wrong(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, s
     if not point.addresses and resolved.facts.layer("at") is not None and resolved.facts.get("at") is None:
         yield (
             "is written at an address, and read at none",
-            "what is only written has `access: w`, and its address at `at`",
+            "a point that is only written has `access: w`, and its address at `at`",
         )
     if point.write_place is None:
         return
