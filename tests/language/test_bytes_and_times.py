@@ -75,8 +75,8 @@ def test_true_and_false_are_yes_and_no(folder: Path, tmp_path: Path) -> None:
         ("digits: {count: 0Ah, enum: {0: a}}", "10 is out of bounds: 1 to 5"),
         ("flags: {0: {name: a, active: 2h}}", "2 is none of 0, 1"),
         ("untyped: wide, length: FFh", "255 is out of bounds: 1 to 125"),
-        ("untyped: wide, length: some", "the text `some` stands where a whole number belongs"),
-        ("line: 0b", "the text `0b` stands where a whole number belongs"),
+        ("untyped: wide, length: some", "expected a whole number, found the text `some`"),
+        ("line: 0b", "expected a whole number, found the text `0b`"),
         ("lines: {range: 20h..10h}", "lines `20h..10h` run downwards"),
     ],
 )

@@ -256,7 +256,7 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("---", "groups: [{group: a, space: holding}]\n---", "a group is a part: `group: …`, `space: …` and `points"),
         ("---", "access: rw\n---", "below a line `---` or in a file under `parts`"),
         ("group: main", "group: {name: main}", "write `group: main` and its other keys below"),
-        ("group: main", "group: main\nvendor: Maker", "this stands in the head of device.yaml"),
+        ("group: main", "group: main\nvendor: Maker", "this key belongs in the head of device.yaml"),
         ("group: main", "group: main\nwords: 3", "a text has `characters: 6`, bytes"),
         ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
         ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),

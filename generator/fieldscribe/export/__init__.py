@@ -39,7 +39,7 @@ def schema_text() -> str:
     first = next(iter(FAMILIES))
     tables: dict[str, tuple[str, FactTable]] = {
         "document": ("A manual that facts were taken from.", devices.DOCUMENT),
-        "limits": ("What the line allows.", devices.limits_table(first)),
+        "limits": ("The limits of the bus.", devices.limits_table(first)),
         "group": ("Points that the manual presents together.", devices.GROUP),
         "point": ("One addressable datum. Records, sets and arrays are expanded.", POINT),
         "special": ("A special code, or a band of them.", SPECIAL),

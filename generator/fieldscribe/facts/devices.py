@@ -43,7 +43,7 @@ _HEX = {**STRING, "pattern": "^([0-9A-F]{2}( [0-9A-F]{2})*)?$"}
 
 
 def _named(key: str, device: Exported, name: str = "name") -> Iterator[Exported]:
-    """The things under a key by their names."""
+    """Yield the things under a key, each with its name."""
     return ({**thing, "name": str(thing[name])} for thing in device[key])
 
 
@@ -52,14 +52,14 @@ def _axes(device: Exported) -> Iterator[Exported]:
 
 
 def _numbered(section: str, device: Exported) -> Iterator[Exported]:
-    """The numbered codes of a section; only functions have a largest count."""
+    """Yield the numbered codes of a section; only functions have a largest count."""
     most = device["limits"]["most"] if section == "functions" else {}
     for number, code in device["codes"][section].items():
         yield {**code, "number": int(number), "most": most.get(number)}
 
 
 def _groups(device: Exported) -> Iterator[Exported]:
-    """The groups, each with the names of its points."""
+    """Yield the groups, each with the names of its points."""
     members: dict[str, list[str]] = {}
     for point in items(device):
         members.setdefault(point["group"], []).append(point["name"])
@@ -67,20 +67,20 @@ def _groups(device: Exported) -> Iterator[Exported]:
 
 
 def _errata(device: Exported) -> Iterator[Exported]:
-    """The errata by their ids, each with the list of its points."""
+    """Yield the errata, named by their ids, each with the list of its points."""
     for erratum in device["errata"]:
         points = erratum["point"]
         yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
 
 
 def _identifications(device: Exported) -> Iterator[Exported]:
-    """What identifies the device, by variant and point."""
+    """Yield what identifies the device, named by variant and point."""
     for identification in device["identifications"]:
         yield {**identification, "name": f"{identification['variant'] or device['device']}: {identification['point']}"}
 
 
 def _found(device: Exported) -> Iterator[Exported]:
-    """The chain of blocks, if there is one."""
+    """Yield the chain of blocks, if there is one."""
     return iter([device["found"]] if device["found"] else ())
 
 
@@ -93,19 +93,19 @@ def _erratum_in_short(erratum: Exported) -> Exported:
 
 
 def _sentence(old: str, new: str) -> str:
-    """The class of a sentence: the lines of the manual that it names are for people."""
+    """Return the class of a changed sentence: another line number in it is only for people."""
     return DOCS if without_lines(old) == without_lines(new) else BEHAVIOUR
 
 
 def _list(key: str, doc: str, parts: Parts) -> Fact:
-    """A list of things with their parts for `diff`."""
+    """Return a fact that is a list of things, with their parts for `diff`."""
     return Fact(key, doc, list_of(ref(parts.kind)), table=parts.table, views=(parts,))
 
 
 def _parts(
     kind: str, table: FactTable, *same_by: str | View, listed: Listed | None = None, change: Weight = ""
 ) -> Parts:
-    """Things of a kind; with `change` all that comes, goes or gets another name is of that class."""
+    """Return things of a kind for `diff`; with `change`, added, removed and renamed ones are of that class."""
     parts = Parts(kind, kind, listed or partial(_named, f"{kind}s"), table, same_by=same_by)
     return replace(parts, added=change, removed=change, renamed=change) if change else parts
 
@@ -113,7 +113,7 @@ def _parts(
 # The tables.
 
 DOCUMENT: FactTable = (
-    Fact("id", "What sources call it.", STRING),
+    Fact("id", "The id by which sources cite it.", STRING),
     Fact("title", "Its title.", STRING, DOCS),
     Fact("language", "The language it is written in.", STRING, DOCS),
     Fact("file", "The name of the file that was read.", TEXT_OR_NULL, DOCS),
@@ -127,18 +127,18 @@ COMMAND: FactTable = (
     Fact("space", "The space of its address.", STRING, WIRE),
     Fact("address", "The address on the wire.", ADDRESS, WIRE),
     Fact("function", "The function to write with.", INTEGER, WIRE),
-    Fact("value", "What to write; null where any value does.", INTEGER_OR_NULL, WIRE),
-    Fact("wears", "How many such writes the memory stands.", INTEGER_OR_NULL, BEHAVIOUR),
-    Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, BEHAVIOUR, refers="point"),
+    Fact("value", "The value to write; null if any value will do.", INTEGER_OR_NULL, WIRE),
+    Fact("wears", "How many such writes the memory survives.", INTEGER_OR_NULL, BEHAVIOUR),
+    Fact("busy", "The point that says that the command is still running.", TEXT_OR_NULL, BEHAVIOUR, refers="point"),
     SOURCE,
 )
 IDENTIFICATION: FactTable = (
-    Fact("variant", "The variant that it tells: `axis=value`; null: the device.", TEXT_OR_NULL, BEHAVIOUR).of(
+    Fact("variant", "The variant that it identifies: `axis=value`; null: the device.", TEXT_OR_NULL, BEHAVIOUR).of(
         lambda identification, _: None if identification.variant is None else str(identification.variant)
     ),
     Fact("point", "The point to read.", STRING, BEHAVIOUR, refers="point"),
-    Fact("raws", "The raw numbers of which it holds one.", list_of(INTEGER), BEHAVIOUR),
-    Fact("texts", "The texts of which it holds one.", TEXTS, BEHAVIOUR),
+    Fact("raws", "The raw numbers, one of which it holds.", list_of(INTEGER), BEHAVIOUR),
+    Fact("texts", "The texts, one of which it holds.", TEXTS, BEHAVIOUR),
 )
 GIVEN: FactTable = (
     NAME,
@@ -151,16 +151,16 @@ FOUND: FactTable = (
     TITLE,
     Fact("space", "The space of the blocks.", STRING, WIRE),
     Fact("marker", "The text before the first block, two characters a word.", STRING, WIRE),
-    Fact("places", "The addresses where it may stand, in the order of the search.", list_of(ADDRESS), WIRE),
-    Fact("end", "What stands in place of an id after the last block.", INTEGER, WIRE),
+    Fact("places", "The addresses where it may be, in the order of the search.", list_of(ADDRESS), WIRE),
+    Fact("end", "The id that ends the chain.", INTEGER, WIRE),
 )
 BASE: FactTable = (
     NAME,
-    Fact("formula", "How the author writes it.", STRING, DOCS),
+    Fact("formula", "The formula as the author wrote it.", STRING, DOCS),
     Fact("offset", "What is added to the multiples, or to the start of the block.", INTEGER, WIRE),
     Fact("terms", "The factors of given numbers.", map_of(INTEGER), WIRE, value=lambda base, _: dict(base.terms)),
     Fact("block", "The id of the found block; null: no block.", INTEGER_OR_NULL, WIRE),
-    Fact("counts", "The factors of what points of the block hold.", map_of(INTEGER), WIRE).of(
+    Fact("counts", "The factors of points of the block.", map_of(INTEGER), WIRE).of(
         lambda base, _: {name: factor for name, _, factor in base.counts}
     ),
 )
@@ -272,7 +272,7 @@ _LIMITS: FactTable = (
 
 @cache
 def _with_family_facts(kind: str, table: FactTable, own_family: str, *, foreign: bool) -> FactTable:
-    """The table with the facts that families add; those of other families, with their empty values, if `foreign`."""
+    """Return the table with the facts that families add; with `foreign`, those of other families, which are empty."""
     others = families() if foreign else ()
     facts = {fact.key: replace(fact, **_FOREIGN) for each in others for fact in _offered(each, kind)}
     facts |= {fact.key: fact for fact in _offered(family(own_family), kind)}
@@ -306,7 +306,7 @@ _SECTIONS = {
 
 @cache
 def codes_table(own_family: str) -> FactTable:
-    """The numbered codes by section; those that generated code has no names for break no code."""
+    """Return the numbered codes by section; a change of codes without names in generated code breaks no code."""
     emitted = {codes.section for codes in family(own_family).codes if codes.emitted}
     sections = []
     for section, (kind, what) in _SECTIONS.items():
@@ -360,7 +360,7 @@ def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
         .of(lambda device, _: {axis: list(values) for axis, values in device.variants.items()}),
         Fact(
             "limits",
-            "What the line allows.",
+            "The limits of the bus.",
             ref("limits"),
             attribute="bus",
             table=limits,
@@ -376,14 +376,14 @@ def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
         STEPPED_COMMANDS,
         _list(
             "identifications",
-            "What tells the device and its variants, in the order of reading.",
+            "What identifies the device and its variants, in the order of reading.",
             _parts("identification", IDENTIFICATION, listed=_identifications, change=BEHAVIOUR),
         ),
         _list("given", "Numbers that a client is given.", _parts("given", GIVEN, listed=partial(_named, "given"))),
         Fact(
             "found", "The chain of blocks that a client searches for; null: none.", null_or(ref("found")), table=FOUND
         ).differs(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE)),
-        _list("bases", "What addresses count from, if not from 0.", _parts("base", BASE, "formula")),
+        _list("bases", "The bases of addresses that do not count from 0.", _parts("base", BASE, "formula")),
         _list(
             "messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "bits", "direction", "layout")
         ),
@@ -402,7 +402,7 @@ def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
 
 
 def _inside(key: str, view: View | Parts) -> View:
-    """A view of an object as a view of the device, which has the object under that key."""
+    """Turn a view of an object into a view of the device that has the object under that key."""
     assert isinstance(view, View)
     return view._replace(label=_BUS_LABELS.get(view.label, view.label), value=lambda device: view.value(device[key]))
 

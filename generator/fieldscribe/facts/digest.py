@@ -1,7 +1,7 @@
 """Digests of the facts of a device in a canonical form.
 
-Only facts that differ from their usual value count, under their published keys, and numbers are exact. So neither a
-change of the compiler's own data structures nor an optional key that nobody uses changes a digest.
+A digest covers facts that differ from their usual value, under their published keys, with exact numbers. So neither
+a change of data structures in the compiler nor an optional key that nobody uses changes it.
 """
 
 import json
@@ -18,7 +18,7 @@ from fieldscribe.model import Device, Point
 
 
 def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
-    """Return a device, and the same as code sees it, both with the digest for code."""
+    """Return a device and its view for code, both with the digest for code."""
     digest = _digest(plain, Context(plain, for_code=True), ("points",))
     return replace(device, digest=digest), replace(plain, digest=digest)
 
@@ -26,14 +26,14 @@ def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
 def facts_digest(device: Device) -> str:
     """Return the digest of all facts of a device, also those for people, but not of its version.
 
-    The device has its digest for code: of the points only what that leaves out is added.
+    The device already has its digest for code; of the points this adds only what that leaves out.
     """
     for_people = tuple(fact for fact in POINT if _has_texts(fact))
     return _digest(device, Context(device), ("points", "version"), for_people, device.digest)
 
 
 def _has_texts(fact: Fact) -> bool:
-    """Return True if code does not see a fact of a point, or not all of it; of terms it never sees all."""
+    """Return True if code does not see all of a fact of a point; it never sees all of the terms."""
     return fact.for_people or fact.holder == "terms" or any(map(_has_texts, fact.table or ()))
 
 
@@ -49,7 +49,7 @@ def _digest(
 
 
 def _points(device: Device, context: Context, facts: FactTable) -> Iterator[bytes]:
-    """The facts of the points: those that points share point by point, the others fact by fact."""
+    """Return the facts of the points: shared facts point by point, the others fact by fact."""
     for shared, holder in _HOLDERS.items():
         table = tuple(fact for fact in facts if fact.holder == shared)
         if not table:
@@ -71,11 +71,11 @@ _HOLDERS: Mapping[str, Callable[[Point], object]] = {
     "shape and terms": lambda point: (id(point.shape), id(point.terms)),
     "limits": lambda point: (id(point.allowed), id(point.shape)),
 }
-"""What points share, and what tells that two points have the same."""
+"""What points share, each with a function that is equal for points that share it."""
 
 
 def _values(fact: Fact, device: Device, context: Context) -> list[Any]:
-    """The value of a fact for each point."""
+    """Return the value of a fact for each point."""
     if fact.value is None:
         return list(map(attrgetter(fact.attribute or fact.key), device.points))
     return [fact.value(point, context) for point in device.points]

@@ -31,7 +31,7 @@ _MOST_VALUES = 4096
 """Longer lists of single numbers are exported as ranges only."""
 
 
-# What the exported values are made of.
+# The exported values.
 
 
 def source_value(thing: Any, _: Context) -> dict[str, object] | None:
@@ -41,20 +41,20 @@ def source_value(thing: Any, _: Context) -> dict[str, object] | None:
 
 
 def default_raw(point: Point, _: Context) -> int | str | None:
-    """Return the default as raw number, for f32 and f64 as value; null where the raw number depends on other points."""
+    """Return the default as a raw number (f32, f64: as a value); null if its raw number depends on other points."""
     if point.info.floating:
         return None if point.default is None else number_text(point.default)
     return point.default_raw
 
 
 def default_value(point: Point, _: Context) -> str | None:
-    """Return the default in the unit where other points decide about its raw number."""
+    """Return the default in the unit if its raw number depends on other points."""
     known = point.default is None or point.default_raw is not None or point.info.floating
     return None if known or point.default is None else number_text(point.default)
 
 
 def condition(condition: Condition) -> dict[str, object]:
-    """Return a condition: any of its clauses, all comparisons of a clause."""
+    """Return a condition as data: any of its clauses, each with all its comparisons."""
     return {"any": [{"all": [_comparison(comparison) for comparison in clause]} for clause in condition.clauses]}
 
 
@@ -64,7 +64,7 @@ def _comparison(comparison: Comparison) -> dict[str, object]:
 
 
 def places(point: Point, context: Context) -> list[dict[str, object]]:
-    """Return where and by which functions it is read and written; its place once if that is all."""
+    """Return the places where it is read and written, with their functions; one place if they are the same."""
     tasks_of = getattr(family(context.device.family).part("bus_facts"), "tasks", None)
     tasks: Sequence[tuple[str, int]] = tasks_of(context.device.bus, point) if tasks_of else ()
     purposes = ("write",) if point.access == "w" else ("read", "write")
@@ -76,18 +76,18 @@ def places(point: Point, context: Context) -> list[dict[str, object]]:
 
 
 def signal(point: Point, _: Context) -> dict[str, object] | None:
-    """Return where a signal lies in its message; None for other points."""
+    """Return the place of a signal in its message; None for other points."""
     place = point.place
     return None if place.bit is None else {"bit": place.bit, "low_first": place.low_first}
 
 
 def place(place: Place) -> dict[str, object]:
-    """Return the addresses of a place and what the manual prints for it."""
+    """Return the addresses of a place and the numbers that the manual prints for it."""
     return {"addresses": list(place.addresses), "references": dict(place.references)}
 
 
 def raw(point: Point, _: Context) -> dict[str, object]:
-    """Return which raw numbers may be written; of f32, f64 and points of unknown scale which values."""
+    """Return the raw numbers that may be written; for f32, f64 and points of unknown scale, the values."""
     allowed = point.allowed
     if point.info.floating or allowed.units:
         return {"ranges": [[number_text(low), number_text(high)] for low, high in allowed.units], "values": None}
@@ -115,7 +115,7 @@ def repeat(point: Point, _: Context) -> str | None:
 
 
 def enum_of(point: Point) -> Enum | None:
-    """Return the names of its numbers, or of its digits."""
+    """Return the enum of a point, or of its digits."""
     return point.enum if point.digits is None else point.digits.enum
 
 
@@ -125,7 +125,7 @@ def entries_of(enum: Enum) -> dict[str, Entry]:
 
 
 def flag_values(flag: Flag, _: Context) -> Mapping[str, Entry | Flag]:
-    """Return its numbers; for a single bit without named numbers, the number that makes it true."""
+    """Return the named numbers of a flag; for a single bit without any, the number that makes it true."""
     if not flag.values and flag.width == 1:
         return {str(flag.active): flag}
     return {str(entry.raw): entry for entry in flag.values}
@@ -135,7 +135,7 @@ def flag_values(flag: Flag, _: Context) -> Mapping[str, Entry | Flag]:
 
 
 def items(device: Exported) -> Iterator[Exported]:
-    """Yield the points by their names in generated code, which tell those of several variants apart."""
+    """Yield the points under their names in generated code, which differ between variants."""
     for point in device["points"]:
         yield point if point["variant"] is None else _with_names_of_variant(point)
 
@@ -147,28 +147,28 @@ def _with_names_of_variant(point: Exported) -> Exported:
 
 
 def grown(old: Any, new: Any) -> str:
-    """Return the class of a list: more items are compatible."""
+    """Return the class of a changed list: more items are compatible."""
     return API if set(old) - set(new) else COMPATIBLE
 
 
 def access_class(old: str, new: str) -> str:
-    """Return the class of access: code reads and writes as before if it may do more."""
+    """Return the class of a changed access: more access is compatible."""
     kept = old == "none" or set(old) <= set(new)
     return COMPATIBLE if kept else API
 
 
 def address_class(old: Any, _: Any) -> str:
-    """Return the class of an address: nobody can have relied on one that was not known."""
+    """Return the class of a changed address: nobody relied on one that was unknown."""
     return COMPATIBLE if old is None else WIRE
 
 
 def type_class(old: str | None, _: str | None) -> str:
-    """Return the class of the type: a point that gets one is no longer among those that are only reached raw."""
+    """Return the class of a changed type: a point that gains one is no longer reached only raw."""
     return API if old is None else WIRE
 
 
 def generated_class(old: bool, _: bool) -> str:
-    """Return the class of being generated: code that goes breaks."""
+    """Return the class of a change of `generated`: code that disappears breaks others."""
     return API if old else COMPATIBLE
 
 
@@ -176,18 +176,18 @@ _KNOWN_WITHOUT_CODE = frozenset(
     {"group", "space", "telegram", "address", "order of words", "write address", "index", "variant", "type", "length"}
     | {"access", "generated", "reserved", "old names"}
 )
-"""Facts that code also knows of a point that is only documented."""
+"""Facts that code knows even of a point that is only documented."""
 
 
 def class_in_code(old: Exported, new: Exported, label: str, weight: str) -> str:
-    """Return the class of a fact of a point; those of a point that was only documented break no code."""
+    """Return the class of a changed fact of a point; one that was only documented breaks no code."""
     if old["generated"] or label in _KNOWN_WITHOUT_CODE or weight == DOCS:
         return weight
     return COMPATIBLE if new["generated"] else DOCS
 
 
 def address_view(point: Exported) -> object:
-    """Return the lowest address; all of them where they are not neighbours."""
+    """Return the lowest address; all addresses if they are not consecutive."""
     if point["signal"] is not None:
         return point["signal"]["bit"]
     addresses = sorted(point["addresses"])
@@ -197,7 +197,7 @@ def address_view(point: Exported) -> object:
 
 
 def word_order_view(point: Exported) -> object:
-    """Return the order of several words; None where it is the usual one."""
+    """Return the order of several words; None if it is the usual one."""
     addresses = point["addresses"]
     if addresses == sorted(addresses):
         return None
@@ -205,12 +205,12 @@ def word_order_view(point: Exported) -> object:
 
 
 def byte_order_view(point: Exported) -> object:
-    """Return the order of the bytes of a signal; None where it is the usual one."""
+    """Return the order of the bytes of a signal; None if it is the usual one."""
     return "low first" if point["signal"] is not None and point["signal"]["low_first"] else None
 
 
 def base_view(place: Exported) -> object:
-    """Return how far the printed numbers are above the address, by numbering."""
+    """Return the distance of each printed number from the address, by numbering."""
     first = min(place["addresses"], default=0)
     return {
         numbering: number - first if isinstance(number, int) else number
@@ -219,12 +219,12 @@ def base_view(place: Exported) -> object:
 
 
 def written_view(point: Exported) -> object:
-    """Return where else the point is written, its numbers as distances from the address."""
+    """Return where else the point is written, with printed numbers as distances from the address."""
     return point["written"] and {**point["written"], "references": base_view(point["written"])}
 
 
 def length_view(point: Exported) -> object:
-    """Return how many words a text or a point without a type has; of others the type says it."""
+    """Return how many words a text or a point without a type has; for others the type gives it."""
     return point["words"] if point["type"] in (None, "text", "bytes") else None
 
 
@@ -246,7 +246,7 @@ def entry_parts(point: Exported) -> Iterator[Exported]:
 
 
 def flag_value_parts(flag: Exported) -> Iterator[Exported]:
-    """Yield the named numbers of a flag, without one that only repeats the name of the flag."""
+    """Yield the named numbers of a flag, except one that only repeats the name of the flag."""
     for raw, value in flag["values"].items():
         if len(flag["values"]) > 1 or value["name"] != flag["name"]:
             yield {**value, "raw": int(raw)}
@@ -272,7 +272,7 @@ def scale_of(point: Point, by_name: Mapping[str, Point]) -> list[dict[str, objec
 
 
 def rule_of(rule: Linear, by_name: Mapping[str, Point]) -> tuple[Fraction, list[dict[str, object]]]:
-    """Return the constant of a rule, multiplied by those of its factors, and its uses."""
+    """Return the constant of a rule times those of its factors, and its uses."""
     ratio, uses = rule.ratio, []
     for factor in rule.factors:
         constant, used = use_of(factor, by_name[factor.point])
@@ -284,7 +284,7 @@ def rule_of(rule: Linear, by_name: Mapping[str, Point]) -> tuple[Fraction, list[
 def use_of(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
     """Return a run-time factor as a constant times `point`'s raw number or value.
 
-    `raw * slope + intercept` becomes the raw number, a multiple of the value or of the raw number, or stays as it is.
+    `raw * slope + intercept` becomes the raw number, a multiple of it or of the value, or stays as it is.
     """
     if factor.ten_to:
         return _power_of_ten(factor, point)
@@ -312,7 +312,7 @@ def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
 
 
 def _power_of_ten(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
-    """Ten to `raw * slope + intercept`, as a power of the raw number, of the value, or of repeated raw numbers."""
+    """Return ten to `raw * slope + intercept` as a constant and powers of the raw number or of the value."""
     rule = fixed_rule(point)
     if factor.slope not in (1, -1) and rule is not None and Fraction(rule.factor, rule.divisor) == factor.slope:
         rest = factor.intercept - Fraction(rule.add, rule.divisor)
@@ -333,12 +333,12 @@ def _use(factor: Factor, part: str, kind: str, sign: int) -> dict[str, object]:
 
 
 def _whole_use(factor: Factor, kind: str) -> dict[str, object]:
-    """A factor with all its numbers, where it is no plain multiple."""
+    """Return a factor with slope and intercept, for one that is not a plain multiple."""
     return {"point": factor.point, "part": "raw", "times": factor.slope, "plus": factor.intercept, kind: factor.power}
 
 
 def _limit(rule: Linear) -> str:
-    """The rule applied to 1, as an arithmetic expression."""
+    """Return the rule applied to 1, as an arithmetic expression."""
     above = [_factor(factor) for factor in rule.factors if factor.power > 0]
     below = [_factor(factor) for factor in rule.factors if factor.power < 0]
     if rule.ratio.numerator != 1 or not above:
@@ -365,7 +365,7 @@ def _factor(factor: Factor) -> str:
 
 
 def _lifted(limit: Limit) -> str:
-    """When the limit does not apply."""
+    """Return the condition under which the limit does not apply."""
     cases = (_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes)
     return " or ".join(cases)
 

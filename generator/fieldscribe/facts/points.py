@@ -33,11 +33,11 @@ _CERTAINTIES = {"imported": "imported, not compared with a manual", "hardware": 
 _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 
 _by_raw = partial(Parts, same_by=("raw",), added=BEHAVIOUR)
-"""Meanings of raw numbers: the number tells which are the same, and a new one changes behaviour."""
+"""Meanings of raw numbers: equal numbers are the same part, and a new one changes behaviour."""
 
 
 def _always_null(key: str, doc: str) -> Fact:
-    """A key of the exported model that no description fills."""
+    """Return a key of the exported model that no description fills."""
     return Fact(key, doc, TEXT_OR_NULL, value=lambda _point, _: None, derived="it is always empty")
 
 
@@ -62,7 +62,7 @@ FLAG_VALUE: FactTable = (NAME, TITLE)
 
 ENTRY: FactTable = (
     *FLAG_VALUE,
-    Fact("quantity", "The quantity that it stands for: `0.37 kW`.", TEXT_OR_NULL, BEHAVIOUR),
+    Fact("quantity", "The quantity that it means: `0.37 kW`.", TEXT_OR_NULL, BEHAVIOUR),
 )
 
 FLAG: FactTable = (
@@ -82,11 +82,11 @@ FLAG: FactTable = (
 )
 
 SPECIAL: FactTable = (
-    Fact("raw", "The first and the last raw number; of f32 and f64 the pattern.", list_of(INTEGER, 2, 2), BEHAVIOUR).of(
+    Fact("raw", "The first and the last raw number (f32, f64: bit pattern).", list_of(INTEGER, 2, 2), BEHAVIOUR).of(
         lambda special, _: [special.low, special.high]
     ),
     *FLAG_VALUE,
-    Fact("no_value", "Whether it says that there is no value.", BOOLEAN, BEHAVIOUR),
+    Fact("no_value", "Whether it means that there is no value.", BOOLEAN, BEHAVIOUR),
     Fact("writable", "Whether it may be written.", BOOLEAN, BEHAVIOUR),
     Fact("hexadecimal", "Whether the manual prints it so.", BOOLEAN, published=False),
     Fact("shared", "Whether the point gets it from a type, a group or a format.", BOOLEAN, published=False),
@@ -104,8 +104,8 @@ DIGITS: FactTable = (
 
 LAYOUT: FactTable = (
     Fact("characters", "How many there are.", COUNT),
-    Fact("per_word", "How many stand in a word; a single one in its low byte.", COUNT),
-    Fact("padding", "The byte that fills the text up; a 0 ends it.", COUNT),
+    Fact("per_word", "How many a word holds; a single one is in its low byte.", COUNT),
+    Fact("padding", "The byte that pads the text; a 0 ends it.", COUNT),
     Fact("low_first", "True if the bytes of each word are swapped.", BOOLEAN),
 )
 
@@ -115,12 +115,12 @@ _REFERENCES = (
 )
 
 POINT: FactTable = (
-    Fact("name", "English snake_case; unique but for variants.", STRING),
+    Fact("name", "English snake_case; unique except for variants.", STRING),
     Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE).says(column="the code that the manual prints"),
     Fact("group", "The group in which the manual presents it.", STRING, API, refers="group").says(
         "Group", text=texts.group_text, column="the group in the description"
     ),
-    Fact("variant", "The variant in which it is so: `axis=value`.", TEXT_OR_NULL, API, attribute="variant")
+    Fact("variant", "The variant that has these facts: `axis=value`.", TEXT_OR_NULL, API, attribute="variant")
     .of(lambda point, _: None if point.variant is None else str(point.variant))
     .says("Variant", remark="only {}", column="for which devices the row holds, where they differ"),
     Fact("record", "The record it belongs to.", TEXT_OR_NULL, DOCS, for_people=True).says(
@@ -131,7 +131,7 @@ POINT: FactTable = (
     ),
     Fact(
         "repeat",
-        "The name of the row of the manual that stands for this point and others: one for each set, index or both.",
+        "The name of the row of the manual that describes this point and others: one for each set, index or both.",
         TEXT_OR_NULL,
         derived="it is a part of the name",
     ).of(values.repeat),
@@ -153,7 +153,7 @@ POINT: FactTable = (
     ).says("Wire address", text=texts.address_text),
     Fact(
         "index",
-        "The element of an array: the index beside the address, or what the addressing rule counts.",
+        "The element of an array: the index beside the address, or the one in the addressing rule.",
         INTEGER_OR_NULL,
         WIRE,
     ).says("Index", text=texts.index_text, column="the index of an element"),
@@ -184,9 +184,9 @@ POINT: FactTable = (
         text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
         remark="{}",
     ),
-    Fact("base", "What its addresses count from, by name; null: they count from 0.", TEXT_OR_NULL)
+    Fact("base", "The base of its addresses, by name; null: they count from 0.", TEXT_OR_NULL)
     .differs(View("counted from", WIRE, itemgetter("base"), refers="base", yaml=("base", "block")))
-    .says("Counted from", text=texts.base_text, column="what the address counts from, if not from 0"),
+    .says("Counted from", text=texts.base_text, column="the base of the address, if it does not count from 0"),
     Fact(
         "to_end", "Whether it exists only where the found block is long enough.", BOOLEAN, BEHAVIOUR, yaml=("indices",)
     ).says(
@@ -233,7 +233,7 @@ POINT: FactTable = (
     .says("Type", text=texts.type_text, column="the wire type; empty where the manual does not settle it"),
     Fact(
         "untyped",
-        "What the manual says in place of a type: empty if it leaves the type open.",
+        "The text that the manual gives instead of a type: empty if it leaves the type open.",
         TEXT_OR_NULL,
         DOCS,
         follows=("type",),
@@ -241,7 +241,7 @@ POINT: FactTable = (
     Fact("words", "How many words (or single bits) it takes.", COUNT).differs(
         View("length", WIRE, values.length_view, follows=("type",), yaml=("length", "characters"))
     ),
-    Fact("access", "What the bus may do with it.", one_of("r", "w", "rw", "none"), values.access_class).says(
+    Fact("access", "What a master may do with it.", one_of("r", "w", "rw", "none"), values.access_class).says(
         "Access",
         text=lambda point, _: wording.access_text(point.access),
         column="`r`, `w`, `rw`; `none` if no bus reaches it",
@@ -262,7 +262,7 @@ POINT: FactTable = (
     )
     .of(lambda point, context: values.scale_of(point, context.by_name), shared="shape")
     .says(rows=texts.scale_rows),
-    Fact("bits", "Its bits in a shared word; null when it has its words to itself.", null_or(ref("bits")), WIRE).says(
+    Fact("bits", "Its bits in a shared word; null if it has whole words.", null_or(ref("bits")), WIRE).says(
         text=lambda point, _: wording.shared_text(point), remark="{}"
     ),
     Fact(
@@ -279,7 +279,7 @@ POINT: FactTable = (
     .says("Fixed bits", text=lambda point, _: wording.fixed_text(point), remark="{}"),
     Fact(
         "special",
-        "Special codes: raw numbers that are no quantity, and what they mean.",
+        "Special codes: raw numbers that are not quantities, and what they mean.",
         list_of(ref("special")),
         attribute="specials",
         table=SPECIAL,
@@ -305,12 +305,12 @@ POINT: FactTable = (
     .says("Steps", text=lambda point, _: wording.steps_text(point), remark="steps: {}"),
     Fact(
         "display",
-        "How a person should see the value; null where nothing says it.",
+        "How people should see the value; null if the description does not say.",
         null_or(
             record(
                 (
                     "decimals",
-                    "With how many decimals, rounded to nearest, halves away from zero; zeros at the end stay.",
+                    "The number of decimals, rounded to nearest, halves away from zero; trailing zeros stay.",
                     {**ADDRESS, "maximum": 12},
                 )
             )
@@ -321,7 +321,7 @@ POINT: FactTable = (
     .says("Shown with", text=lambda point, _: wording.decimals_text(point), remark="shown with {}"),
     Fact(
         "epoch",
-        "The date from which the value counts seconds; null if it is no time.",
+        "The date from which the value counts seconds; null if it is not a time.",
         TEXT_OR_NULL,
         BEHAVIOUR,
         yaml=("notation",),
@@ -378,7 +378,7 @@ POINT: FactTable = (
     .differs(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)))
     .of(lambda point, _: None if point.enum is None else values.entries_of(point.enum), shared="shape")
     .says(rows=texts.enum_rows),
-    Fact("enum_name", "The name of the enum, also of that of `digits`: generated code calls its type so.", TEXT_OR_NULL)
+    Fact("enum_name", "The name of the enum, or of that of `digits`: its type in generated code.", TEXT_OR_NULL)
     .differs(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)))
     .of(lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name, shared="shape"),
     Fact(
@@ -389,7 +389,7 @@ POINT: FactTable = (
     ).of(lambda point, _: [] if (enum := values.enum_of(point)) is None else list(enum.was), shared="shape"),
     Fact(
         "open",
-        "True when numbers without a name are possible beside those of `enum`.",
+        "True if numbers without a name are possible in addition to those of `enum`.",
         BOOLEAN,
         BEHAVIOUR,
         follows=("enum as a whole",),
@@ -399,7 +399,7 @@ POINT: FactTable = (
     .says(rows=texts.flag_rows),
     Fact(
         "digits",
-        "The decimal digits of a word that mean something each, the highest first.",
+        "The decimal digits of a word that each have a meaning, the highest first.",
         null_or(ref("digits")),
         table=DIGITS,
     ).differs(View("digits", WIRE, lambda point: point["digits"] and point["digits"]["count"])),
@@ -413,8 +413,8 @@ POINT: FactTable = (
     ).of(lambda point, _: None if point.text is None else point.text.encoding, shared="shape"),
     Fact(
         "layout",
-        "How the characters of a text stand in words; null if each word has two, the first in the high byte, and "
-        "blanks fill the text up.",
+        "How words hold the characters of a text; null if each word has two, the first in the high byte, and "
+        "blanks pad the text.",
         null_or(ref("layout")),
         WIRE,
         table=LAYOUT,
@@ -423,8 +423,8 @@ POINT: FactTable = (
     ).of(lambda point, _: None if point.text is None or point.text.is_plain else point.text, shared="shape"),
     Fact(
         "persistence",
-        "Whether a written value is kept: `no`, `yes`, the command that keeps it, or `choice` (as the function that "
-        "writes it says).",
+        "Whether a written value is kept: `no`, `yes`, the command that keeps it, or `choice` (the function that "
+        "writes it decides).",
         TEXT_OR_NULL,
         attribute="keeps",
     )
@@ -466,7 +466,7 @@ POINT: FactTable = (
     ),
     Fact(
         "selects",
-        "What other points must hold before the address means this one: each with its raw number.",
+        "Points that must hold a raw number before the address means this one, each with its number.",
         list_of(record(("point", "The point.", STRING), ("raw", "What it holds.", INTEGER))),
         BEHAVIOUR,
         refers="point",
@@ -478,7 +478,7 @@ POINT: FactTable = (
         text=lambda point, _: ", ".join(f"{name} = {raw}" for name, raw in point.selects),
         remark="write {} before",
     ),
-    Fact("since", "The firmware that brought it.", TEXT_OR_NULL, BEHAVIOUR).says("Since", remark="since {}"),
+    Fact("since", "The first firmware that has it.", TEXT_OR_NULL, BEHAVIOUR).says("Since", remark="since {}"),
     Fact("until", "The last firmware that has it.", TEXT_OR_NULL, BEHAVIOUR).says("Until", remark="until {}"),
     Fact("changes", "How often it changes: `never`, `rarely`, `always`.", TEXT_OR_NULL, BEHAVIOUR).says(
         "Changes", remark="changes {}", column="how often it changes"
@@ -496,7 +496,7 @@ POINT: FactTable = (
     ),
     Fact(
         "certainty",
-        "Where the facts come from: `imported` (compared by nobody), `hardware` (seen on a device); null: the manual.",
+        "Where the facts come from: `imported` (not compared with a manual), `hardware` (seen on it); null: manual.",
         null_or(one_of("imported", "hardware")),
         DOCS,
         for_people=True,
@@ -507,7 +507,7 @@ POINT: FactTable = (
         column="where the facts come from, if not from the manual",
     ),
     _always_null("together", "What must be read or written in one telegram."),
-    Fact("was", "Former names, which stay alive as deprecated aliases.", TEXTS)
+    Fact("was", "Former names, which remain as deprecated aliases.", TEXTS)
     .differs(View("old names", values.grown, itemgetter("was"), yaml=("was",)))
     .says("Old names", remark="was {}"),
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API).says(remark="reserved"),
@@ -517,7 +517,7 @@ POINT: FactTable = (
     SOURCE.says("Source", text=lambda point, context: texts.place_in_manual(point.source, context.device)),
     Fact(
         "generated",
-        "False for what is only documented.",
+        "False for a point that is only documented.",
         BOOLEAN,
         values.generated_class,
         follows=("access", "type", "reserved", "address"),

@@ -29,7 +29,7 @@ def one_of(*values: str | int) -> Schema:
 
 
 def null_or(schema: Schema) -> Schema:
-    """Return the schema of the same, or null."""
+    """Return a schema that also allows null."""
     if "type" not in schema or schema["type"] == "object":
         return {"anyOf": [schema, {"type": "null"}]}
     values = {"enum": [*schema["enum"], None]} if "enum" in schema else {}
@@ -67,11 +67,11 @@ def record(*properties: tuple[str, str, Schema]) -> Schema:
 
 def _uses() -> list[Schema]:
     point = "point", "The point that the factor is read from.", STRING
-    number = [("part", "Which of its numbers: the raw number, or the value.", one_of("raw", "value"))]
+    number = [("part", "Which number of the point: the raw number, or the value.", one_of("raw", "value"))]
     linear = [
-        ("part", "Always the raw number.", one_of("raw")),
-        ("times", "What the raw number is multiplied by.", INTEGER),
-        ("plus", "What is added then.", INTEGER),
+        ("part", "The raw number.", one_of("raw")),
+        ("times", "The factor of the raw number.", INTEGER),
+        ("plus", "The number added to the product.", INTEGER),
     ]
     sign = "1: multiply raw by it; -1: divide.", one_of(1, -1)
     return [record(point, *part, (kind, *sign)) for part in (number, linear) for kind in ("power", "ten_to")]
@@ -95,7 +95,7 @@ DEFINITIONS: Mapping[str, Schema] = {
         "pattern": _FRACTION,
     },
     "number_text": {
-        "description": "An exact number as text: `5`, `0.1`, or `7/3` where the decimals never end.",
+        "description": "An exact number as text: `5`, `0.1`, or `7/3` if the decimals never end.",
         **STRING,
         "pattern": r"^-?[0-9]+(\.[0-9]+|/[0-9]+)?$",
     },
@@ -104,7 +104,7 @@ DEFINITIONS: Mapping[str, Schema] = {
         **list_of({**ADDRESS, "maximum": 63}, 2, 2),
     },
     "source": {
-        "description": "Where in the manual a fact stands.",
+        "description": "The place of a fact in the manual.",
         **record(
             ("document", "The id of the document.", STRING),
             ("section", "The section, as printed.", null_or(STRING)),
@@ -143,7 +143,7 @@ DEFINITIONS: Mapping[str, Schema] = {
         "anyOf": [INTEGER, {**STRING, "minLength": 1}],
     },
     "condition": {
-        "description": "When the point exists: when all comparisons of one of these hold.",
+        "description": "The point exists if all comparisons of one of these are true.",
         **record(("any", "One of these.", list_of(record(("all", "All of these.", list_of(ref("comparison"), 1))), 1))),
     },
     "comparison": {

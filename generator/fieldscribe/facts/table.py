@@ -22,39 +22,39 @@ Row: TypeAlias = tuple[str, str]
 """A label and a text."""
 
 Weight: TypeAlias = "str | Callable[[Any, Any], str]"
-"""A class of differences, or a function that tells it from the old and the new value."""
+"""A class of differences, or a function that returns it for the old and the new value."""
 
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """What the values of facts need beside the thing itself; `for_code` leaves out facts for people."""
+    """What the values of facts need in addition to the thing itself; `for_code` leaves out facts for people."""
 
     device: Device
     for_code: bool = False
     names: Points | None = None
-    """The points as texts call them; by name if None."""
+    """The names of points in texts, by item; their own names if None."""
 
     @cached_property
     def by_name(self) -> Mapping[str, Point]:
-        """The points by name, and by their names with the variant."""
+        """Points by name, and by their names with the variant."""
         return {name: point for point in self.device.points for name in (point.item, point.name)}
 
     @property
     def points(self) -> Points:
-        """The points as texts call them."""
+        """The names of points in texts."""
         return self.by_name if self.names is None else self.names
 
     @cached_property
     def directions(self) -> Mapping[str, str]:
-        """The directions of the telegrams by name."""
+        """The directions of the telegrams, by name."""
         return {telegram.name: telegram.direction for telegram in self.device.telegrams}
 
 
 class View(NamedTuple):
     """What `diff` compares of an exported thing: a label, the class of a difference, and the compared value.
 
-    No difference is reported if one of the labels that it `follows` differs, too. `refers` is the kind of the things
-    that the value names: a new name of such a thing is no difference. `yaml` are the keys of a description that state
+    No difference is reported if one of the labels that it `follows` differs too. `refers` is the kind of the things
+    that the value names: renaming such a thing makes no difference. `yaml` are the keys of a description that state
     the fact, where they differ from the label.
     """
 
@@ -70,9 +70,9 @@ class View(NamedTuple):
 class Parts:
     """Named parts of a thing for `diff`: what `listed` gives of it, with the facts of `table` and `views`.
 
-    Two parts are the same if their names are, or if they alone have equal values for `same_by`: labels of their facts,
-    or further views. `whole` is the class where all parts come or go at once; without it each part is reported.
-    `summary` is what is reported of a part that came or went. `in_code` gives the class of a fact from the part on both
+    Two parts are the same if their names are, or if only they have equal values for `same_by`: labels of their facts,
+    or further views. `whole` is the class if all parts are added or removed at once; without it each part is reported.
+    `summary` is what is reported of an added or removed part. `in_code` gives the class of a fact from the part on both
     sides, the label of the fact (empty for parts of it) and its usual class.
     """
 
@@ -92,25 +92,25 @@ class Parts:
 
     @cached_property
     def entries(self) -> Mapping[str, View | Parts]:
-        """What is compared of a part, by label."""
+        """The views of a part, by label."""
         views = *(view for fact in self.table for view in fact.compared()), *self.views
         return {view.label: view for view in views}
 
 
 @dataclass(frozen=True, eq=False)
 class Fact:
-    """One fact: its published key, what it says, its JSON Schema, its value, and what `diff` compares of it.
+    """One fact: its published key, its description, its JSON Schema, its value, and what `diff` compares.
 
     The value is the attribute of the same name (or `attribute`), or what the function `value` returns of the thing and
-    its context; where the attribute is empty there is nothing to say. With `table` it is a thing of that table, a list
-    of such things or a mapping to them. `shared` names what alone decides the value that a function returns of a point:
-    its `shape`, its `terms` or its `limits`.
+    its context; an empty attribute is an absent fact. With `table` it is a thing of that table, a list of such things
+    or a mapping to them. `shared` names what decides the value of a function for a point, if it is only its `shape`,
+    its `terms` or its `limits`.
 
-    `weight`, `follows`, `refers` and `yaml` are short for one view of the exported value. `derived` says what a fact
-    follows from that is not compared and not in the digest; one that is not `published` is only in the digest. A fact
+    `weight`, `follows`, `refers` and `yaml` are short for one view of the exported value. A `derived` fact is neither
+    compared nor in the digest: it says what it follows from. One that is not `published` is only in the digest. A fact
     `for_people` never reaches code.
 
-    What is said of it to people follows in `says`.
+    The last fields are its text for people, which `says` sets.
     """
 
     key: str
@@ -136,26 +136,26 @@ class Fact:
     column: str = ""
 
     def of(self, value: Callable[[Any, Context], Any], shared: str = "") -> Fact:
-        """Return the fact with the function that gives its value of a thing and its context.
+        """Return the fact with the function that returns its value for a thing and its context.
 
-        `shared` names what alone decides the value of a point: its `shape`, its `terms` or its `limits`.
+        `shared` is what decides the value for a point, if it is only its `shape`, `terms` or `limits`.
         """
         return replace(self, value=value, shared=shared)
 
     def differs(self, *views: View | Parts) -> Fact:
-        """Return the fact with what `diff` compares of it, where that is not the exported value."""
+        """Return the fact with the views that `diff` compares instead of the exported value."""
         return replace(self, views=views)
 
     def says(self, label: str = "", **said: Any) -> Fact:
-        """Return the fact with what is said of it to people.
+        """Return the fact with its text for people.
 
         `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
-        Without `text` it is the value. `column` says what the column of that key holds in the sheets: the plain value.
+        Without `text` the value is the text. `column` describes the column of the value in the sheets.
         """
         return replace(self, label=label, **said)
 
     def compared(self) -> tuple[View | Parts, ...]:
-        """What `diff` compares of the fact."""
+        """The views of the fact that `diff` compares."""
         if self.weight:
             label = self.key.replace("_", " ")
             return View(label, self.weight, itemgetter(self.key), self.follows, self.refers, self.yaml), *self.views
@@ -171,24 +171,24 @@ class Fact:
 
     @cached_property
     def holder(self) -> str:
-        """What alone decides the value of a fact of a point; empty if it is a fact of the point itself."""
+        """What decides the value for a point: `shape`, `terms` or `limits`; empty if it is the point itself."""
         attribute = (self.attribute or self.key).partition(".")[0]
         fields = {"terms": Terms.__annotations__, "shape": Shape.__annotations__}
         own = "" if self.value else next((name for name, known in fields.items() if attribute in known), "")
         return self.shared or own
 
     def text_of(self, point: Point, context: Context) -> str:
-        """Return the fact of a point for people; empty where there is nothing to say."""
+        """Return the text of the fact of a point; empty if the fact is absent."""
         if self.text is not None:
             return self.text(point, context)
         return _plain_text(self.get(point, context), ", ")
 
     def cell_of(self, point: Point, context: Context) -> str:
-        """Return the value of the fact of a point as one cell; empty where there is none."""
+        """Return the value of the fact of a point as one cell; empty if the fact is absent."""
         return _plain_text(self.get(point, context), "; ")
 
     def remark_of(self, point: Point, context: Context) -> str:
-        """Return the fact of a point as a remark; empty where there is nothing to say."""
+        """Return the fact of a point as a remark; empty if the fact is absent."""
         text = self.text_of(point, context) if self.remark else ""
         return self.remark.format(text) if text else ""
 
@@ -200,12 +200,12 @@ class Fact:
 
     @property
     def is_number(self) -> bool:
-        """True if the value is a whole number wherever there is one."""
+        """True if every value is a whole number, or null."""
         return self.schema.get("type") in ("integer", ["integer", "null"])
 
     @cached_property
     def usual(self) -> Any:
-        """The value that stands for nothing: null where the schema allows it, else what is empty or false."""
+        """The value of an absent fact: null if the schema allows it, else an empty or a false value."""
         types = self.schema.get("type")
         if "null" in types if isinstance(types, list) else {"type": "null"} in self.schema.get("anyOf", ()):
             return None
@@ -213,7 +213,7 @@ class Fact:
 
 
 def family_facts(kind: type[FamilyFacts], *facts: Fact) -> FactTable:
-    """Return facts of a bus or a frame, each given as a fact of `kind`; they are empty for all other families."""
+    """Return facts of a bus or a frame that only one family has, of the class `kind`; for others they are empty."""
     others = kind()
 
     def of_thing(fact: Fact) -> Fact:
@@ -247,7 +247,7 @@ def exported(table: FactTable, thing: object, context: Context) -> dict[str, Any
 
 
 def stated(table: FactTable, thing: object, context: Context) -> dict[str, Any]:
-    """Return the facts of a thing that follow from no others and differ from their usual value."""
+    """Return the facts of a thing that are not derived and differ from their usual value."""
     values: dict[str, Any] = {}
     for fact in table:
         left_out = fact.derived or (fact.for_people and context.for_code)
@@ -258,7 +258,7 @@ def stated(table: FactTable, thing: object, context: Context) -> dict[str, Any]:
 
 
 def plain_value(fact: Fact, value: Any, context: Context, facts_of: FactsOf) -> Any:
-    """Return a value as JSON knows it; `facts_of` turns the things of the fact's own table into objects."""
+    """Return a value as JSON data; `facts_of` turns the things of the fact's own table into objects."""
     if fact.table is None or value is None:
         return list(value) if isinstance(value, tuple) else value
     if isinstance(value, dict):

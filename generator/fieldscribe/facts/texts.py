@@ -1,6 +1,6 @@
 """The facts of a point as labelled texts for people, where a text is more than the value.
 
-Other points are called as the context says.
+The context gives the names of other points.
 """
 
 from collections.abc import Iterable, Iterator
@@ -35,7 +35,7 @@ def address_text(point: Point, context: Context) -> str:
 
 
 def base_text(point: Point, context: Context) -> str:
-    """Return what the addresses count from."""
+    """Return the base of the addresses."""
     base = context.device.base_of(point)
     return "" if base is None else wording.base_text(base)
 
@@ -51,7 +51,7 @@ def signal_text(point: Point, _: Context) -> str:
 
 
 def index_text(point: Point, context: Context) -> str:
-    """Return the index where it is not beside the address."""
+    """Return the index if it is not beside the address."""
     return "" if point.index is None or _index_travels(point, context) else str(point.index)
 
 
@@ -130,7 +130,7 @@ def unit_text(point: Point, _: Context) -> str:
 
 
 def place_in_manual(source: Source, device: Device) -> str:
-    """Return where in which document a fact stands."""
+    """Return the place of a fact: document, section, page and line."""
     titles = {document.id: document.title for document in device.documents}
     parts = [titles.get(source.document, source.document), source.section or ""]
     parts.append(f"page {source.page}" if source.page else "")
