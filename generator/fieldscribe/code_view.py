@@ -1,4 +1,4 @@
-"""The device as code sees it: names in place of titles, no notes, no places in the manual, no reasons for errata.
+"""The device as generated code may know it: names as titles, no notes, no places in the manual, no reasons for errata.
 
 Titles and notes change often. They reach only the documentation, so that vendored code stays the same when they do.
 """
@@ -67,15 +67,15 @@ def has_same_points(first: Device, second: Device) -> bool:
     return first.points is second.points and first.errata is second.errata
 
 
-class Last(Generic[Made]):
-    """What was made of the last devices, for all that ask for the same."""
+class DeviceCache(Generic[Made]):
+    """Keeps the results for the last devices; `same` decides whether two devices have the same result."""
 
     def __init__(self, same: Callable[[Device, Device], bool], most: int = 1) -> None:
         self.kept: list[tuple[Device, Made]] = []
         self._same, self._most = same, most
 
     def of(self, device: Device, make: Callable[[Device], Made]) -> Made:
-        """Return what was made of a device before, else what is made now."""
+        """Return the kept result for a device; make it if there is none."""
         for known, made in tuple(self.kept):
             if self._same(known, device):
                 return made
@@ -84,7 +84,7 @@ class Last(Generic[Made]):
 
 
 _Parts = tuple[tuple[Point, ...], tuple[Erratum, ...], "_Enums"]
-_last: Last[_Parts] = Last(has_same_points)
+_last: DeviceCache[_Parts] = DeviceCache(has_same_points)
 
 
 def _parts(device: Device) -> _Parts:
@@ -100,7 +100,7 @@ def _parts(device: Device) -> _Parts:
 
 
 def _without_texts(things: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return these things with their names as titles, without notes and places in the manual."""
+    """Return the things with their names as titles, without notes and places in the manual."""
     empty = {"note": {}, "source": _NOWHERE}
     return tuple(
         replace(thing, title=_title(thing.name), **{key: empty[key] for key in empty if hasattr(thing, key)})

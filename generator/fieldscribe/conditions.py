@@ -1,7 +1,7 @@
 """When points exist: conditions as structure, and whether values that can occur make them true.
 
 A condition compares single numbers and names with constants. A few samples decide whether one can be true: each
-constant, its neighbours, and the ends of what can occur. Between these no comparison changes its result.
+constant, its neighbours, and the ends of what can occur. Between two samples no comparison changes its result.
 """
 
 import operator
@@ -32,7 +32,7 @@ class Comparison:
     than: tuple[int, ...] | tuple[str, ...]
 
     def holds(self, value: int | str) -> bool:
-        """Return True if the comparison is true of a number, or of a name."""
+        """Return True if the comparison is true for a number or a name."""
         if self.test == "!=":
             return value != self.than[0]
         compare = _TESTS.get(self.test)
@@ -42,31 +42,31 @@ class Comparison:
 
 
 Clause = tuple[Comparison, ...]
-"""Comparisons that hold together."""
+"""Comparisons that must all be true."""
 
 Clauses = tuple[Clause, ...]
-"""Clauses of which one holds."""
+"""Clauses of which one must be true."""
 
 OPPOSITES: Mapping[str, str] = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
-"""The test that is true where another is not."""
+"""The opposite of each test."""
 
 MOST_CLAUSES = 64
-"""The most clauses of a condition that is written out."""
+"""The most clauses of a condition in normal form."""
 
 Part = TypeVar("Part")
 
 
 class TooManyClausesError(ValueError):
-    """Written out, a condition has more than MOST_CLAUSES clauses."""
+    """A condition has more than MOST_CLAUSES clauses in normal form."""
 
 
 def any_of(parts: Iterable[tuple[Part, ...]]) -> tuple[Part, ...]:
-    """Return the clauses of which one holds if one part is true."""
+    """Return the clauses of the disjunction of the parts."""
     return tuple(clause for clauses in parts for clause in clauses)
 
 
 def all_of(parts: Iterable[tuple[tuple[Part, ...], ...]]) -> tuple[tuple[Part, ...], ...]:
-    """Return the clauses of which one holds if all parts are true. Raises TooManyClausesError."""
+    """Return the clauses of the conjunction of the parts. Raises TooManyClausesError."""
     clauses: tuple[tuple[Part, ...], ...] = ((),)
     for part in parts:
         if len(clauses) * len(part) > MOST_CLAUSES:
@@ -76,7 +76,7 @@ def all_of(parts: Iterable[tuple[tuple[Part, ...], ...]]) -> tuple[tuple[Part, .
 
 
 def opposite(clauses: Clauses) -> Clauses:
-    """Return the clauses of which one holds if none of these does. Raises TooManyClausesError."""
+    """Return the clauses of the opposite. Raises TooManyClausesError."""
     return all_of(any_of(map(_opposite, clause)) for clause in clauses)
 
 
@@ -99,12 +99,12 @@ class Condition:
         return tuple(dict.fromkeys(comparison.of for clause in self.clauses for comparison in clause))
 
     def holds(self, values: Mapping[str, int | str]) -> bool:
-        """Return True if the condition is true of these values by name."""
+        """Return True if the condition is true for these values by name."""
         return any(all(comparison.holds(values[comparison.of]) for comparison in clause) for clause in self.clauses)
 
 
 Domain = tuple[str, ...] | tuple[tuple[int, int], ...]
-"""What can occur: names, or closed intervals of raw numbers."""
+"""The values that can occur: names, or closed intervals of raw numbers."""
 
 ANY: Domain = ((-_LARGEST, _LARGEST),)
 """The domain of a number about which nothing is known."""

@@ -12,7 +12,7 @@ Severity = Literal["error", "warning"]
 class Span:
     """A place in a file: its path as the user named it, line and column from 1, and a width in characters.
 
-    Most places are never shown, so a place may be `sought`: its line and column are found when they are first needed.
+    Most places are never shown, so `sought` defers the search for line and column until they are needed.
     """
 
     __slots__ = ("_at", "_find", "file", "width")
@@ -47,12 +47,12 @@ class Span:
         return self.at[1]
 
     def moved(self, columns: int, width: int | None = None) -> Span:
-        """Return the place so many columns further on, with another width if one is given."""
+        """Return the place moved by a number of columns, with another width if one is given."""
         width = self.width if width is None else width
         return Span.sought(self.file, lambda: (self.line, self.column + columns), width)
 
     def in_file(self, name: str) -> Span:
-        """Return the same place in a file of another name."""
+        """Return the same place under another file name."""
         return Span(name, *self.at, self.width)
 
     def _facts(self) -> tuple[str, tuple[int, int], int]:
@@ -80,7 +80,7 @@ class Diagnostic(NamedTuple):
 
 
 MOST_FINDINGS = 1000
-"""The errors, and the warnings, that one report keeps; of the others it keeps the number."""
+"""The most errors, and the most warnings, that one report keeps; it counts the others."""
 
 
 class Report:
@@ -94,7 +94,7 @@ class Report:
         self._left_out: dict[tuple[Severity, int], Span] = {}
         """The places of findings beyond the limit, by level and hash."""
         self._stopped: Span | None = None
-        """The last error within the limit, if there were so many: then checks may have stopped there."""
+        """The last error within the limit, if the limit was reached: checks may have stopped there."""
 
     def error(
         self, rule: str, message: str, span: Span, hint: str | None = None, related: Iterable[tuple[Span, str]] = ()
@@ -103,7 +103,7 @@ class Report:
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), tuple(related)))
 
     def warning(self, rule: str, message: str, span: Span, hint: str | None = None) -> None:
-        """Add a warning: worth a look, but it does not stop the compilation."""
+        """Add a warning, which does not stop the compilation; the same finding counts once."""
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), (), "warning"))
 
     def extend(self, other: Report) -> None:
@@ -112,17 +112,17 @@ class Report:
         self._left_out.update(other._left_out)
         self._stopped = self._stopped or other._stopped
 
-    def also(self, span: Span, text: str) -> Report:
-        """Return the same findings, each with a further place, unless that is its own place."""
+    def with_place(self, span: Span, text: str) -> Report:
+        """Return the same findings, each with a related place, unless that is its own place."""
 
-        def with_place(finding: Diagnostic) -> Diagnostic:
+        def extended(finding: Diagnostic) -> Diagnostic:
             elsewhere = (finding.span.file, finding.span.at) != (span.file, span.at)
             return finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding
 
-        return self._mapped(with_place)
+        return self._mapped(extended)
 
     def in_files(self, name_of: Callable[[str], str]) -> Report:
-        """Return the same findings with other names of their files."""
+        """Return the same findings with other file names."""
 
         def renamed(finding: Diagnostic) -> Diagnostic:
             related = tuple((span.in_file(name_of(span.file)), text) for span, text in finding.related)
@@ -132,23 +132,23 @@ class Report:
 
     @property
     def findings(self) -> tuple[Diagnostic, ...]:
-        """All findings by file and place, errors before warnings of the same place; last how many are left out."""
+        """All findings by file and place, errors before warnings at one place; last how many are left out."""
         ordered = sorted(self._findings, key=lambda each: (each.span, each.severity, each.rule, each.message))
         return (*ordered, *self._more())
 
     @property
     def count(self) -> int:
-        """How many findings there are, with those that are left out."""
+        """The number of findings, including those left out."""
         return len(self._findings) + len(self._left_out)
 
     def count_of(self, severity: Severity) -> int:
-        """Return how many errors or warnings there are, with those that are left out."""
+        """Return the number of errors or warnings, including those left out."""
         kept = sum(finding.severity == severity for finding in self._findings)
         return kept + sum(level == severity for level, _ in self._left_out)
 
     @property
     def has_errors(self) -> bool:
-        """True if one of the findings is an error, so that nothing may be compiled."""
+        """True if a finding is an error; then nothing may be compiled."""
         return any(finding.severity == "error" for finding in self._findings)
 
     @property
@@ -174,7 +174,7 @@ class Report:
         return result
 
     def _more(self) -> Iterator[Diagnostic]:
-        """Yield a finding for each level of which some are left out."""
+        """Yield a finding for each level that has findings left out."""
         levels: tuple[Severity, ...] = ("error", "warning")
         for level in levels:
             spans = [span for (severity, _), span in self._left_out.items() if severity == level]

@@ -1,7 +1,7 @@
-"""The lowered model: what all compiled languages need to know of a device, worked out once, in numbers.
+"""The lowered model: what all compiled languages need to know of a device, computed once, in numbers.
 
-It stands between the model and the views of C, Rust and Python: the integers of a scale and their widths, and what is
-known of the points that a rule needs. A view asks it and writes the answer in its own language.
+It comes between the model and the views of the targets: the integers of a scale with their widths, and what is known
+of the points that a rule needs. A view reads it and writes the answer in its own language.
 """
 
 from collections.abc import Hashable, Mapping
@@ -13,12 +13,12 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
-from fieldscribe.code_view import Last, has_same_points
+from fieldscribe.code_view import DeviceCache, has_same_points
 from fieldscribe.model import Allowed, Device, Enum, Erratum, Factor, Linear, Point, Shape, Terms
 
 
 class TemplateKeys:
-    """Numbers points: those with the same number have the same text in every target, but for their fields.
+    """Numbers kinds of points: those of a kind have the same text in every target, except for their fields.
 
     Fields are the name, title, code, group and source of a point, its addresses, the numbers of its references, its
     default, the ends of a single range, and the name of an enum that is called after the point.
@@ -30,7 +30,7 @@ class TemplateKeys:
         self._terms: dict[int, int] = {}
 
     def of(self, point: Point) -> int:
-        """Return the key of a point."""
+        """Return the number of the point's kind."""
         shape, allowed, addresses = point.shape, point.allowed, point.place.addresses
         whole, unnamed, enum = self._shapes.get(id(shape)) or self._of_shape(shape)
         if not whole or allowed.moves or point.was or point.variant is not None or point.write_place is not None:
@@ -57,7 +57,7 @@ class TemplateKeys:
     def _of_shape(self, shape: Shape) -> tuple[int, int, str]:
         """Return the numbers of a shape with and without the name of its enum, and that name.
 
-        Texts, digits and scales that need other points follow from more than the shape: 0.
+        The numbers are 0 for texts, digits and scales that need other points, which follow from more than the shape.
         """
         enum = shape.enum
         if shape.text is not None or shape.digits is not None or shape.scale_arguments:
@@ -85,15 +85,15 @@ EXACT_FLOAT = 1 << 24
 
 
 class Plan(NamedTuple):
-    """The integers of a scale: `to_raw` leads from counts to raw numbers, `to_count` and `to_value` back.
+    """The integers of a scale: `to_raw` turns counts into raw numbers, `to_count` and `to_value` turn these back.
 
     `raws` are the raw numbers of the type. `numerator` is the largest integer on the way from a raw number to its
     value. `beyond` are the raw numbers whose counts fit 64 bits, None for all. Each `_wide` says that 32 bits are not
     enough. `fits_float` says that binary32 holds every integer on the way to and from values.
 
-    Every step is linear in its argument, so each intermediate is largest at one end of the arguments. Code divides with
-    rounding, for which it adds up to half the divisor to the size of the numerator: each proof leaves room for all of
-    the divisor. Decoding is asked for any raw number that the type holds.
+    Every step is linear in its argument, so each intermediate is largest at one end of the arguments. To round a
+    quotient, code adds up to half the divisor to the magnitude of the numerator: each proof leaves room for the whole
+    divisor. Decoding accepts any raw number that the type holds.
     """
 
     rule: Linear
@@ -113,9 +113,9 @@ class Plan(NamedTuple):
         return self.to_raw.does_nothing
 
     def counts(self, low: int, high: int) -> tuple[int, int]:
-        """Return the counts whose raw numbers lie in low..high, as far as they can be computed.
+        """Return the counts whose raw numbers lie in low..high and that code can compute.
 
-        They fit their type, and their numerators fit 64 bits; only special codes lie beyond.
+        They fit their type, and their numerators fit 64 bits; only special codes have larger ones.
         """
         least, greatest = INT64 if self.count_wide else INT32
         most = (INT64[1] - abs(self.to_raw.add)) // abs(self.to_raw.factor)
@@ -123,7 +123,7 @@ class Plan(NamedTuple):
         return max(first, least, -most), min(last, greatest, most)
 
     def encode_wide(self, counts: tuple[int, int]) -> bool:
-        """Return True if encoding these counts needs 64 bits; all others are refused before anything is computed."""
+        """Return True if encoding these counts needs 64 bits; code refuses all others before it computes."""
         return self.to_raw.largest(*counts) + self.to_raw.divisor > INT32[1]
 
 
@@ -152,11 +152,11 @@ def plan_of(shape: Shape) -> Plan:
 
 
 def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
-    """Return the raw numbers whose counts are computed in 64 bits; None if those are all of the type.
+    """Return the raw numbers whose counts code computes in 64 bits; None if those are all of the type.
 
     A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: the product
-    leaves room for that and for `add`. Where nothing is computed, the smallest number of 64 bits needs no room for a
-    sign that is turned round.
+    leaves room for that and for `add`. If nothing is computed, the smallest number of 64 bits is allowed too: it is
+    never negated.
     """
     p, q, r = to_raw
     high = (INT64[1] - abs(p) // 2 - abs(q)) // r
@@ -168,9 +168,9 @@ def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
 def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
     """Return the least and the greatest count whose rounded raw number lies in low..high.
 
-    A raw number is kept if the exact quotient lies less than a half outside its limit, or just a half on the side from
-    which rounding goes towards the limit: a half rounds away from zero, so it belongs to a limit above zero from below,
-    and to one below zero from above. Twice the numerator is compared, which is whole.
+    A count belongs to the interval if its exact quotient rounds into it: if it lies less than a half outside the limit,
+    or exactly a half and rounds towards the limit. A half rounds away from zero: up to a limit above zero, down to one
+    below. Twice the numerator is compared, because that is a whole number.
     """
     p, q, r = to_raw
     if p < 0:
@@ -192,10 +192,10 @@ _MANTISSA = 1 << 24
 
 
 class Operand(NamedTuple):
-    """A factor of a rule, with what is known of its point.
+    """A factor of a rule, with the numbers of its point.
 
     `held` are the least and greatest raw number of its type. `within` are the raw numbers with which the rule
-    is computed; None for all. `codes` are its special codes, which are no quantities. A `floating` factor is a
+    is computed; None for all. `codes` are its special codes. A `floating` factor is a
     value, a mantissa of 24 bits times a power of two; any other is raw * slope + intercept, which lies between `ends`.
     """
 
@@ -227,7 +227,7 @@ class Rule(NamedTuple):
 
     @property
     def coded(self) -> tuple[tuple[str, Band], ...]:
-        """The special codes of each operand's point: while it holds one, the rule cannot be computed."""
+        """The special codes of each operand's point, for which the rule has no result."""
         by_point = {operand.factor.point: operand.codes for operand in self.operands}
         return tuple((name, band) for name, codes in by_point.items() for band in codes)
 
@@ -242,14 +242,14 @@ class Lowered:
         self._errata = {erratum.id: erratum for erratum in device.errata if erratum.facts or erratum.leaves_open}
 
     def rule(self, linear: Linear) -> Rule:
-        """Return the lowered rule, shared by all points that have the same."""
+        """Return the lowered rule; equal rules are one object."""
         lowered = self._rules.get(linear)
         if lowered is None:
             lowered = self._rules[linear] = _rule(linear, self.points)
         return lowered
 
     def errata_of(self, point: Point) -> tuple[list[str], list[Erratum]]:
-        """Return the ids of errata that change a fact of the point, and those that leave one open.
+        """Return the ids of the errata that change a fact of the point or leave one open.
 
         Others are in the documentation only.
         """
@@ -263,12 +263,12 @@ class Lowered:
         return {id(point): key_of(point) for point in self.device.points}
 
 
-_last: Last[Lowered] = Last(has_same_points, most=2)
+_last: DeviceCache[Lowered] = DeviceCache(has_same_points, most=2)
 """The device that is compiled, and its sample for the proof of distinct names."""
 
 
 def lower(device: Device) -> Lowered:
-    """Return the lowered model of a device, made once for all that ask for the same points and errata."""
+    """Return the lowered model of a device; devices with the same points and errata share one."""
     return _last.of(device, Lowered)
 
 

@@ -16,11 +16,11 @@ _LONGEST = 64
 
 
 class HexError(ValueError):
-    """A text does not stand for bytes."""
+    """A text that is not bytes."""
 
 
 def parse_hex(text: str) -> bytes:
-    """Return the bytes that a text stands for. Raises HexError with what is wrong and where."""
+    """Return the bytes of a text. Raises HexError, which says what is wrong and where."""
     if data := _plain_bytes(text):
         return data
     spaced = _SEPARATORS.sub(" ", _MARK.sub(" 0x", text)).strip()
@@ -30,7 +30,7 @@ def parse_hex(text: str) -> bytes:
 
 
 def _plain_bytes(text: str) -> bytes:
-    """Return the bytes of digits alone; none for any other text."""
+    """Return the bytes of a text of digits only; no bytes for any other text."""
     try:
         return bytes.fromhex(text)
     except ValueError:
@@ -70,7 +70,7 @@ def typed_bytes(text: str, what: str, example: str) -> bytes:
 
 
 def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
-    """Return the arguments as one frame if each has one of these sizes: its quotes were forgotten."""
+    """Return the arguments as one frame if its quotes were forgotten: each argument has one of these sizes."""
     if len(words) > 2 and {len(word.strip()) for word in words} <= set(sizes):
         return [" ".join(words)]
     return list(words)

@@ -21,7 +21,7 @@ DEVICE_FILE = "device.yaml"
 
 
 class Models(NamedTuple):
-    """The whole model of a device, the same as generated code may know it, and the place of its version."""
+    """The whole model of a device, its view for generated code, and the place of its version."""
 
     whole: Device
     plain: Device
@@ -130,7 +130,7 @@ def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Re
 def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:
     """Yield all files of a device as (target, path below the output folder, text), the runtime of each target last.
 
-    `plain` is the device as generated code may know it, if the caller has it. Raises TargetError if a target fails.
+    `plain` is the view of the device for generated code, if the caller has it. Raises TargetError if a target fails.
     """
     from fieldscribe.code_view import for_code
     from fieldscribe.resources import render, templates_dir
@@ -142,7 +142,7 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
             seen = device if loaded.SEES_TITLES else (plain := plain or for_code(device))
             for path, text in loaded.outputs(seen, render):
                 yield name, path, text
-                del text  # perhaps megabytes, while the next one is made
+                del text  # frees perhaps megabytes before the next one is made
             for path, template in loaded.runtime(seen):
                 yield name, path, (templates_dir() / template).read_text("utf-8")
         except Exception as error:

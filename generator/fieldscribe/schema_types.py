@@ -1,4 +1,4 @@
-"""The classes that the table of keys is made of: where a key stands, which values it takes, and what they mean.
+"""The classes of the table of keys: the places of a key, the values that it takes, and their meaning.
 
 They are plain classes, compared by identity: the table is made in every run, and dataclasses would double that time.
 """
@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 class Form:
     """The form of a text or of a key: a regular expression of ECMAScript, its name in messages, and a hint.
 
-    `sign` stands for such a key in KEYS.md.
+    `sign` represents such a key in KEYS.md.
     """
 
     def __init__(self, pattern: str, words: str, hint: str, sign: str = "") -> None:
@@ -54,7 +54,7 @@ NUMBER = Plain("a number", "number", int, Decimal)
 BOOLEAN = Plain("true or false", "boolean", bool)
 NOTHING = Plain("~", "null", type(None))
 YES_NO = BOOLEAN, one_of("yes", "no")
-"""For every key that is true or false: people write `yes` and `no`; `true` and `false` mean the same."""
+"""The kinds of every key that is true or false: people write `yes` and `no`; `true` and `false` mean the same."""
 
 
 class Items:
@@ -70,7 +70,7 @@ class Place:
     """A mapping: it may have the keys of the table that name this place, and keys of some forms (`by_form`).
 
     A place with a `name` is a definition of the schema, one with a `heading` a table of KEYS.md. `before` and `after`
-    are other kinds of values that may stand in its stead. It may also have the keys of the place `may_be`: then all
+    are kinds of values that are allowed instead of it. It may also have the keys of the place `may_be`; then all keys
     that are required there.
     """
 
@@ -114,17 +114,17 @@ class ValueShape:
 
 
 class Places:
-    """Places where a key may stand; in the `inherited` ones it applies to all points below."""
+    """Places where a key may appear; in the `inherited` ones it applies to all points below."""
 
     def __init__(self, *places: Place, inherited: tuple[Place, ...] = ()) -> None:
         self.all, self.inherited = places, inherited
 
 
 class Key:
-    """One key: its name, the places where it may stand, and the shape of its value, or its meaning: see `takes`.
+    """One key: its name, the places where it may appear, and the shape of its value, or its meaning: see `takes`.
 
-    `required` are the places that must have it; `needs` are the keys that must stand beside it. A key of the `identity`
-    tells a point from others, so further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS,
+    `required` are the places that must have it; `needs` are the keys that it requires beside it. An `identity` key
+    identifies a point, so further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS,
     NUMBERS, TEXTS, or "" for all.
     """
 
@@ -150,7 +150,7 @@ class Key:
         self.needs, self.identity, self.of = needs, identity, of
 
     def takes(self, examples: Sequence[Any], *kinds: Kind) -> Key:
-        """Set which values the key takes: examples, the best one first, and the kinds that they are of."""
+        """Set the values that the key takes: examples, the best one first, and the kinds of values."""
         self.shape = ValueShape(self.shape.meaning, examples, *kinds)
         return self
 

@@ -1,7 +1,7 @@
 """Lists and searches descriptions.
 
-Summaries are read quickly, because no point is resolved. Entries are everything that has a name, with its texts; words
-are searched in these, and the nearest hits come first.
+Summaries are read quickly, because no point is resolved. An entry is anything with a name, with its texts. Words
+are searched in these; the nearest hits come first.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _FAULT_NAMES = ("fault", "error", "trip", "alarm")
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A text of an entry: what it is, where it stands, and the number that it names (in an enum)."""
+    """A text of an entry: its kind, its place, and the number that it names (in an enum)."""
 
     kind: str
     text: str
@@ -46,7 +46,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A point, command, message, code, ...; `number` is that of a code; `lists_faults` if its numbers are faults."""
+    """A point, command, message, code, ...; `number` is that of a code; `lists_faults`: its numbers are faults."""
 
     device: str
     kind: str
@@ -194,19 +194,19 @@ def summary_of(device_file: Path) -> Summary | None:
 
 
 _FAULTS = frozenset({"error", "exception", "fault"})
-"""Kinds of codes that people take for the same."""
+"""Kinds of codes that people do not distinguish."""
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _WORD = re.compile(r"\w+(?:[.-]\w+)*")
 _WEIGHTS = {"name": 0, "code": 0, "section": 1, "number": 1, "title": 2, "old name": 3, "flag": 4, "group": 6}
 _OTHER_WEIGHT = 5
 _WHOLE, _WHOLE_WORD, _PREFIX, _INSIDE = 0, 10, 20, 30
-"""Ranks of a match: the whole text, a word of it, the start of a word, some letters. The lower, the nearer."""
+"""Ranks of a match: the whole text, a word of it, the start of a word, some letters. The lower the rank, the nearer."""
 _LEAST_INSIDE = 3
 
 
 @dataclass(frozen=True, slots=True)
 class Hit:
-    """An entry with all the words: the texts that have them, the nearest first, and a rank: the lower, the nearer."""
+    """An entry that has all the words: the matching texts, the nearest first, and a rank (low is near)."""
 
     entry: Entry
     texts: tuple[Text, ...]
@@ -243,7 +243,7 @@ def _hit(entry: Entry, queries: Sequence[_Query]) -> Hit | None:
 
 
 class _Query:
-    """A word that is searched: folded, and the number that it may mean."""
+    """A search word: folded, with the number that it may mean."""
 
     def __init__(self, word: str) -> None:
         kind, colon, rest = word.strip().partition(":")
@@ -262,7 +262,7 @@ class _Query:
         return min(ranks) + _WEIGHTS.get(text.kind, _OTHER_WEIGHT) if ranks else None
 
     def _rank_of_number(self, entry: Entry, text: Text) -> int | None:
-        """Rank `error:21h`, which is a code of that kind, or an entry of a list of faults."""
+        """Return the rank for `error:21h`: a code of that kind, or an entry of a list of faults."""
         if text.number != self.number:
             return None
         if entry.number is not None:
@@ -287,7 +287,7 @@ class _Query:
 
 @lru_cache(maxsize=65536)
 def _folded(text: str) -> tuple[str, str]:
-    """Return the text without case and marks, with umlauts as `ae` and as `a`."""
+    """Return the text without case and accents, once with umlauts as `ae` and once as `a`."""
     lowered = text.casefold().strip()
     if lowered.isascii():
         return lowered, lowered

@@ -1,4 +1,4 @@
-"""Encodes text from a description as a comment or a literal of a language; nothing else does.
+"""Encodes text from a description as a comment or a literal of a language; no other module does.
 
 Descriptions come from anybody. Whatever a title holds, the result stays inside its comment or its quotes.
 """
@@ -41,7 +41,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return what somebody typed or wrote as messages repeat it: clean, on one line, at most 60 characters."""
+    """Return a text as messages quote it: clean, on one line, at most 60 characters."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."
 
@@ -93,7 +93,7 @@ def python_doc(text: str) -> str:
 
 
 def rust_code(text: str) -> str:
-    """Return text as code for a Rust `///` or `//` line: rustdoc and clippy take it as it is."""
+    """Return text as code for a Rust `///` or `//` line, which rustdoc and clippy accept unchanged."""
     if _BARE.fullmatch(text):
         return f"`{text}`"
     return f"`{line(text).replace('`', chr(39))}`"
@@ -116,11 +116,11 @@ def toml_string(text: str) -> str:
 
 
 _SCRIPT = re.compile(r"<(?=[!/])|(?<=--)>")
-"""What would end or begin something if the code stood in a page: `</script`, `<!--`, `-->`."""
+"""What would end or begin an element if the code were in a page: `</script`, `<!--`, `-->`."""
 
 
 def js_string(text: str) -> str:
-    """Return a JavaScript string literal with its quotes, which is safe in a page too."""
+    """Return a JavaScript string literal with its quotes, which is safe inside a page too."""
     if _BARE.fullmatch(text):
         return f'"{text}"'
     cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
@@ -159,7 +159,7 @@ def html_code(text: str) -> str:
 
 
 _FORMULA_SIGNS = frozenset("=+-@\uff1d\uff0b\uff0d\uff20")
-"""What starts a formula in spreadsheets; some take the full-width forms of Asian keyboards, too."""
+"""What starts a formula in spreadsheets; some accept the full-width forms of Asian keyboards too."""
 
 
 def csv_cell(text: str) -> str:
@@ -190,7 +190,7 @@ def pascal(name: str) -> str:
 
 @lru_cache(maxsize=65536)
 def camel(name: str) -> str:
-    """Return `base_frequency` as `baseFrequency`; an underscore between digits stays, and so does one at an end."""
+    """Return `base_frequency` as `baseFrequency`; underscores between digits and at the ends stay."""
     first, *parts = name.split("_")
     result = first
     for part in parts:

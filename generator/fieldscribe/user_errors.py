@@ -1,10 +1,10 @@
-"""The errors for a request of a user that cannot be met, and hints with near names."""
+"""The errors for a request that cannot be fulfilled, and hints with near names."""
 
 from fieldscribe.text import line
 
 
 class UnclearError(Exception):
-    """The device does not have what the user named, or has it more than once; `hint` may be empty."""
+    """The device does not have what the user named, or has several of them; `hint` may be empty."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -39,7 +39,7 @@ def either(names: list[str]) -> str:
 
 
 def can_package(interface: str, error: Exception) -> str:
-    """Return how to install what an interface of python-can lacks; empty if the error is about something else."""
+    """Return how to install the package that an interface of python-can lacks; empty for any other error."""
     if not ("not installed" in str(error) or isinstance(error, ImportError)):
         return ""
     from importlib.metadata import metadata

@@ -225,7 +225,7 @@ def test_a_further_place_is_told_but_not_to_whom_it_happened() -> None:
     report, elsewhere = Report(), (Span("a", 3, 1), "used here")
     report.error("a", "here", Span("a", 3, 1, 5))
     report.error("a", "there", Span("a", 1, 1), related=[(Span("b", 1, 1), "first")])
-    related = [finding.related for finding in report.also(*elsewhere).findings]
+    related = [finding.related for finding in report.with_place(*elsewhere).findings]
     assert related == [((Span("b", 1, 1), "first"), elsewhere), ()]
 
 

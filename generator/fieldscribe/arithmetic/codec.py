@@ -1,6 +1,6 @@
 """The exact arithmetic of one point: values to raw numbers and back, as rationals, with run-time factors given.
 
-It knows neither words on the wire nor buses. A CodecError names other points whose raw numbers are needed.
+It knows neither words on the wire nor buses. A CodecError names the other points whose raw numbers are missing.
 """
 
 from collections.abc import Iterable, Mapping
@@ -17,7 +17,7 @@ Settings = Mapping[str, int | Fraction]
 """The raw numbers of other points by name, as rules need them; for f32 and f64 points the values (`setting_of`)."""
 
 MOST_EXPONENT = 30
-"""The largest exponent of ten that a point may be: 10^30 is beyond any device."""
+"""The largest exponent of ten that a point may hold: 10^30 is beyond any device."""
 
 
 class CodecError(Exception):
@@ -25,7 +25,7 @@ class CodecError(Exception):
 
     `status` is the status in generated code (`out_of_range`, `zero_factor`, ...) or `missing`. `missing` names the
     points whose raw numbers are needed but not given, or the point that causes the error. `special` is the special code
-    that was met instead of a quantity.
+    found instead of a quantity.
     """
 
     def __init__(self, status: str, missing: Iterable[str] = (), special: Special | None = None) -> None:
@@ -53,7 +53,7 @@ class Window:
 
 
 def setting_of(point: Point, raw: int) -> int | Fraction:
-    """Return the setting of a point that holds this raw number; 0 for a bit pattern that is no number."""
+    """Return the setting of a point that holds this raw number; 0 for a bit pattern that is not a number."""
     coded = point.special(raw) is not None
     if not point.info.floating:
         return _Code(raw) if coded else raw
@@ -155,7 +155,7 @@ def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
 
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
-    """Return the number closest to `raw` that may certainly be written and is no special code; None without one."""
+    """Return the number closest to `raw` that may certainly be written and is not a special code; None without one."""
     known = [window for window in windows(point, settings) if not window.missing and window.low <= window.high]
     ends = [end for window in known if point.special(end := min(max(raw, window.low), window.high)) is None]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)

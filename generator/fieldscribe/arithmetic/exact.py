@@ -26,14 +26,14 @@ def nearest(number: int, divisor: int) -> int:
 
 
 def float_of(pattern: int, bits: int) -> float:
-    """Return the number that a pattern of 32 or 64 bits is."""
+    """Return the floating-point number of a pattern of 32 or 64 bits."""
     number, whole = _FORMATS[bits]
     result: float = struct.unpack(number, struct.pack(whole, pattern))[0]
     return result
 
 
 def pattern_of(value: float | Fraction, bits: int) -> int:
-    """Return the pattern of the nearest number, ties to even. Raises OverflowError if that is infinite."""
+    """Return the bit pattern of the nearest number, ties to even. Raises OverflowError if that is infinite."""
     number, whole = _FORMATS[bits]
     result: int = struct.unpack(whole, struct.pack(number, float(value)))[0]
     return result
@@ -71,12 +71,12 @@ class Line(NamedTuple):
         return (Fraction(result) * self.divisor - self.add) / self.factor
 
     def meets(self, arguments: Iterable[int]) -> Iterator[int]:
-        """Yield every integer that occurs between these arguments and the division."""
+        """Yield every intermediate integer of these arguments, before the division."""
         for argument in arguments:
             yield from (argument, argument * self.factor, argument * self.factor + self.add)
 
     def largest(self, low: int, high: int) -> int:
-        """Return the largest magnitude that occurs between these arguments and the division."""
+        """Return the largest magnitude of the intermediate integers of these arguments, before the division."""
         first, last = low * self.factor, high * self.factor
         met = (low, high, first, last, first + self.add, last + self.add)
         return max(*met, -min(met))

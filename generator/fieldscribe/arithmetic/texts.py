@@ -1,4 +1,4 @@
-"""Texts and the words that hold them; bytes in the notation that people use for them, and dates that count seconds."""
+"""Texts and the words that hold them; bytes in their notations, and dates as counted seconds."""
 
 import re
 from datetime import UTC, datetime, timedelta
@@ -14,7 +14,7 @@ _ADDRESSES: dict[str, type[IPv4Address | IPv6Address]] = {"ipv4": IPv4Address, "
 
 
 def notated(notation: str, data: bytes) -> str:
-    """Return bytes as people write them: `192.168.0.1`, `00:1A:2B:3C:4D:5E`, `1.2.0.14`, `001A2B`."""
+    """Return bytes in their notation: `192.168.0.1`, `00:1A:2B:3C:4D:5E`, `1.2.0.14`, `001A2B`."""
     if notation in _ADDRESSES:
         return str(_ADDRESSES[notation](data))
     if notation.startswith("version"):
@@ -24,7 +24,7 @@ def notated(notation: str, data: bytes) -> str:
 
 
 def bytes_of(notation: str, text: str, count: int) -> bytes | None:
-    """Return the bytes of such a text; None if these are not `count` bytes in the notation."""
+    """Return the bytes of such a text; None if it is not `count` bytes in the notation."""
     try:
         if notation in _ADDRESSES:
             return None if "%" in text else _ADDRESSES[notation](text.strip()).packed
@@ -44,7 +44,7 @@ def bytes_of(notation: str, text: str, count: int) -> bytes | None:
 
 
 def date_of(epoch: str, seconds: Fraction) -> str:
-    """Return the time so many seconds after a date: `2026-11-29T12:00:00Z`; empty if it is later than 9999-12-31."""
+    """Return the time a number of seconds after a date: `2026-11-29T12:00:00Z`; empty after 9999-12-31."""
     try:
         time = _start(epoch) + timedelta(microseconds=half_away(seconds * _MICRO))
     except OverflowError:
@@ -53,12 +53,12 @@ def date_of(epoch: str, seconds: Fraction) -> str:
 
 
 def epoch_in_unix(epoch: str) -> int:
-    """Return how many seconds after 1970-01-01 a date is."""
+    """Return a date as seconds after 1970-01-01."""
     return (_start(epoch) - _start("1970-01-01")) // timedelta(seconds=1)
 
 
 def seconds_of(epoch: str, text: str) -> Fraction | None:
-    """Return how many seconds after a date a time is, in UTC if it says no zone; None for what is no time."""
+    """Return a time as seconds after a date (UTC if it has no zone); None if the text is not a time."""
     try:
         time = datetime.fromisoformat(text.strip())
     except ValueError:
@@ -76,7 +76,7 @@ _CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-be"}
 
 
 def text_of(layout: Text, pattern: int) -> str:
-    """Return the text that all words as one number hold, without what fills it up. Raises UnicodeDecodeError."""
+    """Return the text of all words, given as one number, without its padding. Raises UnicodeDecodeError."""
     data, size = _swapped(layout, pattern.to_bytes(2 * layout.words, "big")), _size(layout)
     codes = (data if layout.per_word * size > 1 else data[1::2])[: layout.characters * size]
     if layout.is_bytes:
@@ -86,7 +86,7 @@ def text_of(layout: Text, pattern: int) -> str:
 
 
 def length_of(layout: Text, text: str) -> int:
-    """Return how many of its characters a text takes: bytes, or words of UTF-16. Raises UnicodeEncodeError."""
+    """Return the length of a text in units of its encoding: bytes, or words of UTF-16. Raises UnicodeEncodeError."""
     return len(text.encode(_codec(layout))) // _size(layout)
 
 
@@ -101,7 +101,7 @@ def fits(layout: Text, text: str) -> bool:
 
 
 def pattern_of_text(layout: Text, text: str) -> int:
-    """Return all words of a text that fits as one number, filled up."""
+    """Return all words of a text that fits, padded, as one number."""
     size = _size(layout)
     codes = bytes_of(layout.encoding, text, layout.characters) if layout.is_bytes else None
     codes = text.rstrip(_BLANK).encode(_codec(layout)) if codes is None else codes
@@ -119,5 +119,5 @@ def _size(layout: Text) -> int:
 
 
 def _swapped(layout: Text, data: bytes) -> bytes:
-    """Return the bytes, those of each word the other way round where the low one comes first."""
+    """Return the bytes, those of each word exchanged if the low one comes first."""
     return b"".join(data[at : at + 2][::-1] for at in range(0, len(data), 2)) if layout.low_first else data

@@ -7,14 +7,14 @@ from struct import unpack_from
 from fieldscribe.model import Point, Special
 
 BCD = "bcd"
-"""Decimal digits of four bits each. Bits that are no such number stand for a number that has too many digits."""
+"""Decimal digits of four bits each. Bits that are not such a number represent one with too many digits."""
 
 MAGNITUDE = "sign and magnitude"
 """The highest bit is the sign of the number in the others; minus zero reads as 0."""
 
 
 def coded_ends(width: int, coding: str) -> tuple[int, int]:
-    """Return the least and the greatest number that so many bits can hold."""
+    """Return the least and the greatest number that this many bits can hold."""
     if coding == BCD:
         return 0, int(10 ** (width // 4)) - 1
     most = (1 << width - 1) - 1
@@ -22,9 +22,9 @@ def coded_ends(width: int, coding: str) -> tuple[int, int]:
 
 
 def coded_number(pattern: int, width: int, coding: str) -> int:
-    """Return the number in a pattern; of digits that are none, the pattern itself or the least number that is too long.
+    """Return the number in a pattern; for invalid digits, the pattern itself or the least number that is too long.
 
-    So a code such as FFFFh, which is no decimal number, stays a number of its own.
+    So a code such as FFFFh, which has no decimal digits, stays a distinct number.
     """
     if coding == MAGNITUDE:
         sign = 1 << width - 1
@@ -41,12 +41,12 @@ def coded_pattern(raw: int, width: int, coding: str) -> int:
 
 
 def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
-    """Return the least and the greatest number of a type with so many bits."""
+    """Return the least and the greatest number of a type with this many bits."""
     return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
 
 
 def fits(numbers: Iterable[int], bits: int) -> bool:
-    """Return True if a signed integer of so many bits holds all the numbers."""
+    """Return True if a signed integer of this many bits holds all the numbers."""
     low, high = ends_of(bits, signed=True)
     return all(low <= number <= high for number in numbers)
 
@@ -86,7 +86,7 @@ def split(raw: int, count: int) -> tuple[int, ...]:
 
 
 def exchanged(point: Point, *words: int) -> tuple[int, ...]:
-    """Return words with their bytes as the point has them: exchanged if its low byte comes first."""
+    """Return words with the bytes in the order of the point: exchanged if its low byte comes first."""
     return tuple([(word & 0xFF) << 8 | word >> 8 for word in words]) if point.swapped else words
 
 
@@ -103,7 +103,7 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
 
 
 def reader_of(point: Point) -> Callable[[Sequence[int]], int]:
-    """Return the function that `raw_of` is for this point; it is made once and then quicker."""
+    """Return a function that does for this point what `raw_of` does, and is quicker."""
     plain = point.text is None and point.bits is None and not (point.coding or point.swapped)
     if not plain or point.width != 16 * point.words or point.words not in (1, 2):
         return partial(raw_of, point)
@@ -125,7 +125,7 @@ def pattern_of(point: Point, raw: int) -> int:
 
 
 def words_of(point: Point, raw: int, count: int = 0) -> tuple[int, ...]:
-    """Return the unsigned words of a raw number; `count` if these are not as many as the point has."""
+    """Return the unsigned words of a raw number: `count` words if given, else as many as the point has."""
     return exchanged(point, *split(pattern_of(point, raw), count or point.words))
 
 

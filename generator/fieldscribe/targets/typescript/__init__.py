@@ -5,7 +5,7 @@ from itertools import chain
 from operator import eq
 
 from fieldscribe import __version__
-from fieldscribe.code_view import Last
+from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import head_lines
@@ -43,7 +43,7 @@ Views = Mapping[str, dict[str, object]]
 """The context of each module by its name."""
 
 
-_last: Last[Views] = Last(eq)
+_last: DeviceCache[Views] = DeviceCache(eq)
 """A package and a page have the same scripts."""
 
 

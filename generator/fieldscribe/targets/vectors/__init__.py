@@ -6,7 +6,7 @@ This target shares no code with the others, so that a mistake in one of them can
 from collections.abc import Iterable
 from operator import eq
 
-from fieldscribe.code_view import Last
+from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names
@@ -16,7 +16,7 @@ FAMILY_PART = ""
 WEIGHT = 0.9
 BEFORE_POINTS = ("",)
 
-_last: Last[str] = Last(eq)
+_last: DeviceCache[str] = DeviceCache(eq)
 """Vectors as text: a page and a file have the same."""
 
 
