@@ -196,7 +196,8 @@ def _check_aliased(check: Check, value: Any, holder: Any, at: Any, report: Repor
         copy, findings = value.copied(), Report()
         is_right = check(copy, holder, at, findings)
         if findings.count:  # only then places in the text are needed
-            report.extend(findings if value.span() == holder.span(at) else findings.with_place(holder.span(at), "used here"))
+            use = holder.span(at)
+            report.extend(findings if value.span() == use else findings.with_place(use, "used here"))
         value.uses[check] = copy, is_right
     holder[at], is_right = value.uses[check]
     return bool(is_right)

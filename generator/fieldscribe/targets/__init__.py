@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Names
 
     class Target(Protocol):
-        """What a target's module offers."""
+        """The interface of a target's module."""
 
         SEES_TITLES: bool
         """True if it gets titles, notes and sources too; the other targets get names only (code_view.py)."""
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
         """The part of a family without which it cannot compile a device; empty if it needs none."""
 
         BEFORE_POINTS: tuple[str, ...]
-        """Words between the device's name and the full name of a point in identifiers, so that checks need not compare
-        all of them; empty if there are identifiers without it.
+        """The words that may come between the names of device and point in identifiers: with them a proof replaces
+        the comparison of all identifiers. Empty if some identifier of a point lacks its full name.
         """
 
         WEIGHT: float
-        """How long it takes beside the others; two processes share the targets of a large run by it."""
+        """Its time relative to the others; two processes divide the targets of a large run by it."""
 
         def outputs(self, device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
             """Return the files of a device: path below the output folder, and text.
@@ -61,7 +61,7 @@ TARGETS = (
 
 
 def target(name: str) -> Target:
-    """Return the target of that name; its module is imported when first asked for."""
+    """Return the target of that name; its module is imported on first use."""
     module: Any = import_module(f"fieldscribe.targets.{name}")
     target_module: Target = module
     return target_module

@@ -20,7 +20,7 @@ WEIGHT = 0.9
 BEFORE_POINTS = ("", "read", "write", "store")
 
 _HERE = "\0"
-"""Stands for the functions of points: no text of a description holds it."""
+"""Placeholder for the functions of points: no text of a description holds it."""
 
 FramesPart = Literal["all", "constants", "calls"]
 """What the header of frames holds."""
@@ -31,7 +31,7 @@ def outputs(
 ) -> Iterable[tuple[str, str]]:
     """Yield the headers of points and frames, and the conformance program: path below the output folder, and text.
 
-    With `constants` the header of frames has constants alone, or is left out where the family has no facts header; with
+    With `constants` the header of frames has only constants, or is left out if the family has no facts header; with
     `calls` it leaves out the descriptors of points that calls read and write. With `rows` there is a header of macros
     that are rows of tables.
     """

@@ -12,14 +12,14 @@ from fieldscribe.text import upper
 
 
 class Transfer(NamedTuple):
-    """The family, and the arguments of its macros that say what reads and writes a point; empty if nothing does."""
+    """The family, and the arguments of its macros for reading and writing a point; empty for what is not possible."""
 
     family: str
     read: str = ""
     write: str = ""
     store: str = ""
     base: str = ""
-    """The name of what the addresses count from; empty if that is 0."""
+    """The name of the base of the addresses; empty if they count from 0."""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
@@ -59,8 +59,8 @@ def call_cases(
 ) -> Iterator[str]:
     """Yield the macros of the conformance program that call these functions; `arguments` passes other points' numbers.
 
-    A value to write is what the raw number decodes to, if that encodes to it. None is written where a point is only
-    written and not raw, or has counts of a floating-point number, which not every pattern is.
+    The value to write is the decoded raw number, if encoding it gives the raw number back. Points that are only written
+    and not raw have no such test, nor do counts of floating-point numbers, which not every pattern has.
     """
     if view.shape == "text":
         return
@@ -109,7 +109,7 @@ def _value(view: PointView) -> tuple[str, str, str | None]:
 
 
 def _decoding(view: PointView, value: str, tail: str | None, passed: tuple[str, ...]) -> tuple[str, ...]:
-    """Return how the words become the value: which macro, and its arguments."""
+    """Return the macro that turns the words into the value, and its arguments."""
     raw = _raw_of_words(view)
     if tail is None:
         return "READ", value, raw

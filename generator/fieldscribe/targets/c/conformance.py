@@ -69,7 +69,7 @@ def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], re
 
 
 def _form(view: PointView) -> str:
-    """Return the macro of the functions that take and put the raw number of a point in a form of its own."""
+    """Return the macro for the functions that take and put a raw number with a coding or byte order of its own."""
     name = view.function
     ways = f"{name}_from_words(words)", f"{name}_to_words(raw, words)"
     if view.point.bits is not None:
@@ -232,7 +232,8 @@ def _special_code_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
 def _structs_of(point: Point, scope: HeaderScope) -> Iterator[dict[str, object]]:
     """Yield a function for each set of several raw numbers that some function of the point needs.
 
-    It fills a struct with the numbers in a vector; a `floating` one is for functions with floating point only.
+    The function fills a struct with the numbers in a vector; a `floating` one serves functions with floating point
+    only.
     """
     counts = point.decimals is not None
     integer = [point.limit_arguments] if point.writable else []

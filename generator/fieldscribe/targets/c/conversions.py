@@ -18,7 +18,7 @@ _POWERS = 9
 
 
 def value_type(point: Point) -> str:
-    """Return the C type in which an integer value is passed: wider than the point, so that it can be out of range."""
+    """Return the C type that passes an integer value: wider than the point, so that the value can be out of range."""
     if point.info.bits <= 16:
         return "int32_t"
     return "uint64_t" if point.type == "u64" else "int64_t"
@@ -47,7 +47,7 @@ class Writer:
     # ---- for points of every form
 
     def check(self) -> Function:
-        """Return the function that tells whether a raw number may be written."""
+        """Return the function that checks whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.fields, self.scope))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
@@ -65,13 +65,13 @@ class Writer:
         return function(STATUS, f"{self.name}_{tail}", parameters, *body, floating=floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
-        """Return the statement that stores `number` if `inside` holds and it may be written, else returns `outside`."""
+        """Return the statement that stores `number` if `inside` and it may be written, else returns `outside`."""
         status = self._checked(number) if is_rechecked(self.point) else "FIELDSCRIBE_OK"
         kept = f"fieldscribe_keep_{self.kind}({status}, {number}, raw)"
         return f"return {inside} ? {kept} : {outside};" if inside else f"return {kept};"
 
     def _whole(self, whole: str) -> tuple[str, ...]:
-        """Return the statements that store a whole number, checked first where a check is needed."""
+        """Return the statements that store a whole number, after a check if one is needed."""
         if not is_rechecked(self.point):
             return (f"return fieldscribe_store_{self.kind}({whole}, raw);",)
         number = f"({self.type})whole.number"
@@ -95,7 +95,7 @@ class Writer:
         return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};", floating=floating)
 
     def _unless_code(self, status: str) -> str:
-        """Return the status of decoding `raw`: of a special code that it is one."""
+        """Return the status of decoding `raw`, which may be a special code."""
         return status if self.special is None else f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {status}"
 
     # ---- points whose raw number is the value
@@ -151,7 +151,7 @@ class Writer:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
 
     def _outer(self) -> str:
-        """Return the limits as two arguments: by their macros where a check follows, else as numbers."""
+        """Return the limits as two arguments: their macros if a check follows, else numbers."""
         reach = encoded_limits(self.point)
         if reach != self.point.outer:
             return ", ".join(map(bare, reach))
@@ -197,7 +197,7 @@ class Writer:
             yield self._by_rule("decode", "double *value", core, floating=True)
 
     def _powers(self) -> str:
-        """Return the core for a scale that is a power of ten alone, of few values that all fit; empty for others."""
+        """Return the core for a scale that is only a power of ten, with few values that all fit; empty for others."""
         point, (case, *others) = self.point, self.point.scale or ()
         rule = self.scope.lowered.rule(case.rule)
         if others or len(rule.operands) != 1 or rule.offset or rule.coded or point.most_raw is not None:
@@ -250,7 +250,7 @@ class Writer:
             yield self._decode("decode", real, f"fieldscribe_f{bits}_of_bits(raw)", floating=True)
 
     def _counted_floats(self, tens: str) -> Iterator[Function]:
-        """Yield the functions of an f32 point that says how fine its counts are."""
+        """Yield the functions of an f32 point that gives the decimals of its counts."""
         point = self.point
         if point.writable:
             yield self._encode(

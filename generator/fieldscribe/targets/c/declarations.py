@@ -1,4 +1,4 @@
-"""What stands above the functions of a point: its comment, and the macros of its place, its limits and its masks."""
+"""The part before the functions of a point: its comment, and the macros of its place, its limits and its masks."""
 
 from collections.abc import Iterator
 
@@ -14,7 +14,7 @@ from fieldscribe.text import c_comment, upper
 
 
 class PointComment:
-    """The comment above points: what users of the code must know, without titles and notes.
+    """Builds the comment above a point: what users of the code must know, without titles and notes.
 
     It gives the code, name, range, unit, step, access, space and default of a point, then rare facts, and the errata
     that changed one of these. All but code, name, range, references and default follow from the template key.
@@ -73,7 +73,7 @@ def range_words(point: Point) -> str:
 
 
 def _steps(point: Point) -> Iterator[str]:
-    """Yield the unit of one count, and the steps of the device where they are coarser; at least the unit of values."""
+    """Yield the unit of a count, and the device's steps if they are coarser; without counts, the unit of values."""
     has_steps = point.form in ("scaled", "float")
     count, step = (wording.count_text(point), wording.resolution_text(point)) if has_steps else ("", "")
     if step and step != count:
@@ -111,7 +111,7 @@ def shares_values(point: Point) -> bool:
 
 
 def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
-    """Yield the macros that say where a point is."""
+    """Yield the macros of the place of a point."""
     macro = f"{scope.upper}_{fields.macro}"
     if not point.place.addresses:
         return

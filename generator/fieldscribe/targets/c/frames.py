@@ -1,4 +1,4 @@
-"""What the headers of all families have: constant descriptors of points, and layouts that many points share."""
+"""The parts of a header that all families have: constant descriptors of points, and layouts that many points share."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Descriptor(NamedTuple):
     name: str
     value: str
     tail: str = ""
-    """The part of the name after the name of the point; empty for layouts and commands."""
+    """The end of the name, after the name of the point; empty for layouts and commands."""
 
     @property
     def parted(self) -> bool:
@@ -65,7 +65,7 @@ class Frames:
         return self._made[view].cases if view in self._made else ()
 
     def transfer(self, view: PointView) -> Transfer:
-        """Return what the functions that read and write a point do."""
+        """Return the transfers of the functions that read and write a point."""
         return self._made[view].transfer if view in self._made else Transfer("")
 
     def text(self, render: Render, scope: HeaderScope | None) -> str:
@@ -155,7 +155,7 @@ class CFamily(Protocol):
     """The part `targets.c` of a family. Its template and its runtime have the family's name."""
 
     NAMED_CODES: tuple[str, ...]
-    """The kinds of codes for which a function gives the name."""
+    """The kinds of codes that have a function for their names."""
 
     HAS_FACTS: bool
     """True if the runtime's types are in a header of their own, which constants need without its functions."""
@@ -188,7 +188,7 @@ class Layouts:
         self._known: dict[str, Descriptor] = {}
 
     def of(self, point: Point, high_first: Sequence[int]) -> str:
-        """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
+        """Return a reference to the layout of a point; `high_first` has the positions of its words, high word first."""
         kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = "".join(map(str, high_first)).rjust(2, "0")
         form = "coded" if point.coding else "low_first" if point.swapped else ""
@@ -202,7 +202,7 @@ class Layouts:
 
     @property
     def descriptors(self) -> tuple[Descriptor, ...]:
-        """All layouts that points asked for."""
+        """All layouts that points use."""
         return tuple(self._known.values())
 
 
@@ -222,7 +222,7 @@ def _mask(point: Point) -> int:
 
 
 def _tail(point: Point, order: str, mask: int) -> str:
-    """Return the part of a layout's name that tells it from others of its type."""
+    """Return the end of a layout's name, which distinguishes it among those of its type."""
     parts = [f"{point.width}_bits"] if point.shape.narrow else []
     parts += [f"order_{order}"] if point.words > 1 else []
     if point.bits is not None:
@@ -235,7 +235,7 @@ def _tail(point: Point, order: str, mask: int) -> str:
 
 
 def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, str], ...]:
-    """Return the codes with which a device refuses: enumerator, number and comment."""
+    """Return the codes of refusals: enumerator, number and comment."""
     return tuple(
         (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
         for code in device.bus.exceptions

@@ -1,4 +1,4 @@
-"""Structs with a member for each point of a group or telegram, what fills one, and rows of a user's table."""
+"""Structs with a member for each point of a group or telegram, the code that fills them, and rows of a user's table."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.text import c_comment, c_string
 
 _ITSELF = Line(1, 0, 1)
-"""The line from a raw number to itself."""
+"""The identity."""
 
 
 def has_row(view: PointView) -> bool:
@@ -29,14 +29,14 @@ def has_row(view: PointView) -> bool:
 
 
 def is_written_by_row(view: PointView) -> bool:
-    """Return True if two fixed limits say what may be written."""
+    """Return True if what may be written is an interval with fixed limits."""
     return view.shape != "digits" and not is_rechecked(view.point)
 
 
 def facts_of(view: PointView, raw_decimals: str) -> list[str]:
     """Return the limits, the factor, addend and divisor to raw, the decimals, the name and the unit as literals.
 
-    `raw_decimals` says that the number is the raw one, because its meaning takes more.
+    `raw_decimals` marks a raw number, whose meaning one row cannot hold.
     """
     point, fields = view.point, view.fields
     low, high, line, decimals = fields.low, fields.high, _ITSELF, raw_decimals
@@ -54,7 +54,7 @@ _INDENT = 2 * "    "
 
 
 class Part(NamedTuple):
-    """What one request or frame fills: the declarations of members with the statements that fill them.
+    """The members that one request or frame fills: their declarations, with the statements that fill them.
 
     `label` is the number of the request or frame in the function, `points` are those that have members.
     """
@@ -88,7 +88,7 @@ class StructView:
 
 
 class Members:
-    """Makes the members of points, which are laid out once for each view and number of digits of the position."""
+    """Builds the members of points; the text is laid out once for each view and length of the position."""
 
     def __init__(self, scope: HeaderScope) -> None:
         self.scope = scope
@@ -97,7 +97,7 @@ class Members:
     def of(self, each: GeneratedPoint, position: int) -> tuple[str, str]:
         """Return the members of a point whose words begin at a position, and the statements that fill them.
 
-        The position stands where the comment is among the point's fields. A text that is read backwards has none.
+        The position takes the place of the comment among the fields. A text that is read backwards has no members.
         """
         at, (point, view, fields) = str(position), each
         lay_out = partial(self._lay_out, point, view, placeholders((at,))[0])
@@ -112,7 +112,7 @@ class Members:
 def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, str]]:
     """Yield the declaration of a point's member with its statement, and those for each old name.
 
-    The name says whether it is a count or raw: a count where decoding cannot fail and needs no other point.
+    Its name says whether it is a count or raw: it is a count if decoding cannot fail and needs no other point.
     """
     name, ending = view.function, ""
     if point.text is not None and (
@@ -138,7 +138,7 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
 
 
 def member_cases(values: StructView, scope: HeaderScope, *, texts: bool = True) -> Iterator[str]:
-    """Yield the macros of the conformance program that hold members against the raw numbers of their points."""
+    """Yield the macros of the conformance program that compare members with the raw numbers of their points."""
     for point, view, _ in (each for part in values.parts for each in part.points):
         item, kind = point.item, raw_type(point)
         if point.text is not None:

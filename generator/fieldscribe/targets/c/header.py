@@ -21,13 +21,13 @@ from fieldscribe.text import c_comment, c_string, upper
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 
 _MOST_OLD_NAMES = 64
-"""A struct has no more old names: those of its points multiply."""
+"""The most old names of a struct: those of its points multiply."""
 
 STATUSES = (
     *("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL"),
     "MALFORMED",
 )
-"""What conversions answer."""
+"""The status of conversions."""
 
 
 def header_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
@@ -57,7 +57,7 @@ def line_defines(device: Device, scope: HeaderScope) -> list[tuple[str, str, str
 
 
 class IdentificationDefine(NamedTuple):
-    """A macro that says what a point holds: its name in vectors, and the point and the variant that it is about."""
+    """A macro that identifies the device or a variant: its name in vectors, its point, and its variant."""
 
     name: str
     macro: str
@@ -67,13 +67,13 @@ class IdentificationDefine(NamedTuple):
 
     @property
     def check(self) -> str:
-        """Return the macro of the conformance program that holds the literal: of a text, or of a raw number."""
+        """Return the macro of the conformance program that checks the literal: for a text, or for a raw number."""
         kind = "TEXT" if self.literal.startswith('"') else "RAW"
         return f"{kind}({self.macro})"
 
 
 def identification_defines(device: Device, scope: HeaderScope) -> Iterator[IdentificationDefine]:
-    """Yield what identifies the device and its variants."""
+    """Yield the macros that identify the device and its variants."""
     for identification in device.identifications:
         variant = (
             "" if identification.variant is None else f"{identification.variant.axis}_{identification.variant.value}_"
@@ -133,7 +133,7 @@ def _title(group: str, scope: HeaderScope) -> str:
 
 
 def aliases_of(points: Sequence[GeneratedPoint], scope: HeaderScope) -> Iterator[AliasView]:
-    """Yield the old names of all that the header has of renamed points."""
+    """Yield the old names of everything in the header that belongs to renamed points."""
     for point, view, _ in points:
         for old, item in zip(point.was, point.old_items, strict=True) if point.was else ():
             yield from _aliases(view, AliasView(old, item, point.item), scope)
@@ -160,7 +160,7 @@ def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[Al
 def _aliases_of_structs(points: Iterable[GeneratedPoint], scope: HeaderScope) -> Iterator[AliasView]:
     """Yield the old names of structs, whose points may have been renamed alone or together.
 
-    Fields are in the order of their names: a struct has no old name under which it would have another order.
+    Fields are ordered by name: a struct has no old name under which the order would be different.
     """
     structs = {view.struct: sorted(point.arguments) for point, view, _ in points if view.struct}
     for struct, names in structs.items():
@@ -179,7 +179,7 @@ def _names_of(name: str, scope: HeaderScope) -> Iterator[AliasView]:
 
 
 def _remark(point: Point, scope: HeaderScope, render: Render) -> str:
-    """Return the comment on a point without code: why it has none, and its address if it is reached raw."""
+    """Return the comment on a point without code: the reason, and its address if it can be reached raw."""
     fields = fields_of(point, scope, f"not generated: {point.reason or 'documented only'}")
     return render("c/remark.h.j2", {"comment": fields.comment, "defines": remark_defines(point, fields, scope)})
 
@@ -192,7 +192,7 @@ def remark_defines(point: Point, fields: PointFields, scope: HeaderScope) -> tup
 
 
 def joined(files: Mapping[str, str], device: Device) -> str:
-    """Return one text of a device's headers: each after those that it includes, below a head of its own."""
+    """Return the headers of a device joined in one text: each follows those that it includes, below its own head."""
     order: dict[str, None] = {}
 
     def place(name: str) -> None:
@@ -211,5 +211,5 @@ def joined(files: Mapping[str, str], device: Device) -> str:
 
 
 def _without_includes(text: str, files: Mapping[str, str]) -> str:
-    """Return a header without the `#include` of what stands above it."""
+    """Return a header without the `#include` lines of headers above it."""
     return _INCLUDE.sub(lambda match: "" if match[1] in files else match[0], text)

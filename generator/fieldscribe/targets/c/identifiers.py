@@ -36,7 +36,7 @@ _HEADERS = frozenset(
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
     | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
 )
-"""Headers of C libraries: ours would hide one of the same name from compilers that get our folder by `-I`."""
+"""Headers of C libraries: with `-I` to our folder, a header of ours would hide the one of the same name."""
 
 
 def device_name_taken(name: str) -> str:
@@ -45,7 +45,7 @@ def device_name_taken(name: str) -> str:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Yield all that the headers of a device define."""
+    """Yield all identifiers that the headers of a device define."""
     for owner, names in _identifiers(device):
         yield Names("C", owner, names, SIGNIFICANT)
 

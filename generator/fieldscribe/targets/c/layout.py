@@ -1,4 +1,4 @@
-"""The layout of functions in headers: on one line if it fits, else on two, else on as many as needed."""
+"""The layout of functions in headers: on one line if they fit, else on two, else on as many as needed."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -8,11 +8,11 @@ from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import placeholders
 
 WIDTH = 120
-"""No line is longer."""
+"""The longest line."""
 
 INLINE = "static inline"
 STATUS = "FIELDSCRIBE_STATUS"
-"""The heads of functions: of one that cannot fail, without its result, and of one that returns a status."""
+"""The heads of functions: of one that cannot fail, before its result type, and of one that returns a status."""
 
 _LAST = 100
 """Added to the depth of a break after an opening bracket, so that it is the last choice."""
@@ -55,7 +55,7 @@ def called(name: str, *arguments: str) -> str:
 
 
 def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> list[str]:
-    """Return the parts in as few lines as possible; every line but the last ends with the separator."""
+    """Return the parts in as few lines as possible; every line except the last ends with the separator."""
     lines: list[str] = []
     for part in parts:
         if lines and len(lines[-1]) + len(between) + len(part) + len(end) <= WIDTH:
@@ -70,7 +70,7 @@ def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> li
 def wrapped(statement: str, indent: str, first: str = "") -> list[str]:
     """Return a statement in lines that are not too long, broken at the least depth of brackets.
 
-    What goes on stands deeper than its `first` line, whose indentation is given where this is not that line.
+    Further lines are indented more than the first; `first` is the first line if it is not part of the statement.
     """
     if len(indent) + len(statement) <= WIDTH:
         return [indent + statement]
@@ -102,7 +102,7 @@ def _places(statement: str) -> Iterator[tuple[int, int]]:
 
 
 def folded(text: str) -> str:
-    """Return the same C in lines of at most 120 characters; a macro goes on after a backslash."""
+    """Return the same C in lines of at most 120 characters; lines of a macro end with a backslash."""
     lines = text.split("\n")
     if max(map(len, lines)) <= WIDTH:
         return text
@@ -110,7 +110,7 @@ def folded(text: str) -> str:
 
 
 def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
-    """Return the rendered template, folded, with `texts` that are folded already in their places."""
+    """Return the rendered template, folded, with `texts`, which are folded already, put in their places."""
     places = dict(zip(texts, placeholders(["_" if text else "" for text in texts.values()]), strict=True))
     result = folded(render(template, {**context, **places}))
     for name, text in texts.items():
@@ -131,7 +131,7 @@ def _parts(line: str) -> list[str]:
 
 
 def _break(line: str, most: int) -> int:
-    """Return the last space up to `most` that is in no string and not in the line's indentation; 0 if there is none."""
+    """Return the last space up to `most` outside strings and indentation; 0 if there is none."""
     start = len(line) - len(line.lstrip())
     spaces = [match.start() for match in _WHOLE.finditer(line, start) if match[0] == " "]
     return max((at for at in spaces if at <= most), default=0)

@@ -1,4 +1,4 @@
-"""Which raw numbers may be written, and scales and limits whose factors are read at run time, as C expressions."""
+"""C expressions for the check of raw numbers, and for scales and limits whose factors are read at run time."""
 
 from collections.abc import Callable, Iterable, Sequence
 from math import prod
@@ -13,7 +13,7 @@ from fieldscribe.targets.c.scope import HeaderScope, bare, float_order, hexadeci
 from fieldscribe.targets.c.views import PointFields, RuleView
 
 _TABLE = 3
-"""From so many ranges on a table is used; fewer are tested one by one."""
+"""From this many ranges on a table is used; fewer are tested one by one."""
 
 
 def known(point: Point, status: str) -> str:
@@ -23,7 +23,7 @@ def known(point: Point, status: str) -> str:
 
 
 def refused(point: Point) -> str:
-    """Return the status of a number that may not be written."""
+    """Return the status for a number that may not be written."""
     return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
 
 
@@ -42,13 +42,13 @@ def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
 
 
 def digits_arguments(digits: Digits, scope: HeaderScope) -> str:
-    """Return the number of digits and their names, as the runtime takes them."""
+    """Return the number of digits and their names as arguments for the runtime."""
     names = f"{scope.prefix}_{digits.enum.name}_names"
     return f"{digits.count}U, {names}, FIELDSCRIBE_COUNT({names})"
 
 
 def _check_of_pattern(point: Point) -> str:
-    """Return the status of writing a bit pattern: whether its number lies in one of the point's intervals."""
+    """Return the status of writing a bit pattern, whose number must lie in one of the point's intervals."""
     bits = point.info.bits
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
@@ -80,7 +80,7 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
 
 
 def is_in(point: Point, bands: Iterable[tuple[int, int]]) -> str:
-    """Return a test that `raw` lies in one of these bands; empty if all numbers of the type do, or without bands."""
+    """Return a test that `raw` lies in one of these bands; empty if every number of the type does, or without bands."""
     literal = bare if point.info.signed else unsigned
     tests = [interval_test("raw", *band, point.held, literal) for band in bands]
     if len(tests) < 2:
@@ -97,7 +97,7 @@ def either(statuses: list[str]) -> str:
 
 
 def has_ranges_table(point: Point) -> bool:
-    """Return True if the point has so many ranges that a table holds them."""
+    """Return True if the point has enough ranges for a table."""
     many = len(point.allowed.intervals) >= _TABLE and not point.allowed.moves
     return many and point.writable and point.info.bits <= 16
 
@@ -110,7 +110,7 @@ def ranges_table(point: Point, scope: HeaderScope) -> str:
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
     """Return a test that the number lies in an interval, whose limits may depend on other points.
 
-    Limits are signed: the number is at most the greatest of their type, which no limit exceeds.
+    Limits are signed; an unsigned number above their type is above every limit.
     """
     raw = "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
     low, high = (
@@ -174,7 +174,7 @@ def _rule_of(point: Point, scope: HeaderScope) -> str:
 
 
 def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
-    """Return a limit that depends on other points; the outer limit while one of them holds a code that lifts it."""
+    """Return a limit that depends on other points; the outer limit while a special code of one of them lifts it."""
     start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
     text = _bare_limit(rule, scope)
     if not _fits(rule) or not _stays_inside(rule, start, is_low=is_low):
@@ -259,8 +259,9 @@ def _fits(rule: Rule) -> bool:
     The limit is (num * tops * part + lift * den * bottoms) / (den * bottoms * part), of the ratio num / den and the
     offset lift / part, where tops and bottoms are the products of the arguments that multiply and divide. The first sum
     below is no less than either side in size: each argument counts with its largest size, at least 1, so that no
-    intermediate product is larger than the whole; and bottom * (lift + 1) covers the lift and the divisor with the half
-    that rounding adds. Rules with a divisor that may be negative, or with a power of ten, are not computed this way.
+    intermediate product is larger than the whole product; and bottom * (lift + 1) covers the lift and the divisor with
+    the half that rounding adds. Rules with a divisor that may be negative, or with a power of ten, are not computed
+    this way.
     """
     tops = [operand for operand in rule.operands if not operand.over]
     bottoms = [operand for operand in rule.operands if operand.over]

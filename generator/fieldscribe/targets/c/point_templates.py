@@ -1,7 +1,7 @@
 """The generated points of a device with their fields and their views.
 
-A header says the same of many points but for a few words. These words are the fields of a point, finished for C; the
-rest is laid out once for all points with the same view, with placeholders for the fields.
+The texts of many points differ in a few words only. These words are the fields of a point, finished for C. The rest is
+laid out once for all points with the same view, with placeholders for the fields.
 """
 
 from collections.abc import Callable, Hashable, Iterable, Iterator
@@ -21,10 +21,10 @@ from fieldscribe.text import c_comment, c_string, upper
 
 
 class LimitFields(NamedTuple):
-    """The fields that a point has of its limits, and the `form` of the rest of its text about them.
+    """The fields of a point's limits, and the `form` of the other text about them.
 
     `ends` are the six fields from `low` to `last`; `range` is for people. `in_table` says that a table holds the
-    ranges, which the first point that has them brings.
+    ranges; the first point with these ranges defines it.
     """
 
     ends: tuple[str, ...]
@@ -35,7 +35,7 @@ class LimitFields(NamedTuple):
 
 
 class GeneratedPoint(NamedTuple):
-    """A point for which there is code, the view of all points with its text, and the fields that fill the text."""
+    """A point with code: the view that it shares with points of the same text, and the fields that fill the text."""
 
     point: Point
     view: PointView
@@ -50,7 +50,7 @@ def texts_of(points: Iterable[GeneratedPoint], lay_out: Callable[[PointView], st
 
 
 def generated_points(device: Device, scope: HeaderScope, *, names_only: bool = False) -> list[GeneratedPoint]:
-    """Return the points of a device that have code; with `names_only` just with what their names follow from."""
+    """Return the points of a device that have code; with `names_only`, only with what identifiers need."""
     points = [point for point in device.points if point.generated]
     name_shared(points, scope)
     views = _PointViews(scope)
@@ -74,7 +74,7 @@ class _PointViews:
         limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(point))
         comment = self._comments.get(commented) or self._comments.setdefault(commented, PointComment(point, scope))
         fields = _fields_of(point, item, limits, comment)
-        whole = key, limits.form, scope.brings(point), tuple(map(len, fields[1:]))  # no line break needs the comment
+        whole = key, limits.form, scope.brings(point), tuple(map(len, fields[1:]))  # not the comment
         view = self._views.get(whole)
         if limits.in_table or point.was or len(fields) > MOST_FIELDS:
             view = point_view(point, PointFields.of(fields), scope, limits.scale)

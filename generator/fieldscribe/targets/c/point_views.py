@@ -54,7 +54,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
 
 
 def names_of(enum: Enum, point: Point, fields: PointFields) -> tuple[str, str]:
-    """Return the name of a point's enum, also in capitals; an enum of its own has the point's name."""
+    """Return the name of a point's enum, also in capitals; an enum of one point has the name of the point."""
     return (fields.item, fields.macro) if enum.name == point.item else (enum.name, upper(enum.name))
 
 
@@ -109,7 +109,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
 
 
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the declarations and rows of a point's arrays: the words of a text, or ranges that no earlier point has."""
+    """Yield the declarations and rows of a point's arrays: the words of a text, or the ranges that it defines."""
     if point.text is not None or point.place.is_scattered:
         rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield f"uint16_t {name}_addresses[{point.words}]", tuple(rows)

@@ -1,6 +1,6 @@
 """Scales that are known at compile time, as C expressions whose integers are proven to fit.
 
-Counts become raw numbers and back without a division where a multiplication and a shift are proven exact for every
+Counts and raw numbers are converted without a division if a multiplication and a shift are proven exact for every
 number that can occur.
 """
 
@@ -21,7 +21,7 @@ _EXACT = 1 << 53
 class Scaled:
     """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits of the point.
 
-    `inside` is the test that the raw number of a count may be written, empty if that is always so. `counts` are the
+    `inside` is the test that the raw number of a count may be written, empty if it always may. `counts` are the
     counts inside. `direct` says that a count equals its raw number. `wide` says that values are always double.
     """
 
@@ -35,7 +35,7 @@ class Scaled:
 
     @cached_property
     def count_fits(self) -> str:
-        """The test that the count of a raw number fits 64 bits; empty if each does."""
+        """The test that the count of a raw number fits 64 bits; empty if every count does."""
         if self._plan.beyond is None:
             return ""
         low, high = self._plan.beyond
@@ -45,7 +45,7 @@ class Scaled:
 
     @cached_property
     def exact_count(self) -> str:
-        """The status of the exact count of a raw number that fails `count_fits`; it may fit 64 bits after all."""
+        """The status of computing the exact count of a raw number that fails `count_fits`; it may still fit 64 bits."""
         if self.direct:
             return "FIELDSCRIBE_OVERFLOW"
         factor, add, divisor = self._plan.to_count
@@ -61,7 +61,7 @@ class Scaled:
 
     @property
     def count_of_raw(self) -> str:
-        """The count of `raw`, cast to its type where C needs that."""
+        """The count of `raw`, cast to its type if C needs that."""
         number, wide = _count_of_raw(self._plan)
         becomes = self._plan.raws[1] <= INT64[1] and (self._plan.count_wide or not wide)
         return number if becomes else cast(self.count_type, number)
@@ -88,7 +88,7 @@ class Scaled:
 
     @property
     def value_of_raw(self) -> str:
-        """The value of `raw`; where numerators exceed 53 bits, (raw * factor + add) / divisor rounded once."""
+        """The value of `raw`; if numerators exceed 53 bits, (raw * factor + add) / divisor rounded once."""
         plan, (factor, add, divisor) = self._plan, self._plan.to_value
         if max(plan.numerator, divisor) > _EXACT:
             below, size = sign_and_size(self._point)
@@ -187,7 +187,7 @@ class Reciprocal(NamedTuple):
 
 
 class Numbers(NamedTuple):
-    """The numbers from low to high, to be multiplied by num / den; num and den are positive."""
+    """The numbers from low to high that are multiplied by num / den; num and den are positive."""
 
     low: int
     high: int
@@ -214,7 +214,7 @@ def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
 
 
 def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
-    """Return the exact reciprocal with that many bits and the fewest `fine` bits, if there is one."""
+    """Return the exact reciprocal with this many bits and the fewest `fine` bits; None if there is none."""
     much, rest = divmod(numbers.num << bits, numbers.den)
     for fine in range(most.bit_length()):
         little = -(-(rest << fine) // numbers.den)

@@ -1,4 +1,4 @@
-"""The state of a header while it is built: prefixes, points by name, what is emitted already; and literals of C."""
+"""The state of a header while it is built: prefixes, points, shared items already emitted; and literals of C."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -48,7 +48,7 @@ def sign_and_size(point: Point) -> tuple[str, str]:
 
 @lru_cache(maxsize=65536)
 def signed(number: int) -> str:
-    """Return a number as a signed constant where one can hold it, ready for any expression or `#define`."""
+    """Return a number as a constant for any expression or `#define`, signed if a signed type can hold it."""
     if number > INT64[1]:
         return f"UINT64_C({number})"
     if number >= 0:
@@ -64,7 +64,7 @@ def bare(number: int) -> str:
 
 @lru_cache(maxsize=65536)
 def unsigned(number: int) -> str:
-    """Return a number from 0 on as an unsigned constant."""
+    """Return a number of 0 or more as an unsigned constant."""
     return f"{number}U" if number < 1 << 32 else f"UINT64_C({number})"
 
 
@@ -94,9 +94,9 @@ class HeaderScope:
     """The state while the header of a device is built.
 
     `enums` are the names of enums of points, `digits` of those of decimal digits, `spaces` the space of each group
-    whose points all have the same. `shared` are what several points share, each with the first of them. `spelling` is
-    how the function being written spells the raw number of another point. `calls_only` leaves out the descriptor of a
-    point that calls read and write.
+    whose points all have the same. `shared` are what several points share, each with the first of them. `spelling` has
+    the expressions for raw numbers of other points in the function being written. `calls_only` leaves out the
+    descriptor of a point that calls read and write.
     """
 
     prefix: str
@@ -115,15 +115,15 @@ class HeaderScope:
         return self.lowered.points
 
     def named_after_first(self, point: str, sort: str, content: str) -> str:
-        """Return the name of something shared: that of the first point asked about with this content, then `sort`."""
+        """Return the name of something shared: the name of the first point that needs this content, then `sort`."""
         return f"{self.prefix}_{self.shared.setdefault(content, point)}_{sort}"
 
     def is_first(self, point: str, name: str) -> bool:
-        """Return True if that point is the first that needs something shared: its text then holds it."""
+        """Return True if the point is the first that needs something shared: its text defines it."""
         return self.shared.setdefault(name, point) == point
 
     def brings(self, point: Point) -> tuple[bool, bool, tuple[str, ...]]:
-        """Return what a point is the first with: the names of its numbers, shared codes, shared enums of flags."""
+        """Return the shared items that this point defines: names of numbers, shared codes, shared enums of flags."""
         item, enum, codes = point.item, named_numbers(point.shape), point.shape.shared_codes
         names = enum is not None and self.is_first(item, f"names of {enum.name}")
         wide = dict.fromkeys(flag.enum for flag in point.flags if flag.enum and flag.width > 1)
@@ -150,7 +150,7 @@ class HeaderScope:
         return self.spelling.format(name)
 
     def passed(self, names: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the arguments that pass these raw numbers on: `lower_limit_raw`, or `with` for several."""
+        """Return the arguments that pass on these raw numbers: `lower_limit_raw`, or `with` for several."""
         return ("with",) if len(names) > 1 else tuple(map(self.raw, names))
 
 

@@ -15,9 +15,9 @@ FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 
 
 def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, brings: bool) -> SpecialView | None:
-    """Return what the functions of a point need for its special codes; None if it has none.
+    """Return the view of a point's special codes; None if it has none.
 
-    `brings` says that no earlier point has the same shared codes.
+    `brings` says that this point defines the shared codes.
     """
     if not point.specials:
         return None
@@ -31,7 +31,7 @@ def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, bring
 
 
 def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
-    """Return a check with the special codes tested first: writable ones pass, others are refused."""
+    """Return a check that tests the special codes first: it accepts writable ones and refuses others."""
     if special is None:
         return check
     check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
@@ -69,7 +69,7 @@ def encoded_limits(point: Point) -> tuple[int, int]:
 
 
 def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView:
-    """Return the set of codes, as the first point that has it brings it."""
+    """Return the set of codes, for the point that defines it."""
     shared = point.shared_codes
     return CodesView(
         comment=c_comment(f"Special codes of {shared}: raw numbers that are no quantity.") if shared else "",

@@ -1,4 +1,4 @@
-"""What the C templates see: final identifiers, literals and functions, nothing left to decide."""
+"""The views for the C templates: final identifiers, literals and functions, nothing left to decide."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Define = tuple[str, str]
 
 
 class PointFields(NamedTuple):
-    """The words that only one point has, finished for C, or placeholders for them; what a point lacks is empty.
+    """The words of one point, finished for C, or placeholders for them; an absent fact is empty.
 
     `comment` is all of the comment above the point. `macro` is the item in capitals. `low` and `high` bound raw
     numbers, `first` and `last` counts. `address` is the lowest one, and `number` the same in decimal; `start` and `end`
@@ -38,7 +38,7 @@ class PointFields(NamedTuple):
 
     @classmethod
     def of(cls, fields: tuple[str, ...]) -> PointFields:
-        """Return the fields by name, from all of them in a row."""
+        """Return the fields from a sequence of all their texts."""
         single = len(cls._fields) - 1
         return cls._make((*fields[:single], fields[single:]))
 
@@ -68,7 +68,7 @@ class SpecialView(NamedTuple):
     """The special codes of a point.
 
     `codes` is None if the set was emitted for an earlier point. `test` is the function that recognises them, `written`
-    says that some may be written. `aliases` are the functions of shared codes under the point's name.
+    is True if some may be written. `aliases` are the functions of shared codes under the point's name.
     """
 
     codes: CodesView | None
@@ -86,7 +86,7 @@ class RuleView(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointView:
-    """A generated point; or the first of several with one text, whose fields are then placeholders.
+    """A generated point; or the first of several with the same text, whose fields are then placeholders.
 
     `shared_values` are the macros of shared enums of flags that no earlier point has, each with a flag that has them.
     `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
@@ -112,21 +112,21 @@ class PointView:
 
     @property
     def is_counted(self) -> bool:
-        """True if functions convert counts beside values."""
+        """True if functions convert counts in addition to values."""
         return self.shape in ("scaled", "ruled") and self.point.decimals is not None
 
     @property
     def computes_in_double(self) -> bool:
-        """True if the value is a double even where values are float by choice."""
+        """True if the value is a double even if the user has chosen float for values."""
         if self.scale is not None:
             return self.scale.wide
         return self.shape == "ruled" or (self.shape == "float" and self.raw_type == "uint64_t")
 
 
 class AliasView(NamedTuple):
-    """An old name of something that belongs to a renamed point; `was` and the old item are those of the point.
+    """An old name of something that belongs to a renamed point; `was` is the old name of the point.
 
-    `sort` tells the conformance program what it is: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
+    `sort` is its kind for the conformance program: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
     """
 
     was: str

@@ -82,19 +82,19 @@ def digits_functions(point: Point, name: str, special: SpecialView | None, scope
 
 
 def has_words(point: Point) -> bool:
-    """Return True if the point has word functions: a text, a bit group and a word that is the raw number have none."""
+    """Return True if the point has word functions: not a text, a bit group or a word that equals the raw number."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
     return point.text is None and point.bits is None and (not plain or has_form(point))
 
 
 def has_form(point: Point) -> bool:
-    """Return True if the low byte of each word comes first, or the bits have a coding of their own."""
+    """Return True if the low byte of each word comes first, or the number has a special coding."""
     return point.swapped or bool(point.coding)
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
-    """Yield the functions between a raw number and its own words."""
+    """Yield the functions that convert between a raw number and its words."""
     kind, info = raw_type(point), point.info
     places = [f"words[{place}]" for place in places_of(point)]
     swaps = [f"{place} = fieldscribe_exchanged({place});" for place in places if point.swapped]
@@ -110,7 +110,7 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         elif info.bits < 16:
             joined = f"{read[0]} != 0U" if info.bits == 1 else f"({kind})({joined})"
     else:
-        above = info.bits // 16 - point.words  # words that the type has and the wire has not
+        above = info.bits // 16 - point.words  # words of the type that do not travel
         into = ", ".join(["&above"] * above + [f"&{place}" for place in places])
         split = f"fieldscribe_split{info.bits}((uint{info.bits}_t){coded_bits(point)}, {into});"
         split = f"uint16_t above; {split}" if above else split
@@ -139,7 +139,7 @@ def coded_bits(point: Point) -> str:
 
 
 def decoded_bits(point: Point, bits: str) -> str:
-    """Return the expression for the raw number in bits of a coding of their own."""
+    """Return the expression for the raw number in bits with a special coding."""
     if point.info.signed:
         return f"({raw_type(point)})fieldscribe_of_sign_and_magnitude({bits}, {hexadecimal(1 << point.width - 1)})"
     return f"({raw_type(point)})fieldscribe_of_bcd{_wide(point)}({bits}, {hexadecimal(mask_of(point.width))})"
@@ -157,7 +157,7 @@ def places_of(point: Point) -> list[int]:
 
 
 def bits_functions(point: Point, name: str) -> Iterator[Function]:
-    """Yield the functions between a raw number and the word that it shares."""
+    """Yield the functions that convert between a raw number and the word that it shares."""
     assert point.bits is not None
     kind, low = raw_type(point), point.bits[1]
     place = f"{hexadecimal(group_mask(point))}, {low}U"
@@ -189,7 +189,7 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
 
 
 def constant_bits(point: Point) -> str:
-    """Return the mask of the constant bits, and their values: zeros if there are none."""
+    """Return the mask of the constant bits and their values, both 0 without constant bits."""
     mask, bits = (0, 0) if point.fixed is None else (point.fixed.mask, point.fixed.bits)
     return f"{hexadecimal(mask)}, {hexadecimal(bits)}"
 

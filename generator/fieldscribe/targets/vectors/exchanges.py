@@ -28,7 +28,7 @@ class Wire(Protocol):
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """Return the exchange that writes these words; with `keep` permanently, if another request does that."""
 
-    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+    def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
         """Yield the exchange with bad answers, each with the status that it gives."""
 
 
@@ -150,7 +150,7 @@ class Exchanges:
         if is_text or typical.encoding.bits is not None or needs or first in self.spoiled:
             return
         self.spoiled.add(first)
-        for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
+        for status, bad in self.wire.bad_answers(point, script, writes=kind != "read"):
             self.lines.add(kind, bad, status, None if kind == "read" else raw)
 
 

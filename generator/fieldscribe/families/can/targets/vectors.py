@@ -72,7 +72,7 @@ class CanWire:
         _, frame = build(message, self.units, self.unit, address, raw)
         return frame.id.to_bytes(4, "big") + frame.data
 
-    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+    def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
         """Yield the exchange without its answer, with that of another place, and with another number in the echo."""
         _, answer = self.messages[writes]
         [(sent, good)] = script

@@ -91,7 +91,7 @@ class ModbusWire:
         body = data[:2] + address.to_bytes(2, "big") + data[4:-2]
         return body + crc16(body).to_bytes(2, "little")
 
-    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+    def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
         """Yield the exchange with a refusal, a wrong checksum or protocol, another unit, and another function."""
         del point, writes
         [(sent, good)] = script

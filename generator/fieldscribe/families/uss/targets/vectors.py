@@ -105,7 +105,7 @@ class UssWire:
         head = parameter_words(response, request.parameter, request.index)
         return [(data, telegram(self.unit, (*head, *padding, *words, *self.quiet)))]
 
-    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+    def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
         """Yield the exchange with a refusal, a wrong check byte, another unit, and a cut telegram."""
         del writes
         [(sent, good)] = script
