@@ -264,7 +264,8 @@ class OfRust(Judge):
 
 
 SESSIONS = "sessions"
-"""What judges the runtime of TypeScript beside the vectors: the tests that ask simulated devices."""
+"""What judges the runtime of TypeScript beside the vectors: the tests that ask devices, or write what people do."""
+_ASKING = "notations", "bases", "selections", "sessions", "lines"
 
 
 class OfTypeScript(Judge):
@@ -289,9 +290,7 @@ class OfTypeScript(Judge):
         """Run it; a module that cannot be parsed tells nothing."""
         del build
         if device == SESSIONS:
-            files = [
-                ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in ("bases", "sessions", "lines")
-            ]
+            files = [ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in _ASKING]
             words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files)
             packages = self.work / "typescript"
             return self.run(*words, packages=packages, memory=resource.RLIM_INFINITY, slow=True).returncode == 0

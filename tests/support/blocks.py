@@ -40,6 +40,10 @@ class Registers(Slave):
         if pdu[0] == 6:
             self.held[address] = count
             return pdu
+        if pdu[0] == 16:
+            for place in range(count):
+                self.held[address + place] = int.from_bytes(pdu[6 + 2 * place : 8 + 2 * place], "big")
+            return pdu[:5]
         self.asked.append((address, count))
         places = range(address, address + count)
         if not self.held.keys() >= set(places):

@@ -51,6 +51,47 @@ def test_given(folder: Path) -> None:
         assert last("level", "read") == 50
 
 
+STEPS = {5: 3, 3005: 405, 3006: 0, 3007: 0, 3008: 2, 40: 0, **FOUND, 50009: 7}
+CURVES = chain(40000, (705, [0, 0, 0, 0, 0, 0]), MODULES)
+
+
+@pytest.mark.parametrize(
+    ("command", "changed", "expected", "held"),
+    [
+        (("dim", "send", {"percent": 50}), {}, None, {3005: 500, 3008: 3}),
+        (("dim", "send", {"percent": 100}), {5: 2}, None, {3005: 1000, 3008: 2}),
+        (("dim", "send", {"percent": 0}), {3007: 1}, "not_reached", {3005: 0, 3008: 3}),
+        (("dim", "send", {"percent": 101}), {}, "out_of_range", {3005: 405}),
+        (("dim", "send", {"percent": -1}), {}, "out_of_range", {3005: 405}),
+        (("dim", "send", {"percent": 1.5}), {}, "out_of_range", {3005: 405}),
+        (("dim", "send", {"speed": 5}), {}, "bad_arguments", {3005: 405}),
+        (("dim", "send", {}), {}, "bad_arguments", {3005: 405}),
+        (("dim", "send"), {}, "bad_arguments", {3005: 405}),
+        (("dim", "send", {"percent": 50}), {5: None}, "exception", {3005: 500, 3008: 2}),
+        (("close", "send"), {}, "no_block", {40: 0}),
+        (("close", "send"), CURVES, None, {40006: 1, 40007: 0, 40008: 5, 40: 1, 40017: 3}),
+    ],
+    ids=str,
+)
+def test_steps(
+    folder: Path,
+    command: tuple[Any, ...],
+    changed: dict[int, int | None],
+    expected: str | None,
+    held: dict[int, int],
+) -> None:
+    """Steps are taken in order, if their condition holds; arguments that are none send nothing."""
+    words = {at: word for at, word in {**STEPS, **changed}.items() if word is not None}
+    line = Registers(words)
+    with over(folder, line, slot=3, half=0) as node:
+        if expected is None:
+            node(*command)
+        else:
+            assert status_of(node, *command) == expected
+            assert bool(line.asked) == (expected not in ("out_of_range", "bad_arguments"))
+    assert {at: line.held[at] for at in held} == held
+
+
 @pytest.mark.parametrize("given", [{"slot": 0, "half": 0}, {"slot": 16, "half": 0}, {"slot": 3}, {}], ids=str)
 def test_given_wrongly(folder: Path, given: dict[str, int]) -> None:
     """What is not given, or no such number, is said before anything is sent."""
