@@ -14,7 +14,7 @@ from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
 from fieldscribe.code_view import DeviceCache, has_same_points
-from fieldscribe.model import Allowed, Device, Enum, Erratum, Factor, Linear, Point, Shape, Terms
+from fieldscribe.model import Allowed, Device, Enum, Erratum, Factor, Linear, Point, Shape, Terms, kind_of
 
 
 class TemplateKeys:
@@ -27,6 +27,7 @@ class TemplateKeys:
     def __init__(self) -> None:
         self._keys: dict[Hashable, int] = {}
         self._shapes: dict[int, tuple[int, int, str]] = {}
+        self._kinds: dict[Hashable, int] = {}
         self._terms: dict[int, int] = {}
 
     def of(self, point: Point) -> int:
@@ -65,8 +66,10 @@ class TemplateKeys:
         elif enum is None:
             numbers = self._number(shape), 0, ""
         else:
-            facts = replace(shape, enum=None), enum.closed, id(enum.entries)
-            numbers = self._number((facts, enum.name)), self._number(facts), enum.name
+            kind = kind_of(shape)
+            if kind not in self._kinds:
+                self._kinds[kind] = self._number((replace(shape, enum=None), enum.closed, id(enum.entries)))
+            numbers = self._number((self._kinds[kind], enum.name)), self._kinds[kind], enum.name
         self._shapes[id(shape)] = numbers
         return numbers
 

@@ -1,7 +1,9 @@
 """The facts that many points share: everything about their raw numbers, without names and addresses."""
 
-from dataclasses import dataclass
+from collections.abc import Hashable
+from dataclasses import dataclass, fields
 from functools import cached_property
+from operator import attrgetter
 
 from fieldscribe.model.numbers import TYPES, Digits, Enum, Fixed, Flag, Special, Text, TypeInfo
 from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
@@ -140,6 +142,15 @@ class Shape:
                 names[case.point] = None
             names.update(dict.fromkeys(factor.point for factor in case.rule.factors))
         return tuple(names)
+
+
+_BESIDE_ENUM = attrgetter(*(field.name for field in fields(Shape) if field.name != "enum"))
+
+
+def kind_of(shape: Shape) -> Hashable:
+    """Return the same for shapes that differ only in the name of their enum, if they were made from one shape."""
+    enum = shape.enum
+    return (*map(id, _BESIDE_ENUM(shape)), *((id(enum.entries), enum.closed) if enum else ()))
 
 
 class Interner:
