@@ -1,4 +1,4 @@
-"""Names in generated code: each target lists all identifiers of a device, and their owners in the description.
+"""Names in generated code: each target lists all identifiers of a device, with their owners in the description.
 
 And the head of every generated file.
 """
@@ -15,13 +15,13 @@ from fieldscribe.text import line
 
 
 class Owner(NamedTuple):
-    """A thing in the description that has names in generated code: its kind, its own name, and what it is a part of.
+    """A thing in the description that has names in generated code: its kind, its name, and the thing it is part of.
 
     Kinds are `device`, `variant`, `group`, `command`, `message`, `telegram`, `exception`, `function`, `response`,
     `special codes` that many points share, `enum` with its parts (`entry`), and `point` (by item) with its own: `flag`
-    and its `value`, special `code`, `old name`, `numbering`. A `struct` that points share without a name in the
-    description is called by what it holds. What a target itself needs has the kind `target`, and its name is a
-    description in words.
+    and its `value`, special `code`, `old name`, `numbering`. A `struct` that points share has no name in
+    the description: its name says what it holds. A name that a target itself needs has an owner of kind `target`, whose
+    name is a description in words.
     """
 
     kind: str
@@ -30,13 +30,13 @@ class Owner(NamedTuple):
 
 
 Named = tuple[Owner, "Sequence[str]"]
-"""A thing with its names, in a namespace that the context says."""
+"""A thing with its names, in a namespace that the context gives."""
 
 
 class Names(NamedTuple):
     """The names that a thing gets in one namespace of a target; `namespace` is worded as in messages.
 
-    `significant` is how many characters of a name the language compares at least; None for all.
+    `significant` is the number of characters that every compiler of the language compares; None for all.
     """
 
     namespace: str
@@ -46,7 +46,7 @@ class Names(NamedTuple):
 
 
 class Clash(NamedTuple):
-    """A name that two things would get."""
+    """A name that two things would have."""
 
     namespace: str
     name: str
@@ -64,7 +64,7 @@ class Resemblance(NamedTuple):
 
 
 def clashes(listed: Iterable[Names]) -> Iterator[Clash]:
-    """Yield each name that two things would both get in one namespace."""
+    """Yield each name that two things would have in one namespace."""
     spaces: dict[str, dict[str, Owner]] = {}
     for namespace, owner, names, _ in listed:
         owners = spaces.setdefault(namespace, {})

@@ -1,4 +1,4 @@
-"""Text templates: text that is laid out once, with placeholders for fields, and filled for each point."""
+"""Text templates: a text is laid out once, with placeholders for fields, and filled in for each point."""
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Sequence
@@ -13,7 +13,7 @@ _RUN = re.compile("([\ufdd0-\ufdef])\\1*")
 
 
 def placeholders(fields: Iterable[str]) -> tuple[str, ...]:
-    """Return a placeholder for each field, as wide as the field, so that lines break where they would with it."""
+    """Return a placeholder for each field, as wide as the field, so that line breaks are the same."""
     return tuple([_PLACEHOLDERS[number] * len(field) for number, field in enumerate(fields)])
 
 

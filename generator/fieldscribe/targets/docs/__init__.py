@@ -1,4 +1,4 @@
-"""The documentation target: a Markdown reference, an HTML page, and the points and meanings as tables (CSV, XLSX)."""
+"""The documentation target: a Markdown reference, an HTML page, and tables of points and meanings (CSV, XLSX)."""
 
 from __future__ import annotations
 

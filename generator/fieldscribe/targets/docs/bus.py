@@ -87,7 +87,7 @@ def _numbers(numbers: tuple[int, ...]) -> str:
 
 
 def _messages(device: Device, form: Form) -> str:
-    """The table of messages, with a column for each byte."""
+    """Return the table of messages, with a column for each byte."""
     count = max((len(message.roles) for message in device.messages), default=0)
     columns: Columns[Message] = {
         "Name": lambda message: form.target("message", message.name),
@@ -110,7 +110,7 @@ def identifier_text(message: Message) -> str:
 
 
 def _role(place: int, message: Message) -> str:
-    """What a byte of a message holds; nothing if it has signals."""
+    """Return what a byte of a message holds; empty if the message has signals."""
     return role_text(message.roles[place]) if message.roles else ""
 
 
@@ -141,7 +141,7 @@ def _telegrams(device: Device, form: Form) -> str:
 
 
 def _functions(device: Device, form: Form) -> str:
-    """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
+    """Return the table of functions, with a column about broadcast only if the device has a broadcast unit."""
     goes_to_all = getattr(_bus_facts(device), "goes_to_all", lambda _: False)
 
     def broadcast(function: Code) -> str:

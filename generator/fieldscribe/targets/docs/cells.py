@@ -1,4 +1,4 @@
-"""Texts, links and sources as cells of a table: in Markdown, and what another form of the page must offer."""
+"""Texts, links and sources as cells of a table: the Markdown form, and the interface of other forms."""
 
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
@@ -10,7 +10,7 @@ from fieldscribe.text import markdown
 
 Thing = TypeVar("Thing")
 Columns: TypeAlias = Mapping[str, Callable[[Thing], str]]
-"""What the columns of a table show of a thing, by head."""
+"""The columns of a table: for each head, a function that returns the cell of a thing."""
 
 LINE_BREAK = "<br>"
 """Begins a new line inside a cell."""
@@ -21,23 +21,23 @@ _BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
 _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9])|(?<= )\*{1,2}(?= ))*")
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
-"""A name that would make its column wide."""
+"""Matches a name that would make its column wide."""
 _LONG_NUMBER = re.compile(r"\b(\d{9,10})(\d{9,10})\b")
 _NARROW = 12
 """A shorter text needs no break."""
 _LONG = 17
-"""The name of a point may be broken from this length on: as code it takes more characters to break it."""
+"""The name of a point may be broken from this length on: breaking it takes extra characters in code."""
 _LONG_SPAN = re.compile(r"(?:(?<=[a-z)])|(?<=[0-9.]{5}))\.\.|\.\.(?=[A-Za-z]|-?[0-9]{6})")
-"""The dots of a range with a name or a long number at an end."""
+"""Matches the dots of a range that has a name or a long number at an end."""
 _NUMBERED = re.compile(r"^([0-9]+)([.)])")
 _ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
 class Form(NamedTuple):
-    """How a page writes what is in its tables: a text, code, a link to a thing, the target of such links, a table.
+    """The form of a page: how it writes texts, code, links, targets of links, and tables.
 
-    `lay_out` gets finished rows, the heads first.
+    `lay_out` takes finished rows, the heads first.
     """
 
     cell: Callable[[str], str]
@@ -52,14 +52,14 @@ class Form(NamedTuple):
     lay_out: Callable[[Sequence[Sequence[str]]], str]
 
     def lines(self, *texts: str) -> str:
-        """Return the texts of a cell, each on its line; empty ones are left out."""
+        """Return the non-empty texts as a cell, each on its own line."""
         return self.line_break.join(filter(None, texts))
 
     def by_rows(self, heads: Sequence[str], rows: Sequence[Sequence[str]], always: Container[str] = ()) -> str:
         """Return a table of finished cells; empty without rows.
 
-        Columns where nothing stands are left out, but for those that are there always: where most rows say nothing,
-        the first that does would change the lines of all others.
+        Empty columns are left out, except those in `always`: the first row that fills one would otherwise change the
+        lines of all others.
         """
         columns = zip(heads, *rows, strict=True) if rows else ()
         kept = [column for column in columns if column[0] in always or any(column[1:])]
@@ -87,7 +87,7 @@ def cell(text: str) -> str:
 
 
 def number_cell(number: int | str) -> str:
-    """Return a number of the manual, which may have letters, as a table cell."""
+    """Return a number as the manual prints it, perhaps with letters, as a table cell."""
     return cell(number) if isinstance(number, str) else str(number)
 
 

@@ -1,4 +1,4 @@
-"""The tables of a device that are not of its points or its bus, in the form that a page wants."""
+"""The tables of a device other than those of points and bus, in the form of a page."""
 
 from collections.abc import Mapping
 
@@ -13,7 +13,7 @@ from fieldscribe.wording.frames import spaced
 
 
 def facts(device: Device, form: Form) -> list[tuple[str, str]]:
-    """Return label and text of the facts of the whole device."""
+    """Return label and text of each fact of the whole device."""
     generated = sum(point.generated for point in device.points)
     rows = [
         ("Device", form.code(device.id)),
@@ -41,7 +41,7 @@ def documents(device: Device, form: Form) -> str:
 
 
 def identifications(scope: DocsScope, form: Form) -> str:
-    """Return the table of what tells the device and its variants from others."""
+    """Return the table of what identifies the device and its variants."""
     columns: Columns[Identification] = {
         "Of": lambda identification: form.cell(str(identification.variant or "the device")),
         "Point": lambda identification: form.narrow_link("point", identification.point),
@@ -54,7 +54,7 @@ def identifications(scope: DocsScope, form: Form) -> str:
 
 
 def bases(device: Device, form: Form) -> str:
-    """Return the table of what addresses count from, with the numbers that a client is given."""
+    """Return the table of the bases of addresses, with the numbers that a client is given."""
     given = {each.name: each for each in device.given}
     columns: Columns[Base] = {
         "Base": lambda base: form.cell(wording.base_text(base)),
@@ -136,7 +136,7 @@ def _certainty(erratum: Erratum) -> str:
 
 
 def _where(erratum: Erratum, form: Form) -> str:
-    """The subject of an erratum without points: a frame, a function, or a place in words."""
+    """Return the subject of an erratum without points: a frame, a function, or a place in words."""
     match erratum.where:
         case Named("frame", str() as name):
             return f"frame {form.link('frame', name)}"
@@ -146,7 +146,7 @@ def _where(erratum: Erratum, form: Form) -> str:
 
 
 def missing(device: Device, form: Form) -> str:
-    """Return the table of what is documented only."""
+    """Return the table of points that are only documented."""
     columns: Columns[Point] = {
         "Code": lambda point: form.cell(point.code or ""),
         "Name": lambda point: form.lines(form.link("point", point.item), form.cell(wording.title_text(point.title))),

@@ -1,4 +1,4 @@
-"""The HTML page of a device: its data as one structure, and the files of the page in one."""
+"""The HTML page of a device: its data as one structure, and all files of the page in one."""
 
 import json
 from base64 import b64encode
@@ -28,7 +28,7 @@ _DECODER = ("pasted.js", "meanings.js", "decoding.js", "decoding_{}.js", "decode
 _STYLES = ("shared.css", "page.css")
 
 Section = tuple[str, list[tuple[str, str]]]
-"""A section of the page: what it is called, and its texts or tables with their headings."""
+"""A section of the page: its title, and its texts or tables with their headings."""
 
 
 def html_of(scope: DocsScope, render: Render, index: str) -> str:
@@ -100,7 +100,7 @@ def _languages(device: Device) -> list[str]:
 
 
 def _bus(device: Device) -> dict[str, object]:
-    """Return what the decoder says of the protocol: closed addresses, codes with names and titles, its own facts."""
+    """Return what the decoder needs of the protocol: closed addresses, codes with names and titles, its own facts."""
     codes = {kind: device.bus.codes(kind) for kind in ("functions", "exceptions", "responses")}
     return {
         "gaps": {line(space): gaps for space, gaps in device.bus.gaps.items()},
@@ -113,7 +113,7 @@ def _bus(device: Device) -> dict[str, object]:
 
 
 def _frame(frame: Frame) -> list[str]:
-    """Return the way of a worked frame as logs write it, its bytes, and what to say where they are misprinted."""
+    """Return the direction of a worked frame as logs write it, its bytes, and a text if they are misprinted."""
     note = "" if frame.valid or frame.family_facts is not None else misprint_text(frame)
     return ["RX" if frame.direction == "response" else "TX", spaced(frame.printed), *([note] if note else [])]
 
@@ -137,7 +137,7 @@ def _erratum(erratum: Erratum, points: Points, items: Mapping[str, list[str]]) -
 
 
 def _sections(scope: DocsScope) -> Iterable[Section]:
-    """Yield the sections of the page with what stands in each; empty tables are left out."""
+    """Yield the sections of the page with their contents; empty tables are left out."""
     device, form = scope.device, MARKED
     bus = bus_view(device, form)
     found = device_tables.found(device.found, form) if device.found is not None else ""
@@ -165,7 +165,7 @@ def source(names: tuple[str, ...]) -> str:
 
 
 def _digest(text: str) -> str:
-    """Return the digest by which a browser knows an inlined text; it stands between line breaks."""
+    """Return the digest by which a browser accepts an inlined text, which has a line break on either side."""
     return "sha256-" + b64encode(sha256(f"\n{text}".encode()).digest()).decode()
 
 
@@ -173,7 +173,7 @@ _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
 
 
 def _json(data: Mapping[str, object]) -> str:
-    """Return JSON that cannot end the element in which it stands, with a line for each member and item of lists."""
+    """Return JSON that cannot end its element, with a line for each member and item of lists."""
     members = [
         f"{_json_line(key)}:{_items(value) if isinstance(value, list) else _json_line(value)}"
         for key, value in data.items()

@@ -1,7 +1,7 @@
 """The generated TypeScript of a device as one classic script: a page from a file system may run no modules.
 
-All modules of the runtime share one scope, as their names differ; those of the device have a scope inside it, as points
-may be called like a part of the runtime. Nothing runs before the page asks for the code.
+All modules of the runtime share one scope, because their names differ. Those of the device have a scope inside it,
+because points may have names of the runtime. Nothing runs before the page calls the code.
 """
 
 import re
@@ -26,7 +26,7 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:const|function|class) (\w+))", r
 _LEFT_OUT = re.compile(
     r"^[ \t]*/\*\*(?:(?!\*/).)*\*/\n|^[ \t]*//[^\n]*\n|^export \{\};\n|/\* @__PURE__ \*/ ", re.MULTILINE | re.DOTALL
 )
-"""Comments, and what makes a module of a file without exports."""
+"""Matches comments, and the statement that marks a file without exports as a module."""
 _SCRIPT = """"use strict";
 globalThis.openCode = () => {{
 {runtime}const generatedDevice = (() => {{
@@ -38,9 +38,9 @@ return {{ Device: generatedDevice, {names} }};
 
 
 def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
-    """Return the script that gives the page the code of a device, and the vectors that the page runs.
+    """Return the script with the code of a device, and the vectors that the page runs.
 
-    Both are empty for a family without TypeScript, the vectors for a device with very many points, too.
+    Both are empty for a family without TypeScript; the vectors also for a device with very many points.
     """
     if not knows("typescript", device):
         return "", ""
@@ -71,7 +71,7 @@ def _runtime(imported: tuple[str, ...]) -> str:
 
 
 def _joined(path: str, text_of: Callable[[str], str], seen: set[str]) -> str:
-    """Return a module after those that it imports, without what makes them modules, and without comments."""
+    """Return a module after those that it imports, without imports, exports and comments."""
     if path in seen:
         return ""
     seen.add(path)
@@ -81,7 +81,7 @@ def _joined(path: str, text_of: Callable[[str], str], seen: set[str]) -> str:
 
 
 def _located(path: str, imported: str) -> str:
-    """Return where a module lies that another one imports."""
+    """Return the path of a module that another one imports."""
     if imported.startswith("."):
         return normpath(join(dirname(path), imported))
     package, _, part = imported.partition("/")
@@ -89,5 +89,5 @@ def _located(path: str, imported: str) -> str:
 
 
 def _safe(script: str) -> str:
-    """Return a script that neither ends nor hides the element in which it stands: inside texts, the same."""
+    """Return a script that neither ends nor hides its element, with the same texts."""
     return script.replace("</", "<\\/").replace("<!--", "<\\!--")

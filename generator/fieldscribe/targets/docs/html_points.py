@@ -1,4 +1,4 @@
-"""What the HTML page knows of points: short rows of numbers and texts, and once what many of them share."""
+"""The points for the HTML page: short rows of numbers and texts, and pools of what many of them share."""
 
 import json
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
@@ -22,12 +22,12 @@ FIELDS = (
     *("name", "kind", "limits", "code", "title", "group", "addresses", "numbers", "printed", "rows", "source"),
     *("errata", "note", "variant", "index", "written", "default", "was", "identifiers"),
 )
-"""What a row of a point has, in this order; what is empty at its end is left out."""
+"""The fields of a row, in this order; empty ones at the end are left out."""
 _DRAWN = frozenset(
     {"name", "code", "group", "variant", "references", "enum", "special", "flags", "title", "note", "errata"}
     | {"source", "raw", "was"}
 )
-"""Facts that the page shows in a form of their own."""
+"""Facts that the page shows in special forms."""
 _FACTS = [fact for fact in POINT if fact.key not in _DRAWN and (fact.label or fact.rows)]
 _SHARED = [(place, fact) for place, fact in enumerate(_FACTS) if fact.holder]
 _OF_ADDRESSES = [(place, fact) for place, fact in enumerate(_FACTS) if fact.key in ("address", "addresses")]
@@ -35,7 +35,7 @@ _OWN = [placed for placed in enumerate(_FACTS) if not placed[1].holder and place
 _OWN_VALUES = attrgetter(*(fact.attribute or (fact.key if fact.value is None else "name") for _, fact in _OWN))
 
 Row = tuple[int, str, str]
-"""Where a fact stands among all, its label, its text."""
+"""The position of a fact among all, its label, its text."""
 
 
 class Pool:
@@ -47,7 +47,7 @@ class Pool:
         self._by_content: dict[str, int] = {}
 
     def number(self, key: Hashable, made: Callable[[], Any]) -> int:
-        """Return the number of a thing, made once for each key; those with the same content have one number."""
+        """Return the number of a thing, which is made once for each key; equal things share a number."""
         number = self._by_key.get(key)
         if number is None:
             thing = made()
@@ -58,7 +58,7 @@ class Pool:
 
 
 def titles(texts: Titles, languages: Sequence[str]) -> str | list[str]:
-    """Return a title in these languages, English first; alone if it has no other."""
+    """Return a title in these languages, English first; the plain text if there is only English."""
     if not texts or len(texts) == 1:
         return line(texts["en"]) if texts else ""
     return [line(texts.get(language, "")) for language in languages]
@@ -130,7 +130,7 @@ class Points:
         )
 
     def _rank_facts(self, rows: list[list[Any]]) -> None:
-        """Number the facts among those that the device has: a new fact that nobody states changes no page."""
+        """Number the facts among those that the device states: an unused new fact changes no page."""
         own = FIELDS.index("rows")
         holders: list[tuple[Any, Any]] = [(kind, "rows") for kind in self._kinds.things if "rows" in kind]
         holders += [(row, own) for row in rows if len(row) > own]
@@ -142,7 +142,7 @@ class Points:
     def _own_rows(self, point: Point) -> list[Row]:
         values = zip(_OWN, _OWN_VALUES(point), strict=True)
         said = [placed for placed, value in values if value or value == 0]
-        said += _OF_ADDRESSES if len(point.addresses) != 1 else []  # the row has a single address anyhow
+        said += _OF_ADDRESSES if len(point.addresses) != 1 else []  # the row has one address already
         return list(self._rows(said, point))
 
     def _rows(self, facts: Iterable[tuple[int, Fact]], point: Point) -> Iterator[Row]:
@@ -152,7 +152,7 @@ class Points:
                     yield place, label, line(text)
 
     def _kind(self, point: Point) -> dict[str, object]:
-        """Return what the shape and the terms of a point say."""
+        """Return the facts of a point's shape and terms."""
         shape, enum, bits = point.shape, enum_of(point), point.bits
         fixed = shape.fixed
         kind = {
@@ -211,18 +211,18 @@ class Points:
 
 
 def _computed(device: Device) -> Mapping[str, int]:
-    """The numberings that the family computes."""
+    """Return the numberings that the family computes."""
     return family(device.family).numbers(device.points[0].space, 0) if device.points else {}
 
 
 def _identifiers(point: Point) -> list[object]:
-    """Return what C, Python, Rust and TypeScript call a point; empty where that is its name."""
+    """Return the names of a point in C, Python, Rust and TypeScript; empty if a name equals that of the point."""
     names = "", attribute(point.name), type_name(point.item), constant(point.item)
     return ["" if name == point.item else name for name in names]
 
 
 def _trimmed(values: list[Any]) -> list[Any]:
-    """Return a row without what is empty at its end."""
+    """Return a row without empty fields at its end."""
     while (values and not values[-1] and values[-1] != 0) or (values and values[-1] in ([], 0, "")):
         values.pop()
     return values

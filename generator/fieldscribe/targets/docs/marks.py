@@ -1,7 +1,7 @@
 """Tables of a device for the HTML page: plain texts, in which marks say what is code, a link, or the end of a cell.
 
-The marks are private characters, which `line` takes out of every text of a description; the page makes elements and
-text nodes of what stands between them, so that no text can become markup.
+The marks are private characters, which `line` removes from every text of a description. The page makes elements and
+text nodes of the text between them, so that no text can become markup.
 """
 
 from collections.abc import Sequence

@@ -100,7 +100,7 @@ class _Place(NamedTuple):
     """A point or a command at an address."""
 
     order: tuple[int, int, int, str]
-    """Address, index, position of the bits from above, name."""
+    """Sort key: address, index, position of the bits from the top, name."""
     wire: str
     element: str
     numbers: Mapping[str, int | str]
@@ -132,7 +132,7 @@ def map_views(device: Device) -> Iterator[MapView]:
 
 
 def _bits(message: Message, points: Iterable[Point]) -> str:
-    """The bits of a message, a row for each byte, with their signals; `=` is the same as in the bit to the left."""
+    """Return the bits of a message with their signals, a row for each byte; `=` repeats the bit to the left."""
     by_word = {point.addresses[0]: point for point in points if point.telegram == message.name and point.addresses}
     names: dict[int, list[str]] = {}
     for field in message.fields:

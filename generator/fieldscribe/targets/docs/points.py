@@ -33,11 +33,11 @@ from fieldscribe.wording.rules import RenamedPoints
 _ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
 """Columns that every device has: the first point that fills one changes no line of others."""
 _SHORT_LIST = 4
-"""Up to so many names are in the row of every point that uses them; a longer list is shown once in a group."""
+"""Lists of at most this many names are in the row of every point that uses them; longer ones appear once in a group."""
 _LONGEST_CELL = 24
-"""A list of more names gets a table below that of the points."""
+"""Longer lists of names get a table below that of the points."""
 _LONGEST_REMARK = 120
-"""A note with errata that is longer goes below the table."""
+"""Longer notes with errata go below the table."""
 _KEEPS = {
     "no": "lost when switched off",
     "yes": "kept, each write wears the memory",
@@ -114,7 +114,7 @@ class _Cells(NamedTuple):
 
 
 class _Rows:
-    """The rows of points; what points share is worked out once."""
+    """Builds the rows of points; cells that points share are built once."""
 
     def __init__(self, scope: DocsScope) -> None:
         self.scope = scope
@@ -197,7 +197,7 @@ class _Rows:
         return "; ".join(filter(None, (known, f"the manual leaves open {', '.join(doubts)}" if doubts else "")))
 
     def has_more(self, point: Point) -> bool:
-        """Return True if note and errata would make the row a tall one."""
+        """Return True if note and errata are too long for the row."""
         if not (point.note or point.errata):
             return False
         size = sum(len(self._doubts.get(name, name)) for name in point.errata)
@@ -221,7 +221,7 @@ class _Rows:
 
 
 def _limits(point: Point, by_code: RenamedPoints) -> tuple[str, str]:
-    """The range without its unit, and the raw range where it says more; both call other points by their codes."""
+    """Return the range without its unit, and the raw range if it adds something; other points appear by code."""
     span = "" if point.flags else wording.range_text(point, by_code, unit=False)
     if point.scale is None and not point.allowed.moves and fixed_rule(point) is not None:
         return narrow(cell(span)), ""
@@ -230,7 +230,7 @@ def _limits(point: Point, by_code: RenamedPoints) -> tuple[str, str]:
 
 
 def _with_default(point: Point, allowed: str) -> str:
-    """The range, and below it the factory setting: few points have one, so a column would be empty."""
+    """Return the range, and below it the default: few points have one, so a column of its own would be mostly empty."""
     if point.default is None and point.default_raw is None:
         return allowed
     text = wording.default_parts(point) or wording.default_text(point, unit=False)
@@ -276,7 +276,7 @@ class _Lists:
         )
 
     def views(self) -> Iterator[ListView]:
-        """Yield the lists that stand below the table."""
+        """Yield the lists that go below the table."""
         for first, (enum, users) in self._users.items():
             points = ", ".join(link("point", item) for item in users)
             rows = [
@@ -287,5 +287,5 @@ class _Lists:
 
 
 def _listed(enum: Enum, *, patterns: bool) -> str:
-    """The names of an enum, each on its line."""
+    """Return the names of an enum, each on its own line."""
     return LINE_BREAK.join(narrow(cell(wording.entry_text(entry, patterns=patterns))) for entry in enum.entries)

@@ -19,20 +19,20 @@ class DocsScope(NamedTuple):
     by_name: Mapping[str, Point]
     by_code: RenamedPoints
     context: Context
-    """What the facts of points need; other points are called by name."""
+    """The context of the facts of points; other points appear by name."""
     several: bool
-    """True if facts come from several documents: then each source names its own."""
+    """True if facts come from several documents: then each source names its document."""
 
 
 def scope_of(device: Device) -> DocsScope:
-    """Return what the rows of a device share."""
+    """Return the scope of a device."""
     by_name = {point.name: point for point in device.points}
     by_code = RenamedPoints(by_name, _codes(device.points))
     return DocsScope(device, by_name, by_code, Context(device, names=by_name), len(device.documents) > 1)
 
 
 def _codes(points: Iterable[Point]) -> dict[str, str]:
-    """The codes of points by their names, as far as a code belongs to one name."""
+    """Return the codes of points by their names, for codes that belong to one name."""
     names: dict[str, set[str]] = {}
     for point in points:
         if point.code:
@@ -41,7 +41,7 @@ def _codes(points: Iterable[Point]) -> dict[str, str]:
 
 
 def place_text(point: Point, form: Form = MARKDOWN) -> str:
-    """Return where a point starts and how many words it has: `3100h (12544)`, then `2 words, low word first`."""
+    """Return the first address of a point and its number of words: `3100h (12544)`, then `2 words, low word first`."""
     if not point.addresses:
         return ""
     if point.place.bit is not None:
@@ -72,10 +72,10 @@ def numbers_text(numbers: Mapping[str, int | str], keys: Sequence[str]) -> str:
 
 
 class Remarks:
-    """The remarks of the points of a device; what points share is worked out once.
+    """Builds the remarks of the points of a device; remarks that points share are built once.
 
-    `encode` makes a text fit for a cell. `further` are remarks by the key of a fact that are finished cells. The facts
-    in `left_out` are no remarks, and with `in_columns` neither are facts that have a column.
+    `encode` turns a text into a cell. `further` has remarks that are finished cells, by the key of the fact. Facts in
+    `left_out` give no remarks; with `in_columns`, neither do facts that have a column.
     """
 
     def __init__(

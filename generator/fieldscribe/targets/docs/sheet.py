@@ -1,4 +1,4 @@
-"""The table of points: a row for each, with a column for each fact that can be counted, sorted or looked up."""
+"""The table of points for spreadsheets: a row for each point, a column for each fact."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
@@ -22,7 +22,7 @@ _FACTS = {fact.key: fact for fact in POINT if fact.column}
 
 
 def _of_fact(key: str) -> Column:
-    """The column that the table of facts has for a fact."""
+    """Return the column of a fact, as the table of facts describes it."""
     return Column(key, _FACTS[key].column, _FACTS[key].is_number)
 
 
@@ -83,16 +83,16 @@ COLUMNS = (
     Column("generated", "whether code has it"),
     _of_fact("reason"),
 )
-"""The columns that every device has."""
+"""The columns of every device."""
 FURTHER = tuple(_of_fact(key) for key in _FACTS if key not in {column.name for column in COLUMNS})
-"""The columns of all other facts; a device has those that some point of it fills."""
+"""The columns of all other facts; a device has those that one of its points fills."""
 
 
 class _Cells(NamedTuple):
     """A function that returns the cells of a point from a column on.
 
-    `shared` says what decides about them: shape and terms (`terms`), or the limits, too (`limits`). Other cells are the
-    point's own, and empty if its attribute `needs` is.
+    `shared` says what decides about them: shape and terms (`terms`), or also the limits (`limits`). Other cells belong
+    to the point, and are empty if its attribute `needs` is.
     """
 
     column: str
@@ -137,7 +137,7 @@ def points_table(scope: DocsScope) -> Table:
 
 
 def _filled(scope: DocsScope) -> Iterator[Column]:
-    """The further columns that some point fills."""
+    """Return the further columns that some point fills."""
     for column in FURTHER:
         if any(_FACTS[column.name].cell_of(point, scope.context) for point in scope.device.points):
             yield column
@@ -169,7 +169,7 @@ def _rows(scope: DocsScope, columns: Sequence[Column], encode: Encode) -> Iterat
 
 
 def _placed(columns: Sequence[Column]) -> Iterator[tuple[slice, _Cells]]:
-    """The cells with their places in a row; each reach up to the next."""
+    """Return the cells with their places in a row, each up to the next."""
     first = {column.name: place for place, column in enumerate(columns)}
     cells = sorted((cells for cells in _CELLS if cells.column in first), key=lambda cells: first[cells.column])
     starts = [*(first[each.column] for each in cells), len(columns)]
@@ -218,5 +218,5 @@ def _command_remarks(command: Command) -> Iterator[str]:
 
 
 def wanted_text(command: Command) -> str:
-    """Return which number the command writes: `write 1150`."""
+    """Return the number that the command writes: `write 1150`."""
     return f"write {'any number' if command.value is None else command.value}"

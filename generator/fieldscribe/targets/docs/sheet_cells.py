@@ -18,7 +18,7 @@ _NO_REMARKS = ("special_of", "note", "reserved")
 
 
 class Sheet:
-    """What the cells of all points of a device need."""
+    """The state that the cells of all points of a device need."""
 
     def __init__(self, scope: DocsScope, encode: Encode) -> None:
         self.scope, self.encode, self.numbers_at = scope, encode, family(scope.device.family).numbers
@@ -64,7 +64,7 @@ def bits(point: Point, _: Sheet) -> tuple[str, ...]:
 
 
 def references(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
-    """Return Modicon's two numberings, which of them are computed, and all others as one text."""
+    """Return the two numberings of Modicon, which of them are computed, and all other numberings as one text."""
     place = point.place
     others, known = [], {"modicon": "", "reference": ""}
     for name, number in place.references.items():
@@ -80,7 +80,7 @@ def references(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
 
 
 def scale(point: Point, sheet: Sheet) -> tuple[str, str, str]:
-    """Return factor and offset; without a linear decimal rule the rule as text."""
+    """Return factor and offset, or the rule as text if it is not linear with decimal numbers."""
     line = _line_of(point)
     if line is not None:
         factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
@@ -90,7 +90,7 @@ def scale(point: Point, sheet: Sheet) -> tuple[str, str, str]:
 
 
 def _line_of(point: Point) -> Line | None:
-    """Return the rule from raw numbers to values; None if they are no quantities or other points are needed."""
+    """Return the rule from raw numbers to values; None if they are not quantities or need other points."""
     if point.form not in ("scaled", "integer", "float"):
         return None
     if point.scale is not None:
@@ -105,7 +105,7 @@ def limits(point: Point, sheet: Sheet) -> tuple[str, ...]:
 
 
 def _ends_of(point: Point) -> tuple[str, str, str, str]:
-    """Return the least and the greatest raw number and value; empty texts where there is none."""
+    """Return the least and the greatest raw number and value; empty texts if there is none."""
     units = point.allowed.units
     if point.info.floating or units:
         return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
@@ -119,7 +119,7 @@ def _ends_of(point: Point) -> tuple[str, str, str, str]:
 
 
 def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int] | None:
-    """The ends without the special codes there; None if nothing is left."""
+    """Return the ends without special codes; None if nothing is left."""
     if ends is None or not point.specials:
         return ends
     low, high = ends
@@ -131,7 +131,7 @@ def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int
 
 
 def _range_of(point: Point, ends: tuple[str, str], points: Mapping[str, Point]) -> str:
-    """Return the limits as text if least and greatest value are not all: other points, gaps, fractions."""
+    """Return the limits as text if least and greatest value do not say everything: other points, gaps, fractions."""
     allowed, line = point.allowed, _line_of(point)
     parts = allowed.units or allowed.intervals
     unsaid = line is not None and bool(parts) and "" in ends
@@ -151,13 +151,13 @@ def default(point: Point, _: Sheet) -> tuple[str]:
 
 
 def _default_numbers(point: Point) -> str:
-    """The factory setting of a word that is made of numbers."""
+    """Return the default of a word that is made of numbers."""
     parts = wording.default_parts(point)
     return parts and f"default: {parts}"
 
 
 def _default_fraction(point: Point) -> str:
-    """A factory setting that is no decimal, and so in no column."""
+    """Return a default that is not a decimal and so has no column."""
     is_fraction = point.default is not None and point.default_raw is None and not decimal(number_text(point.default))
     return f"default {wording.default_text(point)}" if is_fraction else ""
 

@@ -8,7 +8,7 @@ from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.text import csv_cell
 
 Encode: TypeAlias = Callable[[str], str]
-"""Makes a text of a description fit for a cell; numbers do not need it."""
+"""Turns a text of a description into a cell; numbers do not need it."""
 
 _MARK = "\ufeff"
 """The mark by which spreadsheets recognise UTF-8; without it `°C` and umlauts are garbled."""
@@ -56,12 +56,12 @@ def source_cells(source: Source, encode: Encode) -> Iterator[str]:
 
 
 def no_number(what: str, text: str) -> str:
-    """Return a text; before one that looks like a number or a date (section 4.10, page 7-25) comes a word."""
+    """Return a text; one that looks like a number or a date (section 4.10, page 7-25) gets a word in front."""
     return f"{what} {text}" if _LIKE_A_NUMBER.fullmatch(text) else text
 
 
 def decimal(text: str) -> str:
-    """Return an exact decimal; empty for a fraction without an end."""
+    """Return an exact decimal; empty for a fraction whose decimals never end."""
     return "" if "/" in text else text
 
 
@@ -84,12 +84,12 @@ _NAMELESS = ("zero", "one")
 
 
 def enum_of(point: Point) -> Enum | None:
-    """Return the names of the point's numbers, or of its digits."""
+    """Return the enum of the point, or of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
 
 
 def codes_of(point: Point) -> str:
-    """Return what the special codes of a point are called in the meanings; empty if it has none."""
+    """Return the name of a point's special codes in the table of meanings; empty if it has none."""
     shared = point.shared_codes
     return f"codes of {shared}" if shared else point.item if point.specials else ""
 

@@ -13,10 +13,10 @@ from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, Columns, by_ro
 _BREAKS = re.compile("<w?br>")
 _BYTE = 8
 _SAME = "←"
-"""One more bit of the name on its left."""
+"""Marks a further bit of the name on its left."""
 _WIDEST = 1200
 _SIGN, _BORDERS = 9, 18
-"""Estimated pixels: a row on a page of 1,280, a character, the borders of a cell."""
+"""Estimated widths in pixels: of a row on a page of 1,280, of a character, of the borders of a cell."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ def word_views(points: Iterable[Point]) -> Iterator[WordView]:
 
 
 class _Field(NamedTuple):
-    """Neighbouring bits with one name or none; `always` is the constant that is always written to them."""
+    """Neighbouring bits with one name or none; `always` is the constant written to them, if there is one."""
 
     high: int
     low: int
@@ -62,7 +62,7 @@ class _Field(NamedTuple):
         return _BORDERS + _SIGN * max(map(len, parts))
 
     def bit(self, number: int) -> str:
-        """Return the text at one bit: the name at the highest bit, and again where a byte begins."""
+        """Return the text at one bit: the name at the highest bit, and again at the start of a byte."""
         is_first = number == self.high or number % _BYTE == _BYTE - 1
         name = self.name if is_first or not self.name else _SAME
         return _text(name, self.always[self.high - number] if self.always else "")
@@ -73,7 +73,7 @@ def _text(name: str, always: str) -> str:
 
 
 def _drawn(point: Point) -> str:
-    """The word as a table, the highest bit first: in one row, or byte by byte where that is wider than a page."""
+    """Return the word as a table, the highest bit first: in one row, or byte by byte if that is too wide for a page."""
     fields = list(_fields(point))
     if _is_wide(fields):
         heads, *rows = _bytes(fields)
@@ -92,7 +92,7 @@ def _is_wide(fields: Sequence[_Field]) -> bool:
 
 
 def _bytes(fields: Sequence[_Field]) -> Iterator[list[str]]:
-    """Two rows for each byte, the numbers of its bits and their texts; the first row is the head of the table."""
+    """Return two rows for each byte: the numbers of its bits and their texts; the first row is the head."""
     texts = {bit: field.bit(bit) for field in fields for bit in range(field.low, field.high + 1)}
     highest = fields[0].high // _BYTE
     for byte in range(highest, fields[-1].low // _BYTE - 1, -1):
@@ -117,7 +117,7 @@ def _fields(point: Point) -> Iterator[_Field]:
 
 
 def _nameless(point: Point, above: int, lowest: int) -> Iterator[_Field]:
-    """Fields of bits without a name, divided where bits begin or end that are always written as a constant."""
+    """Yield fields of bits without a name, divided at the ends of constant bits."""
     mask = point.shape.fixed.mask if point.shape.fixed else 0
     for _, run in groupby(range(above - 1, lowest - 1, -1), key=lambda bit: mask >> bit & 1):
         bits = [*run]
@@ -129,7 +129,7 @@ def _field(point: Point, high: int, low: int, name: str = "") -> _Field:
 
 
 def _constant(point: Point, high: int, low: int) -> str:
-    """The bits that are always written as a constant; empty unless all of these are."""
+    """Return the constant of these bits; empty unless all of them are constant."""
     fixed, mask = point.shape.fixed, (1 << high - low + 1) - 1
     if fixed is None or fixed.mask >> low & mask != mask:
         return ""
@@ -152,7 +152,7 @@ def _flag_table(point: Point) -> str:
 
 
 def _meaning_of(flag: Flag, number: int) -> str:
-    """What a single bit means at 0 or at 1."""
+    """Return the meaning of a single bit at 0 or at 1."""
     entry = next((entry for entry in flag.values if flag.width == 1 and entry.raw == number), None)
     if entry is None:
         return ""

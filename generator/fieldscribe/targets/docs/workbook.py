@@ -1,4 +1,4 @@
-"""The tables of a device as a workbook (XLSX): typed cells, a head that stays, filters, and no date in its bytes."""
+"""The tables of a device as a workbook (XLSX): typed cells, frozen heads, filters, and no date in its bytes."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,7 +15,7 @@ from fieldscribe.wording import title_text
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
 _ESCAPE = re.compile(r"(?<=_)(?=x[0-9A-Fa-f]{1,4}_)")
-"""The place in a text that LibreOffice and others would read as an escaped character (`_x1_`)."""
+"""Matches a text that LibreOffice and others would read as an escaped character (`_x1_`)."""
 _MOST = 1 << 53
 """Workbooks store floating point; greater whole numbers are written as text to stay exact."""
 _NARROW, _WIDE = 6, 48
@@ -28,7 +28,7 @@ _FORMATS: Mapping[str, Mapping[str, object]] = {
 """The formats of cells; `long` is for columns with texts that are wider than the column."""
 _STAYS = {"points": 2}
 """How many columns on the left stay visible when a sheet is scrolled."""
-_WHEN = datetime(2000, 1, 1)  # the format wants a date, and the bytes may not depend on today
+_WHEN = datetime(2000, 1, 1)  # the format needs a date, and the bytes must not depend on today's
 _COLUMNS = (Column("sheet", ""), Column("column", ""), Column("says", ""))
 
 

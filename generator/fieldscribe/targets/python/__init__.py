@@ -16,7 +16,7 @@ from fieldscribe.text import pascal, python_doc, python_string, toml_string, upp
 from fieldscribe.wording import open_texts
 
 LIBRARIES = frozenset({"can", "pymodbus", "serial"})
-"""What the transports of the runtime import where a project asks for them."""
+"""The packages that transports of the runtime import if a project uses them."""
 
 _OWN = Owner("target", "what the package needs")
 _POINTS = "Python, the points"
@@ -35,7 +35,7 @@ def device_name_taken(name: str) -> str:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Yield every name that depends on the description, and the fixed names beside them."""
+    """Yield every name that depends on the description, and the fixed names in the same namespaces."""
     names = Identifiers(device)
     yield from _of_device(device, names)
     yield from _classes(device, names)
@@ -133,7 +133,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
 def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files copied beside the package: output path, and path under the templates folder.
 
-    All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
+    It is the same for all families: devices of several share one copy.
     """
     del device, tests  # its tests are not generated
     for name in runtime_files(f"python/runtime/{_RUNTIME}"):

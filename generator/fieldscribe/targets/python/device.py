@@ -1,4 +1,4 @@
-"""The view of the device module, with its two device classes, and what the Python target asks of a bus family."""
+"""The view of the device module, with its two device classes, and what a family offers the Python target."""
 
 from collections.abc import Callable
 from operator import attrgetter
@@ -21,9 +21,9 @@ class Line(NamedTuple):
     blocking: str
     awaiting: str
     first: tuple[str, ...] = ()
-    """Lines of import that the expressions need besides."""
+    """Further lines of import that the expressions need."""
     settings: tuple[str, ...] = ()
-    """What the device is made with beside the line and the unit."""
+    """Further arguments of the device after the line and the unit."""
 
     def imports(self, wait: str) -> tuple[str, ...]:
         """Return the classes that the expression names, in order."""
@@ -37,7 +37,7 @@ class PythonFamily(NamedTuple):
     """What generated modules import for a family.
 
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
-    before their names. `line` gives the transport that most people have. `settings` are further parameters of a
+    before their names. `line` returns the usual transport. `settings` are further parameters of a
     device's constructor (name, class).
     """
 
@@ -50,7 +50,7 @@ class PythonFamily(NamedTuple):
 
 
 def in_python(device: Device) -> PythonFamily:
-    """Return what the device's family says."""
+    """Return the part `targets.calls` of the device's family."""
     part: PythonFamily = family(device.family).part("targets.calls").IN_PYTHON
     return part
 
@@ -131,7 +131,7 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
 
 
 def imports_of(device: Device) -> tuple[str, ...]:
-    """Return the lines that import the base classes; and what the constructor names, which only variants need."""
+    """Return the lines that import the base classes, and names that only a constructor with variants needs."""
     bus = in_python(device)
     used = {bus.device, f"Async{bus.device}"}
     if device.variants or device.given:

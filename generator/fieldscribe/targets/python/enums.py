@@ -21,8 +21,8 @@ _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small l
 class EnumClass(NamedTuple):
     """A class: its head (`class Name(...):`), its docstring, and its members (name, value, docstring or empty).
 
-    Words of flags also have readers of each flag. If they can be written, `composed` is the expression that makes a
-    word of these parameters (`on: bool = False`).
+    Words of flags also have a reader for each flag. If they can be written, `composed` is the expression that builds a
+    word from these parameters (`on: bool = False`).
     """
 
     name: str
@@ -55,7 +55,7 @@ def enums_context(device: Device, names: Identifiers, render: Render) -> dict[st
 
 
 class _Classes:
-    """The texts of classes: laid out once for all that have the same members. `used` are names of the runtime."""
+    """Builds the texts of classes, laid out once for all with the same members. `used` are names of the runtime."""
 
     def __init__(self, names: Identifiers, render: Render) -> None:
         self.texts: list[str] = []
@@ -116,7 +116,7 @@ def _word(name: str, sentence: str, point: Point, classes: tuple[str, ...]) -> E
 
 
 def _composer(point: Point, classes: tuple[str, ...]) -> tuple[tuple[str, ...], str]:
-    """Return parameters and result; flags whose bits are always written as a constant have no parameter."""
+    """Return parameters and result; flags whose bits are constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     parameters, parts = [], list[Node]()
     for flag, named in zip(point.flags, classes, strict=True):
@@ -132,7 +132,7 @@ def _composer(point: Point, classes: tuple[str, ...]) -> tuple[tuple[str, ...], 
 
 
 def reader(flag: Flag, named: str) -> Node:
-    """Return what reads a flag of the word; `named` is the class of its numbers."""
+    """Return the reader of a flag of the word; `named` is the class of its numbers."""
     if flag.width == 1:
         return call("Flag", flag.low) if flag.active else call("Flag", flag.low, active=0)
     return call("Field", flag.low, flag.width, *([Name(named)] if named else ()))

@@ -1,4 +1,4 @@
-"""Python expressions laid out as by a formatter: on one line if they fit, else with a line for each item."""
+"""Lays out Python expressions as formatters do: on one line if they fit, else with a line for each item."""
 
 import textwrap
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ def comment(text: str) -> str:
 def laid_out(node: Node, indent: int, before: str = "") -> str:
     """Return the lines of the expression at that indentation, with room for a comma after it.
 
-    `before` stands before the expression on its line, such as `allowed=`.
+    `before` precedes the expression on its line, such as `allowed=`.
     """
     if node is None or isinstance(node, (str, int, float)):
         return before + leaf(node)
@@ -65,7 +65,7 @@ def _brackets(node: Branch) -> tuple[str, str]:
 
 
 def _items(node: Branch) -> list[tuple[str, Node]]:
-    """Return the items, each with what stands before it: a keyword, or a key."""
+    """Return the items, each with its keyword or its key."""
     if isinstance(node, tuple):
         return [("", item) for item in node]
     if isinstance(node, Call):

@@ -105,13 +105,13 @@ BODY = 8
 """The indentation of an attribute's arguments."""
 
 _FREE = 5
-"""The fields before this one have a line of their own: no line break depends on their width."""
+"""The fields before this one are on lines of their own: no line break depends on their width."""
 
 _KEEP = "`keep=True`"
-"""What a program says so that a value outlives power-off."""
+"""The argument with which a program keeps a value over power-off."""
 
 LimitTexts = tuple[str, tuple[str, ...]]
-"""The limits of a point for its docstring, and their ends in code."""
+"""The limits of a point as text, and their ends in code."""
 
 
 class AttributeView(NamedTuple):
@@ -125,7 +125,7 @@ class AttributeView(NamedTuple):
 
 
 class Attributes:
-    """Makes the texts of a device's attributes."""
+    """Builds the texts of a device's attributes."""
 
     def __init__(self, scope: Scope, render: Render) -> None:
         self._scope = scope
@@ -180,7 +180,7 @@ class Attributes:
 
 
 def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> AttributeView:
-    """Return the view of an attribute that a call makes."""
+    """Return the view of the attribute of a call."""
     return AttributeView(name, made.name, arguments(made, BODY), doc, old_names)
 
 

@@ -1,5 +1,5 @@
-"""A device as calls of a runtime's constructors: structure that languages without generated behaviour write or make.
+"""A device as calls of the runtime's constructors, for languages whose generated code has facts and no behaviour.
 
-Python writes the calls as text, `live` makes the objects of them, TypeScript writes them as JavaScript. A language
-brings a `Scope`, which has its names, and a layout; nothing here knows how either looks.
+Python writes the calls as text, TypeScript as JavaScript; `live` executes them. A language adds a `Scope` with its
+names, and a layout; nothing here depends on either.
 """

@@ -1,4 +1,4 @@
-"""What the class of points says beside its points: profile, blocks, variants, identifications, commands."""
+"""The class of points without its points: profile, blocks, variants, identifications, commands."""
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
@@ -45,7 +45,7 @@ def readable_groups(device: Device) -> tuple[str, ...]:
 
 
 def commands_of(scope: Scope) -> Iterator[tuple[Command | SteppedCommand, Call]]:
-    """Yield the commands, each with the call that makes it."""
+    """Yield the commands, each with the call that creates it."""
     for command in scope.device.commands:
         facts: dict[str, Node] = {"at": place_of_command(command, scope)}
         if command.value is not None:

@@ -1,4 +1,4 @@
-"""The call that makes a point: its form, and all facts about it."""
+"""The call that creates a point: its form, and all facts about it."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
@@ -20,7 +20,7 @@ _Facts = Iterator[tuple[str, Node]]
 
 
 class PointFields(NamedTuple):
-    """What only one point has, as values or placeholders for them; what it lacks is empty, a default or code None.
+    """The facts of one point, as values or placeholders for them; an absent fact is empty (default and code: None).
 
     `numbers` is the class of its numbers or flags. `ends` are the bounds of its intervals.
     """
@@ -44,7 +44,7 @@ def fields_of(point: Point, scope: Scope) -> PointFields:
 
 
 def attribute_of(point: Point, scope: Scope) -> str:
-    """Return the attribute of a point; one that only a variant has is called after its item."""
+    """Return the attribute of a point; one that only a variant has is named after its item."""
     return scope.attribute(point.name if point.variant is None else point.item)
 
 
@@ -54,7 +54,7 @@ def old_attributes(point: Point, scope: Scope) -> tuple[str, ...]:
 
 
 def variants_call(points: Mapping[Variant, Point], scope: Scope) -> Call:
-    """Return the call that makes the attribute of points that have one name in different variants."""
+    """Return the call that creates the attribute of points that have one name in different variants."""
     axis = next(iter(points)).axis
     chosen = {variant.value: Name(attribute_of(point, scope)) for variant, point in points.items()}
     return call(scope.runtime("ByVariant"), axis, chosen)
@@ -66,7 +66,7 @@ def old_names_of(points: Mapping[Variant, Point]) -> tuple[str, ...]:
 
 
 def call_of(point: Point, fields: PointFields, scope: Scope) -> Call:
-    """Return the call that makes a point."""
+    """Return the call that creates a point."""
     maker = scope.runtime(family_calls(scope.device).maker(point))
     return call(maker, form(point, fields.numbers, scope), **dict(_facts(point, fields, scope)))
 
@@ -77,7 +77,7 @@ def numbers_of(point: Point, scope: Scope) -> str:
 
 
 def keeps(point: Point, scope: Scope) -> str:
-    """Return what keeps a written value, a command by its attribute."""
+    """Return how a written value is kept; a command by its attribute."""
     return scope.commands.get(point.keeps or "", point.keeps or "")
 
 
@@ -112,7 +112,7 @@ def _facts(point: Point, fields: PointFields, scope: Scope) -> _Facts:
 
 
 def _writing(point: Point, scope: Scope) -> _Facts:
-    """Yield what a writer has to know."""
+    """Yield the facts about writing."""
     if point.conditions:
         yield "conditions", point.conditions
     if point.takes_effect:
@@ -124,7 +124,7 @@ def _writing(point: Point, scope: Scope) -> _Facts:
 
 
 def _identity(point: Point, fields: PointFields, scope: Scope) -> _Facts:
-    """Yield the places of the point on the wire, and how the manual calls it."""
+    """Yield the places of the point on the wire, and its names in the manual."""
     yield from places(point, fields.addresses, scope)
     if point.bits is not None:
         yield "bits", point.bits
@@ -136,7 +136,7 @@ def _identity(point: Point, fields: PointFields, scope: Scope) -> _Facts:
 
 
 def _existence(point: Point, scope: Scope) -> _Facts:
-    """Yield what says in which devices the point exists."""
+    """Yield the facts that decide in which devices the point exists."""
     if point.variant is not None:
         yield "variant", (point.variant.axis, point.variant.value)
         yield "name", point.name
@@ -145,7 +145,7 @@ def _existence(point: Point, scope: Scope) -> _Facts:
         yield "only_for", choice
         others.remove(choice[0])
     if others or point.since is not None or point.until is not None or point.to_end:
-        yield "uncertain", True  # another axis, a point, the firmware or the length of a block decides too
+        yield "uncertain", True  # another axis, a point, the firmware or the length of a block matters too
     if point.when is not None and not scope.device.variants.keys() >= {*point.when.names}:
         yield "when", tests_of(point.when)
 

@@ -128,7 +128,7 @@ def _name(point: str | None) -> Node:
 
 
 def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
-    """Return a linear rule as integers; factors of a scale have their special codes with them."""
+    """Return a linear rule as integers; factors of a scale include their special codes."""
     ratio, offset = linear.ratio, linear.offset
     facts: dict[str, Node] = {}
     if ratio.numerator != 1:
@@ -162,7 +162,7 @@ def _factor(operand: Operand, scope: Scope, *, of_scale: bool) -> Node:
 
 
 def is_limited(point: Point) -> bool:
-    """Return True if the raw numbers that may be written are fewer than the type or the enum says."""
+    """Return True if fewer raw numbers may be written than the type or the enum has."""
     if point.form in ("float", "text", "digits") or _only_named(point):
         return False
     return point.allowed.fixed != ((point.least, point.greatest),)
@@ -186,7 +186,7 @@ def _bound(bound: Bound, scope: Scope) -> Node:
 
 
 def addresses_of(addresses: tuple[int, ...], space: str) -> tuple[int, ...]:
-    """Return addresses of a space as they are written."""
+    """Return addresses in the notation of their space."""
     return addresses if space in NUMBERED else tuple(map(Hex, addresses))
 
 

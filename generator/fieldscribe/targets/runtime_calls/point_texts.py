@@ -1,6 +1,6 @@
-"""What only one point has, as texts of a language: its call is laid out once for many points, and filled with these.
+"""The facts of one point as texts of a language: a call is laid out once for many points, and filled with these.
 
-And what the documentation in code says of points beside their titles, of named numbers and of flags.
+And the sentences of docstrings about points, named numbers and flags.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from fieldscribe.targets.runtime_calls.scope import Leaf, Name, Scope
 from fieldscribe.wording import codes_text, condition_text, overflow_texts, range_text, write_texts
 
 _MOST_ENDS = 16
-"""The ends of at most so many intervals are fields."""
+"""The ends of at most this many intervals are fields."""
 _SINGLE = 4
 """The fields after these have several texts each."""
 
@@ -35,7 +35,7 @@ def texts_of(point: Point, numbers: str, ends: tuple[str, ...], encoders: Encode
 
 
 def end_texts(point: Point, leaf: Callable[[Leaf], str]) -> tuple[str, ...]:
-    """Return the ends of the intervals of raw numbers, where they are fields."""
+    """Return the ends of the intervals of raw numbers, if they are fields."""
     limits = point.allowed
     if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
         return ()
@@ -56,7 +56,7 @@ _WITH_RANGE = ("scaled", "float", "integer")
 """The forms whose docstring says the range."""
 
 _KEEPS = {"no": "Lost at power-off", "yes": "Each write wears the memory"}
-"""What becomes of a written value."""
+"""What happens to a written value."""
 
 
 def limits_text(point: Point, scope: Scope) -> str:
@@ -65,7 +65,7 @@ def limits_text(point: Point, scope: Scope) -> str:
 
 
 def remarks_text(point: Point, scope: Scope, keep: str) -> str:
-    """Return sentences about a point; `keep` is what a program says so that a value outlives power-off."""
+    """Return sentences about a point; `keep` is the argument with which a program keeps a value over power-off."""
     text = ""
     if point.when is not None:
         text += f" Exists only when {condition_text(point.when, scope.lowered.points)}."
@@ -86,14 +86,14 @@ def sentence(text: str) -> str:
 
 
 def entry_text(entry: Entry) -> str:
-    """Return a sentence about a named number; empty where its name says it all."""
+    """Return a sentence about a named number; empty if its name says it all."""
     if entry.quantity:
         return sentence(f"{entry.title['en']} ({entry.quantity})")
     return "" if _says_the_same(entry.title["en"], entry.name) else sentence(entry.title["en"])
 
 
 def flag_text(flag: Flag) -> str:
-    """Return sentences about a flag, also whether it is true while its bit is 0; empty where its name says it all."""
+    """Return sentences about a flag, also whether it is true while its bit is 0; empty if its name says it all."""
     meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
     if not meaning and flag.active and _says_the_same(flag.title["en"], flag.name):
         return ""

@@ -1,4 +1,4 @@
-"""Calls as expressions; what they ask of a language (its names), and of a family (what it says of a device)."""
+"""Calls as expressions, and what they need of a language (its names) and of a family (its facts of a device)."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from fieldscribe.text import pascal
 
 
 class Name(str):
-    """A name, such as `U16` or `enums.Direction`; or what stands for an expression in a template of text."""
+    """A name, such as `U16` or `enums.Direction`; or a placeholder for an expression."""
 
     __slots__ = ()
 
 
 class PointName(str):
-    """A text that names a point, of this device: what it is called there is for the language to say."""
+    """A text that names a point of this device; the language gives the name."""
 
     __slots__ = ()
 
 
 class Hex(int):
-    """A number that is written in hexadecimal, with at least so many digits."""
+    """A number that is written in hexadecimal, with at least this many digits."""
 
     digits: int
 
@@ -65,7 +65,7 @@ def usual_maker(point: Point) -> str:
 
 
 class ClassNames:
-    """The final names of what names numbers: a class for each enum and each word of flags; `taken` are of others."""
+    """The final names of classes, for each enum and each word of flags; `taken` are names of other things."""
 
     def __init__(self, device: Device, taken: Iterable[str]) -> None:
         self._taken = set(taken)
@@ -86,7 +86,7 @@ class ClassNames:
         return self._enums[enum]
 
     def numbers_class(self, shape: Shape) -> str:
-        """Return the class that names the numbers of a shape, or each of its digits; empty if nothing does."""
+        """Return the class that names the numbers of a shape, or each of its digits; empty if there is none."""
         enum = named_numbers(shape)
         return "" if enum is None else self._enums[enum.name]
 
@@ -133,9 +133,9 @@ class ClassNames:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """A device with the names of a language and the lowered model; it collects what its calls name.
+    """A device with the names of a language and the lowered model; it collects the names that its calls use.
 
-    `attribute` gives the name of a point, `enums` stands before a class that names numbers, `used` are names of the
+    `attribute` returns the name of a point, `enums` precedes a class that names numbers, `used` are names of the
     runtime, and `codes` the special codes that points share.
     """
 
@@ -168,9 +168,9 @@ def command_attributes(device: Device, attribute: Callable[[str], str]) -> dict[
 
 
 class FamilyCalls(NamedTuple):
-    """What a family says of a device in calls: its profile, the function that makes a point, and class variables.
+    """The facts of a family in calls: the profile, the function that creates a point, and class variables.
 
-    `facts` are class variables such as planned reads, or what addresses count from.
+    `facts` are class variables such as planned reads and bases of addresses.
     """
 
     profile: Callable[[Device, Scope], Node]

@@ -45,10 +45,10 @@ _SOMETIMES = (
     ),
     *("digits", "digits_coded", "digits_encode", "digits_encode_coded"),
 )
-"""The tables that a program has if they have rows."""
+"""The tables that a program has only with rows."""
 
 _CHAIN = 60
-"""A chain of calls on one line has at most so many characters."""
+"""A chain of calls on one line has at most this many characters."""
 
 Rows = dict["Spot", list[str]]
 

@@ -65,7 +65,7 @@ def _conversions(subject: CratePoint) -> Iterator[Row]:
 
 
 def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list[Spot]]:
-    """Return where a point is decoded, encoded and checked."""
+    """Return the spots for decoding, encoding and checking of a point."""
     point = subject.point
     if point.form == "scaled":
         counted = point.decimals is not None
@@ -179,7 +179,7 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
 
 
 def _has_place(point: Point) -> bool:
-    """Return True if a single address does not say where the point is: a text, an index or a telegram."""
+    """Return True if the place of a point is more than a single address: a text, an index or a telegram."""
     listed = point.text is not None or point.place.is_scattered
     return listed or point.index is not None or point.telegram is not None
 

@@ -20,7 +20,7 @@ from fieldscribe.text import markdown, rust_code, rust_string, toml_string, uppe
 
 
 def head(device: Device, comment: str) -> str:
-    """Return the head of a generated file; `comment` is the mark of its comments."""
+    """Return the head of a generated file; `comment` begins its comments."""
     return "\n".join(f"{comment} {line}" for line in head_lines(device, "rust"))
 
 
@@ -46,7 +46,7 @@ def _identifications(device: Device, scope: CrateScope) -> Iterator[str]:
 
 
 def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
-    """Return the context of a single source, made when it is written: texts of points, enums or words of flags."""
+    """Return the context of a single source: texts of points, enums or words of flags, made as it is written."""
     if source == "points":
         points, names_runtime = point_texts(scope, render)
         return {"points": points, "uses_runtime": names_runtime}
@@ -219,7 +219,7 @@ def _write(subject: CratePoint) -> str:
 
 
 def _inside(subject: CratePoint) -> str:
-    """Return a modest value that the point takes, a tenth of the way up: people run first programs on real machines."""
+    """Return a modest value for the point, a tenth of the way up: people run first programs on real machines."""
     low, high = subject.point.outer
     rule = subject.point.fixed_scale
     if rule is None:

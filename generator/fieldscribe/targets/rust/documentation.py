@@ -1,4 +1,4 @@
-"""The doc comments. They have names and numbers only; titles, notes and the texts of errata are in the documentation.
+"""The doc comments. They have only names and numbers; titles, notes and texts of errata are in the documentation.
 
 So a corrected title changes neither code nor digest.
 """
@@ -13,7 +13,7 @@ from fieldscribe.text import rust_code
 
 _WIDTH = 104
 _BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
-"""What a line may begin with."""
+"""The characters with which a line may begin."""
 
 
 def sentence(name: str) -> str:
@@ -22,7 +22,7 @@ def sentence(name: str) -> str:
 
 
 class PointDoc:
-    """The doc comment of points with the same template: all but the name, code, address and range follow from it."""
+    """Builds doc comments: all except name, code, address and range follow from the template of a point."""
 
     def __init__(self, point: Point, lowered: Lowered) -> None:
         self._before, self._behind = _around_address(point)
@@ -65,7 +65,7 @@ def is_long(text: str) -> bool:
 
 
 def wrapped(text: str) -> Iterator[str]:
-    """Yield the text in lines, none of which begins like a list or a heading."""
+    """Yield the text in lines; no line begins like a list or a heading."""
     if not is_long(text):
         yield text
         return
@@ -100,7 +100,7 @@ def _whereabouts(point: Point, lowered: Lowered) -> Iterator[str]:
 
 
 def _around_address(point: Point) -> tuple[str, str]:
-    """Return what stands before the address of a point and after it."""
+    """Return the texts before and after the address of a point."""
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
     written = point.write_place
     after = "" if written is None else f" (written at {wording.address_text(min(written.addresses))})"
@@ -109,7 +109,7 @@ def _around_address(point: Point) -> tuple[str, str]:
 
 
 def _size(point: Point) -> str:
-    """Return how much a text or a word of digits holds; empty for numbers."""
+    """Return the size of a text or of a word of digits; empty for numbers."""
     if point.form == "text" and point.text is not None:
         count, encoding, *others = wording.characters_text(point.text).split(", ")
         return ", ".join((f"{count} of {rust_code(encoding)}", *others))

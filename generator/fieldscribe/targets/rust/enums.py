@@ -15,10 +15,10 @@ from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 View = dict[str, Any]
-"""What a template places for an entry or a flag, by the names that it uses there."""
+"""The context of an entry or a flag, by the names in the template."""
 
 UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
-"""Names for the variant of unnamed numbers: the first of these that is no entry is used."""
+"""Names for the variant of unnamed numbers: the first that is not an entry is used."""
 
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> Iterator[str]:
@@ -42,7 +42,7 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> Iterator[st
 
 
 def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
-    """Return the types that keep the old names of one, as the description writes those."""
+    """Return the types that keep old names of a type; `was` are these in the description."""
     texts = []
     for old in old_names:
         lines = binding(0, Item(f"pub type {type_name(old)}"), name)
@@ -54,7 +54,7 @@ _OF_TRAITS = frozenset(
     {"clone", "cmp", "default", "deref", "drop", "eq", "fmt", "from", "hash", "index", "into", "ne", "neg"}
     | {"next", "not"}
 )
-"""Methods of traits, with which a flag's function could be confused."""
+"""Methods of traits with which the function of a flag could be confused."""
 
 
 def getter_name(flag: str) -> str:
@@ -64,7 +64,7 @@ def getter_name(flag: str) -> str:
 
 
 def constant_name(flag: Flag) -> str:
-    """Return the constant of a flag's mask; its name says so if the flag is false while the bit is set."""
+    """Return the constant of a flag's mask; its name says if the flag is false while the bit is set."""
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
@@ -131,8 +131,8 @@ def _entry(entry: Entry) -> View:
 def _flag(flag: Flag, width: int) -> View:
     """Return a flag: the constant of its mask, its getter and setter, its named `numbers` (doc, constant).
 
-    `single` says that it is one bit, `inverted` that this bit is 0 while the flag is true. `meaning` is what its name
-    alone does not say.
+    `single` is True for one bit, `inverted` if this bit is 0 while the flag is true. `meaning` is its meaning, if the
+    name alone does not say it.
     """
     raw, single, constant = f"u{width}", flag.width == 1, constant_name(flag)
     bits = mask_of(flag.width, flag.low)

@@ -1,4 +1,4 @@
-"""What differs between families: the items of a crate beside the points, and how points travel on their bus."""
+"""The differences between families: the items of a crate other than points, and how points travel on their bus."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 Tokens = tuple[str, ...]
-"""The tokens of a row, between which a line may be broken."""
+"""The tokens of a row; a line may be broken between them."""
 
 Needs = tuple[tuple[str, Tokens], ...]
 """Structs and their fields."""
 
 Way = tuple[str, str, Needs]
-"""How a point travels: the kind of vector, the runner's function, and what that needs."""
+"""How a point travels: the kind of vector, the function of the runner, and its arguments."""
 
 
 END = ";\n"
-"""What stands between the rows of a table, and nowhere in them."""
+"""The separator of the rows of a table; no row contains it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Snippet:
-    """Lines of an example, and the items of the crate that they name beside those that every example names."""
+    """Lines of an example, and the items of the crate that they need in addition to those of every example."""
 
     lines: Lines = ()
     names: frozenset[str] = frozenset()
@@ -63,13 +63,13 @@ def row_text(row: Tokens) -> str:
 
 
 def nothing(*_: object) -> tuple[()]:
-    """Return nothing, for families that have nothing to add."""
+    """Return an empty tuple, for families that have nothing to add."""
     return ()
 
 
 @dataclass(frozen=True, slots=True)
 class RustFamily:
-    """What the part `targets.rust` of a family offers as `IN_RUST`.
+    """The object `IN_RUST` of the part `targets.rust` of a family.
 
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
     traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to

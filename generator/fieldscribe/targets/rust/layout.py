@@ -1,4 +1,4 @@
-"""Lines broken as by rustfmt, for the places where the length of names decides."""
+"""Breaks lines as rustfmt does, where the length of names decides."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -109,7 +109,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
 
 
 def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
-    """Return items in as few lines as possible, for macros, where rustfmt changes nothing."""
+    """Return items in as few lines as possible, for macros, which rustfmt does not change."""
     line = f"{left}{between.join(items)}{right}"
     if len(line) <= _FREE_WIDTH:
         return (line,)

@@ -1,4 +1,4 @@
-"""Rust types and literals, with digits grouped as clippy wants."""
+"""Rust types and literals, with digits grouped as clippy requires."""
 
 from functools import lru_cache
 
@@ -87,7 +87,7 @@ def type_name(name: str) -> str:
 
 
 def device_type(name: str) -> str:
-    """Return the name of a device's type: `HitachiL200`; another if its crate has an item of that name already."""
+    """Return the name of a device's type: `HitachiL200`; changed if its crate has an item of that name already."""
     result = type_name(name)
     return f"{result}Device" if result in _OF_CRATE else result
 
@@ -126,7 +126,7 @@ def mask(number: int, rust_type: str) -> str:
 
 
 def nearest_float(number: float, bits: int) -> float:
-    """Return the binary32 or binary64 nearest to a number, the largest one where that is infinite."""
+    """Return the binary32 or binary64 nearest to a number; the largest one instead of infinity."""
     if bits == 64:
         return number
     try:

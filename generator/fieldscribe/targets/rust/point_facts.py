@@ -44,7 +44,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 
 
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
-    """Yield the facts about allowed numbers, unless the outer limits say it all."""
+    """Yield the facts about allowed numbers, unless the outer limits are enough."""
     point = subject.point
     if point.limit_arguments:
         yield tuple(_limits(point, scope))

@@ -21,7 +21,7 @@ from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording import raw_range_text
 
 _UNLIMITED = ("float", "text", "digits")
-"""The forms of points whose limits are no raw numbers."""
+"""The forms of points whose limits are not raw numbers."""
 
 _WIDTH = 116
 """Of the first line of a point, which is indented by 4."""
@@ -29,7 +29,7 @@ _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
 class MacroFields(NamedTuple):
-    """The words that only one point has, or placeholders for them; what it lacks is empty.
+    """The words of one point, or placeholders for them; an absent fact is empty.
 
     `doc` is the whole doc comment. `alias` is the manual's code if people may search for it. `low` and `high` bound the
     raw numbers. `addresses` and `references` are facts of several lines. Only the first line breaks by their width.

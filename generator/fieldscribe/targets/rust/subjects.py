@@ -1,4 +1,4 @@
-"""The generated points of a device as the modules of this target need them; facts of a shape are worked out once."""
+"""The generated points of a device as the modules of this target need them; facts of a shape are computed once."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class CratePoint(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class CrateScope:
-    """What the points of a device share: the lowered model, the raw types of enums by name, functions.
+    """The state that the points of a device share: the lowered model, the raw types of enums by name, functions.
 
     `device_type` is the type of the device. The telegrams are by name, with the messages that carry them.
     """
@@ -91,7 +91,7 @@ def scope_of(device: Device) -> CrateScope:
 
 
 def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
-    """Return the raw type that each enum carries: that of its points, or one that holds the numbers of all."""
+    """Return the raw type of each enum: that of its points, or one that holds the numbers of all."""
     enums: dict[str, str] = {}
     for shape in shapes:
         enum, raw = named_numbers(shape), raw_type(shape)

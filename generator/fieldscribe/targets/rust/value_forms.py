@@ -31,7 +31,7 @@ def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, 
 
 
 def _value_type(subject: CratePoint, enum: str) -> str:
-    """Return the type of a value that is no special code."""
+    """Return the type of a value that is not a special code."""
     if subject.point.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
@@ -82,7 +82,7 @@ def _text_type(text: Text) -> str:
 
 
 def _layout(text: Text) -> str:
-    """Return the layout of a text in other words than plain ones."""
+    """Return the layout of a text whose words are not plain."""
     padding, low_first = f"0x{text.padding:02X}", "true" if text.low_first else "false"
     return f"{text.characters}, {text.per_word}, {padding}, {low_first}"
 
@@ -106,8 +106,8 @@ def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]
 def _width(rule: Linear, decimals: int, raw: str) -> int:
     """Return the bits of the narrowest of `i32`, `i64`, `i128` that holds all integers of decoding into counts.
 
-    They are linear in the raw number, so that they are largest at the ends of its type. The runtime rounds the quotient
-    and proves the widths of its own steps (`path.rs`).
+    The integers are linear in the raw number, so they are largest at the ends of its type. The runtime rounds the
+    quotient and proves the widths of its own steps (`path.rs`).
     """
     line = count_line(rule, decimals).inverse
     numbers = (*line, *line.meets(type_range(raw)))
@@ -115,7 +115,7 @@ def _width(rule: Linear, decimals: int, raw: str) -> int:
 
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
-    """Return the lines that choose the case in force: in order, up to one that always holds."""
+    """Return the lines that choose the case: in order, up to one without a condition."""
     scale = point.scale or ()
     always = next((case.rule for case in scale if case.point is None), None)
     otherwise = ("Err(runtime::Error::NoCase(None))",) if always is None else rule_of(lowered.rule(always))
@@ -239,13 +239,13 @@ def _fields(
 
 
 def _source(name: str, points: Mapping[str, list[CratePoint]]) -> str:
-    """Return the points whose raw number an argument is: several if variants of the device differ."""
+    """Return the points that give an argument: several if variants of the device differ."""
     links = [f"[`{subject.name}`](crate::points::{subject.name})" for subject in points.get(name, ())]
     return f"The raw number of {' or '.join(links) or f'`{name}`'}."
 
 
 def _sources(names: tuple[str, ...], points: Mapping[str, list[CratePoint]]) -> dict[str, object]:
-    """Return the fields with their points, if each is of one point alone, and whether a client reads all of them."""
+    """Return the fields with their points, if each has one point, and True if a client reads all of them."""
     sources = {name: points.get(name, []) for name in names}
     if any(len(found) != 1 or not found[0].point.readable for found in sources.values()):
         return {"sources": (), "read": False}

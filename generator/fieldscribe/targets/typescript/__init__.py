@@ -44,7 +44,7 @@ Views = Mapping[str, dict[str, object]]
 
 
 _last: DeviceCache[Views] = DeviceCache(eq)
-"""A package and a page have the same scripts."""
+"""Shared by a package and a page, which have the same scripts."""
 
 
 def _views(device: Device) -> Views:
@@ -62,7 +62,7 @@ def _views(device: Device) -> Views:
 
 
 def _typed(views: Views, device: Device, names: Identifiers) -> Views:
-    """Return the contexts of the types; those of points have more to say than their code."""
+    """Return the contexts of the types; that of points is larger than the context of their code."""
     from fieldscribe.targets.typescript.points import types_context
 
     return {**views, "points": {**views["points"], "view": types_context(device, names)}}
@@ -76,7 +76,7 @@ def _rendered(views: Views, kind: str, render: Render) -> Iterable[tuple[str, st
 def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files copied beside the package: output path, and path under the templates folder.
 
-    All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
+    It is the same for all families: devices of several share one copy.
     """
     del device, tests  # its tests are not generated
     for name in runtime_files(f"typescript/runtime/{_RUNTIME}"):

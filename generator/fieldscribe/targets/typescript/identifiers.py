@@ -1,4 +1,4 @@
-"""The final TypeScript identifiers of a device, by namespace, and what the target asks of a bus family."""
+"""The final TypeScript identifiers of a device, by namespace, and what a family offers the target."""
 
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
@@ -25,11 +25,11 @@ class TypeScriptFamily(NamedTuple):
 
 
 _MAKERS = {"Case": "scaleCase", "Type": "wireType"}
-"""Names that JavaScript reserves or that say too little there."""
+"""Other names for those that JavaScript reserves or that say too little there."""
 
 
 def in_typescript(device: Device) -> TypeScriptFamily:
-    """Return what the device's family says."""
+    """Return the part `targets.calls` of the device's family."""
     part: TypeScriptFamily = family(device.family).part("targets.calls").IN_TYPESCRIPT
     return part._replace(makers={**_MAKERS, **part.makers})
 
@@ -41,13 +41,13 @@ _RESERVED = frozenset(
     | {"return", "static", "super", "switch", "this", "throw", "true", "try", "typeof", "undefined", "var", "void"}
     | {"while", "with", "yield", "any", "boolean", "never", "number", "object", "string", "symbol", "type", "unknown"}
 )
-"""The reserved words, also those of types, and what a strict module must not define."""
+"""The reserved words, also those of types, and names that a strict module must not define."""
 
 OBJECT_MEMBERS = frozenset(
     {"constructor", "hasOwnProperty", "isPrototypeOf", "propertyIsEnumerable", "prototype", "then", "toLocaleString"}
     | {"toJSON", "toString", "valueOf"}
 )
-"""What objects have of themselves or are asked for, `then` where they are awaited."""
+"""Properties that every object has or that the language reads, such as `then` of an awaited object."""
 
 MAKERS = frozenset(
     {"bit", "bytes", "codes", "coil", "command", "digits", "discrete", "factor", "flags", "floating", "holding"}
@@ -55,7 +55,7 @@ MAKERS = frozenset(
     | {"scaled", "step", "stepWord", "steppedCommand", "stored", "storedWriteOnly", "telegram", "text", "time"}
     | {"wireType", "withCodes", "withWritableCodes", "writeOnly", "allCommands", "allPoints", "oldNames"}
 )
-"""The functions of the runtime that make points, and what the module of points has beside them."""
+"""The functions of the runtime that create points, and other names of the points module."""
 
 DEVICE_MEMBERS = frozenset(
     {"broadcast", "dropProcessData", "findBlocks", "forget", "freshFor", "identify", "line", "link", "patience"}
@@ -135,7 +135,7 @@ NODE_MODULES = frozenset(
 """The modules of Node that programs import by a plain name."""
 
 _PACKAGES = frozenset({"fieldscribe_runtime", "modbus_serial", "node_modules", "serialport"})
-"""What lies beside the package: the runtime, its optional peers, and the folder of npm itself."""
+"""Packages beside that of a device: the runtime, its optional peers, and the folder of npm itself."""
 
 
 def device_name_taken(name: str) -> str:
@@ -146,7 +146,7 @@ def device_name_taken(name: str) -> str:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Yield every name that depends on the description, and the fixed names beside them."""
+    """Yield every name that depends on the description, and the fixed names in the same namespaces."""
     names = Identifiers(device)
     yield Names(_CLASSES, Owner("device", device.id), (names.device_class, names.options))
     for axis in device.variants:

@@ -13,7 +13,7 @@ _PLAIN_KEY = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
 
 
 class Layout:
-    """Lays calls out. `makers` are functions whose names differ from those of the calls; `names` are of points."""
+    """Lays out calls. `makers` are functions whose names differ from those of the calls; `names` are of points."""
 
     def __init__(self, makers: Mapping[str, str], name_of: Callable[[str], str]) -> None:
         self._makers, self._name_of = makers, name_of
@@ -23,7 +23,7 @@ class Layout:
         return self._makers.get(name) or (name if name.isupper() else camel(f"{name[0].lower()}{name[1:]}"))
 
     def laid_out(self, node: Node, indent: int, before: str = "") -> str:
-        """Return the lines of the expression at that indentation; `before` stands before it on its line."""
+        """Return the lines of the expression at that indentation; `before` precedes it on its line."""
         if node is None or isinstance(node, (str, int, float)):
             return before + self.leaf(node)
         line = before + self.flat(node)
@@ -61,7 +61,7 @@ class Layout:
         return text if abs(node) < _SAFE else f"{text}n"
 
     def key(self, key: Node) -> str:
-        """Return what stands before a value in an object; no name of a description sets a prototype."""
+        """Return the key of a value in an object; no name of a description sets a prototype."""
         if isinstance(key, str):
             text = self._name_of(key) if isinstance(key, PointName) else key
             if text == "__proto__":
@@ -70,7 +70,7 @@ class Layout:
         return f"{self.flat(key)}: "
 
     def _parts(self, node: Node) -> tuple[str, str, list[tuple[str, Node]]]:
-        """Return brackets and items, each with what stands before it. Keywords become one object after the others."""
+        """Return brackets and items, each with its key. Keywords become one object after the other items."""
         if isinstance(node, Call):
             items: list[tuple[str, Node]] = [("", item) for item in node.positional]
             if node.keywords:
@@ -85,7 +85,7 @@ class Layout:
 
 
 def lazily(made: str) -> str:
-    """Return what makes a constant: bundlers leave all of it out where nobody uses it, calls in arguments too."""
+    """Return an expression that bundlers drop whole if its constant is unused, including calls in arguments."""
     return f"/* @__PURE__ */ (() => {made})()"
 
 

@@ -1,4 +1,4 @@
-"""The views of the points module and of the main one.
+"""The views of the points module and of the main module.
 
 A constant for each point and command, with its type; and the class of the device, with its constructor's options.
 """
@@ -62,7 +62,7 @@ def type_of(point: Point, maker: str, scope: Scope) -> str:
 
 
 def _values(point: Point, numbers: str) -> tuple[str, str]:
-    """Return the type of what decoding gives, and of what encoding takes, both without special codes."""
+    """Return the types that decoding returns and that encoding takes, both without special codes."""
     open_numbers, big = f"{numbers} | UnknownNumber", is_big(point)
     closed = point.enum is not None and point.enum.closed
     forms = {
@@ -99,10 +99,10 @@ def _union(names: dict[str, None], scope: Scope) -> str:
 
 
 _KEEP = "`keep: true`"
-"""What a program says so that a value outlives power-off."""
+"""The argument with which a program keeps a value over power-off."""
 
 _FIRST_LINE = ("name", "item", "at", "writeAt", "bits", "group", "code", "references")
-"""The facts that say which point it is, by their names in calls."""
+"""The facts that identify a point, by their names in calls."""
 
 
 class Declared(NamedTuple):
@@ -134,7 +134,7 @@ def points_context(device: Device, names: Identifiers) -> dict[str, object]:
 
 
 def types_context(device: Device, names: Identifiers) -> dict[str, object]:
-    """Return the context of what says the points module to type checkers."""
+    """Return the context of the types of the points module."""
     points, made = Points(device, names), _made(device)
     declared = [*map(points.declared, made), *(found for _, found in points.commands())]
     return {
@@ -158,7 +158,7 @@ def _old_names(point: Point) -> tuple[str, ...]:
 
 
 class Points:
-    """Makes the texts of a device's constants: laid out once for all points with the same template key."""
+    """Builds the texts of a device's constants, laid out once for all points with the same template key."""
 
     def __init__(self, device: Device, names: Identifiers) -> None:
         self.scope: Scope = scope_of(device, names)
@@ -195,7 +195,7 @@ class Points:
         return f"export const {texts[0]} = {lazily(text)};\n"
 
     def declared(self, point: Point) -> Declared:
-        """Return how a point is declared."""
+        """Return the declaration of a point."""
         scope, key = self.scope, self._keys[id(point)]
         numbers = numbers_of(point, scope)
         kind = self._types.get((key, numbers))

@@ -1,6 +1,6 @@
 """The conformance vectors of a device: the right answers for every language, computed from the model alone.
 
-This target shares no code with the others, so that a mistake in one of them cannot be in its test too.
+This target shares no code with the others, so that a mistake in one of them is not repeated in its test.
 """
 
 from collections.abc import Iterable
@@ -17,11 +17,11 @@ WEIGHT = 0.9
 BEFORE_POINTS = ("",)
 
 _last: DeviceCache[str] = DeviceCache(eq)
-"""Vectors as text: a page and a file have the same."""
+"""Vectors as text, shared by a page and a file."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The one file of this target: its path, and one vector per line. `render` is not needed."""
+    """Return the one file of this target: its path, and one vector per line. `render` is not needed."""
     del render
     yield f"vectors/{device.id}.txt", text_of(device)
 
@@ -34,18 +34,18 @@ def text_of(device: Device) -> str:
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """No files are copied beside the vectors."""
+    """Return nothing: no files are copied beside the vectors."""
     del device
     return ()
 
 
 def identifiers(device: Device) -> Iterable[Names]:
-    """Vectors have the names of the description, which need no check of their own."""
+    """Return nothing: vectors have the names of the description."""
     del device
     return ()
 
 
 def device_name_taken(name: str) -> str:
-    """A file of vectors may have any name."""
+    """Return nothing: a file of vectors may have any name."""
     del name
     return ""

@@ -20,7 +20,7 @@ from fieldscribe.text import line
 
 
 class OfFamily:
-    """The part `targets.vectors` of a family. These are the defaults."""
+    """The interface of the part `targets.vectors` of a family, with its defaults."""
 
     KINDS: Mapping[str, str] = MappingProxyType({})
     """The kinds of vectors that only this family has, with the fields of their lines."""
@@ -47,7 +47,7 @@ class SharedVectors:
         self._beside_limits: dict[Hashable, Lines] = {}
 
     def within_limits(self, encoding: PointEncoding) -> Lines:
-        """Return conversions, checks and names; they are deep for the first point that is computed in this way."""
+        """Return conversions, checks and names; in depth for the first point that is computed in this way."""
         part = self._within_limits.get(encoding)
         if part is None:
             deep = self._encodings.is_new(encoding)
@@ -74,7 +74,7 @@ class SharedVectors:
         names(lines, shape, deep=deep)
 
     def beside_limits(self, encoding: PointEncoding) -> Lines:
-        """Return what no limits decide about: special codes, flags, groups of bits, words."""
+        """Return what does not depend on limits: special codes, flags, groups of bits, words."""
         key = id(encoding.shape), encoding.bits, encoding.order
         part = self._beside_limits.get(key)
         if part is None:
@@ -90,7 +90,7 @@ class SharedVectors:
 def collect(device: Device) -> Lines:
     """Return all vectors of a device: its points by address, then its frames and blocks.
 
-    Of all points that are computed in the same way, the first is tried in depth and with bad answers.
+    The first of all points that are computed in the same way is tried in depth and with bad answers.
     """
     part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
     lines = Lines(part.KINDS)
@@ -151,7 +151,7 @@ _WITHOUT_LIMITS = ("float", "text", "digits")
 
 
 def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """Name the point for the vectors that follow, and add the vectors of its facts."""
+    """Set the point for the vectors that follow, and add the vectors of its facts."""
     shape, terms, place = point.shape, point.terms, point.place
     lines.set("point", point.item)
     elsewhere = None if point.write_place is None else point.write_place.addresses

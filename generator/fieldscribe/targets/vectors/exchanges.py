@@ -17,7 +17,7 @@ Script = list[tuple[bytes, bytes]]
 
 
 class Wire(Protocol):
-    """A way in which a family reads and writes the words of a point."""
+    """A way in which a family reads and writes the words of a point on its bus."""
 
     def opens(self, lines: Lines) -> None:
         """Set what all exchanges share: the unit and the settings of the line."""
@@ -29,11 +29,11 @@ class Wire(Protocol):
         """Return the exchange that writes these words; with `keep` permanently, if another request does that."""
 
     def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """Yield the exchange with bad answers, each with the status that it gives."""
+        """Yield the exchange with bad answers, each with the status that results."""
 
 
 class _Typical(NamedTuple):
-    """What the exchanges of all points with one encoding carry: raw numbers with their words, and other points' reads.
+    """The contents of exchanges for points with one encoding: raw numbers with their words, and reads of other points.
 
     `needs` reads the points that these need. Whole words that need no other point can be tried with bad answers.
     """
@@ -80,7 +80,7 @@ class Exchanges:
         for kind in ("write", "store") if encoding.shape.writable else ():
             for raw, words in typical.sent:
                 put = words
-                if point.write_place is not None:  # where the words may lie in another order
+                if point.write_place is not None:  # if the words may be in another order
                     put = words_of(encoding, ascending(encoding.shape, point.write_place.addresses), raw)
                 script = self.wire.writes(point, put, keep=kind == "store")
                 if script is not None and encoding.bits is not None:
@@ -88,7 +88,7 @@ class Exchanges:
                 self._add(kind, point, typical, (raw, words), script)
 
     def _of_encoding(self, encoding: PointEncoding) -> _Typical | None:
-        """Return what exchanges carry; None without an address, or if what the point needs cannot be read."""
+        """Return the contents of exchanges; None without an address, or if a needed point cannot be read."""
         if encoding.order is None:
             return None
         settings = samples.settings(self.oracle, encoding)[0]
@@ -103,7 +103,7 @@ class Exchanges:
         return _Typical(encoding, settings, needs, received, sent)
 
     def _beside(self, point: Point, encoding: PointEncoding, raw: int, script: Script) -> Script | None:
-        """Return the exchange that writes a bit group: its word is read before."""
+        """Return the exchange that writes a bit group after reading its word."""
         if not encoding.shape.readable:
             return None
         other = as_raw(encoding.shape, ~raw)
@@ -125,7 +125,7 @@ class Exchanges:
         return script
 
     def _selecting(self, point: Point) -> Script:
-        """Return the exchanges that write what other points must hold before; clients send them by themselves."""
+        """Return the exchanges that write selecting points first; clients send them by themselves."""
         script: Script = []
         for name, raw in point.selects:
             other = self.points[name]
@@ -155,12 +155,12 @@ class Exchanges:
 
 
 def with_flipped(data: bytes, place: int, bits: int = 1) -> bytes:
-    """Return the bytes with these bits of one byte turned over."""
+    """Return the bytes with these bits of one byte flipped."""
     return data[:place] + bytes((data[place] ^ bits,)) + data[place + 1 :]
 
 
 def single_bit_errors(data: bytes) -> Iterator[bytes]:
-    """Yield the bytes with each bit turned over."""
+    """Yield the bytes with each single bit flipped."""
     for bit in range(8 * len(data)):
         yield with_flipped(data, bit >> 3, 1 << (bit & 7))
 

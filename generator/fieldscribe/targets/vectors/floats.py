@@ -30,7 +30,7 @@ _DECODED = {
     ),
     64: (0.0, -0.0, 1.0, -1.5, 0.1, 5e-324, _GREATEST[64]),
 }
-"""Numbers whose patterns are decoded, by width, besides infinities and NaN."""
+"""Numbers whose patterns are decoded, by width, in addition to infinities and NaN."""
 
 _TIES = (
     1 + 2.0**-24,
@@ -149,7 +149,7 @@ def _neighbours(value: float, width: int) -> list[float]:
         return [nextafter(value, -inf), nextafter(value, inf)]
     if value == 0:
         return [-(2.0**-149), 2.0**-149]
-    bits = bits_of(value, width)  # patterns are ordered by magnitude, whatever the sign
+    bits = bits_of(value, width)  # patterns are ordered by magnitude for either sign
     return [next_one for step in (-1, 1) if isfinite(next_one := float_of_bits(bits + step, width))]
 
 
@@ -174,7 +174,7 @@ def _encoded(shape: Shape, value: float, limits: list[tuple[float, float]]) -> t
 
 
 def _admitted(number: float, limits: list[tuple[float, float]]) -> str:
-    """Return whether a number of the type may be written within these limits."""
+    """Return the status of a number of the type for these limits."""
     if isnan(number):
         return "not_a_number"
     inside = isfinite(number) and any(low <= number <= high for low, high in limits)

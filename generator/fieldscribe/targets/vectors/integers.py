@@ -58,7 +58,7 @@ def _encoded(encoding: PointEncoding, count: int, limits: samples.Limits) -> str
 
 
 def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
-    """Return the status of a raw number that is written as it is."""
+    """Return the status of a raw number that is written directly."""
     shape = encoding.shape
     fits = shape.fixed is None or with_fixed(encoding, raw) == raw or code_of(shape, raw) is not None
     return admit(shape, raw, limits) if fits else "out_of_range"
@@ -130,7 +130,7 @@ def fixed(lines: Lines, shape: Shape) -> None:
 
 
 def bits(lines: Lines, encoding: PointEncoding) -> None:
-    """Add vectors of a bit group: taken out of its word, and replaced in it."""
+    """Add vectors of a bit group: extracted from its word, and replaced in it."""
     shape = encoding.shape
     if encoding.bits is None:
         return
@@ -180,8 +180,8 @@ def _wide_patterns(count: int) -> tuple[int, ...]:
 def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
     """Return the words of a raw number as they travel, in ascending order of address: `order` says which is which.
 
-    A bit group shares its word with other bits. Constant bits and those above a narrow number are as written when sent,
-    and different when received.
+    A bit group shares its word with other bits. Constant bits and those above a narrow number have their written value
+    when sent, and another one when received.
     """
     if encoding.bits is not None:
         return (_shared_word(encoding, encoding.bits[1], raw, received=received),)
@@ -194,7 +194,7 @@ def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, recei
 
 
 def bytes_exchanged(shape: Shape, word: int) -> int:
-    """Return a word as it travels: with the low byte first if the point has it so."""
+    """Return a word as it travels: with the low byte first if the point says so."""
     return int.from_bytes(word.to_bytes(2, "little" if shape.swapped else "big"), "big")
 
 

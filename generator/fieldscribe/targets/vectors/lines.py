@@ -1,9 +1,9 @@
 """The lines of a file of vectors, in the notation of the table of kinds, counted by kind.
 
 A file has lines of fields, separated by tabs. Its head names the device, then every set and every kind in it, with the
-fields and their forms, so that no runner needs a list of its own. A set is what the vectors below it share until it is
-set anew; it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a
-line. A runner compares every field with something, except notes.
+fields and their forms, so that no runner needs a list of its own. A set is context that the vectors below share until
+it is set again; it ends the sets after it in the table. An absent field is a hyphen, or left out at the end of a line.
+A runner compares every field with something, except notes.
 
 A row of the tables here has the fields of a line in order, each with its form; one that may be absent ends in a
 question mark. `only` names the languages that have this in code and not only in comments; without it, all have it.
@@ -33,7 +33,7 @@ SETS = {
     "telegram": "telegram:word unit:int",
     "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
 }
-"""What vectors share: the unit, its line, bases of addresses, the point, what it needs, a request, message or task."""
+"""The sets: the unit, its line, bases of addresses, the point, what it needs, a request, message or task."""
 
 KINDS = {
     # conversions between raw number, value (binary64) and count, and whether a raw number may be written
@@ -101,7 +101,7 @@ KINDS = {
     "constant": "only:c.rust what:word number:int name:text",
     "command": "command:word value:int script:script status:word",
 }
-"""The kinds of vectors of all families: the fields of their lines. The sets in force apply to every line."""
+"""The kinds of vectors of all families: the fields of their lines. The current sets apply to every line."""
 
 
 FORMAT = 2
@@ -109,7 +109,7 @@ ABSENT = "-"
 NO_BROADCAST = 0xFFFF
 """The unit number for devices without broadcast: larger than any other."""
 _MANY = 500
-"""So many new lines are joined at once: one long string takes less memory."""
+"""The number of new lines that are joined at once: one long string takes less memory."""
 _BINARY64 = Struct(">d").pack
 
 
@@ -134,7 +134,7 @@ def word(value: str) -> str:
 
 
 def real(value: float) -> str:
-    """Return the pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
+    """Return the pattern of a binary64 in hexadecimal, without trailing zeros; at least one digit."""
     return _BINARY64(value).hex().rstrip("0") or "0"
 
 
@@ -190,7 +190,7 @@ class Row:
         return "\t".join((self.name, *words))
 
     def _writers_of(self, types: tuple[type, ...]) -> Iterator[Callable[[Any], str]]:
-        """Yield what writes values of these types. Raises ValueError or TypeError if the fields do not take them."""
+        """Yield functions that write values of these types. Raises ValueError or TypeError if the fields do not fit."""
         if len(types) > len(self.fields):
             raise ValueError(f"{self.name} has no more than {len(self.fields)} fields")
         for (key, form), given in zip(self.fields.items(), types, strict=False):
@@ -220,7 +220,7 @@ class Lines:
         self._has_bases = False
 
     def set(self, name: str, *values: object) -> None:
-        """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
+        """Set context for the following vectors; its line is written only if it changed and a vector follows."""
         line = _SETS[name].line(values)
         self._has_bases = self._has_bases or name == "bases"
         if self._wanted or line != self._in_force.get(name, name):
@@ -252,7 +252,7 @@ class Lines:
         return part
 
     def include(self, part: Lines) -> None:
-        """Add all vectors of a finished part; it may set only what comes after the sets in force."""
+        """Add all vectors of a finished part, which may override only inner contexts."""
         if joined := part._joined():
             if self._wanted:
                 self._write_sets()
@@ -267,7 +267,7 @@ class Lines:
             self._joined()
 
     def _joined(self) -> str:
-        """Join the lines so far, and return the last chunk of them: of a part, all its lines."""
+        """Join the lines so far, and return the last chunk of them; for a part, all its lines."""
         if self._lines:
             self._chunks.append("\n".join(self._lines))
             self._lines.clear()

@@ -87,7 +87,7 @@ INT64 = 1 << 63
 
 
 def in_binary64(number: int) -> int:
-    """Return an integer rounded to binary64, as every language does it."""
+    """Return an integer rounded to binary64, as all languages round."""
     return number if -EXACT <= number <= EXACT else int(float(number))
 
 
@@ -167,14 +167,14 @@ def fixed_ratio(rule: Linear) -> Ratio:
 
 
 class Oracle:
-    """Answers for the points of a device; `points` finds the points that rules refer to."""
+    """Computes the right answers for the points of a device; `points` finds the points that rules refer to."""
 
     def __init__(self, points: Mapping[str, Point]) -> None:
         self.points = points
         self._fixed: dict[int, Ratio | str] = {}
 
     def ratio(self, shape: Shape, settings: Settings) -> Ratio | str:
-        """The rule in force, or why there is none: `no_case`, `zero_factor`, `overflow`. Most need no settings."""
+        """Return the rule for these settings, or why there is none: `no_case`, `zero_factor`, `overflow`."""
         if shape.scale_arguments:
             return self._ratio(shape, settings)
         if id(shape) not in self._fixed:
@@ -201,7 +201,7 @@ class Oracle:
         return _applied(rule, numbers)
 
     def _is_code(self, name: str, raw: int) -> bool:
-        """Whether a point holds a special code, so that rules cannot compute with it."""
+        """Return True if a point holds a special code, with which rules cannot compute."""
         source = self.points.get(name)
         return source is not None and code_of(source.shape, raw) is not None
 
@@ -222,7 +222,7 @@ class Oracle:
         return low <= settings[factor.point] <= high
 
     def limits(self, shape: Shape, allowed: Allowed, settings: Settings) -> list[tuple[int, int]] | str:
-        """Return the intervals in force, or why a limit cannot be computed: `zero_factor`, `overflow`."""
+        """Return the intervals for these settings, or why a limit cannot be computed: `zero_factor`, `overflow`."""
         spans: list[tuple[int, int]] = []
         for interval in allowed.intervals:
             if isinstance(interval.low, int) and isinstance(interval.high, int):
@@ -258,7 +258,7 @@ class Oracle:
 
 
 def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
-    """Return whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
+    """Return the status of writing a raw number within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
 
     `by_value` says that it was computed from a value, which never means a special code.
     """
@@ -293,7 +293,7 @@ def code_of(shape: Shape, raw: int) -> Special | None:
 
 
 def quantity_at_most(shape: Shape, raw: int) -> int:
-    """Return the greatest raw number up to this one that is no special code."""
+    """Return the greatest raw number up to this one that is not a special code."""
     while (code := code_of(shape, raw)) is not None:
         raw = code.low - 1
     return raw

@@ -1,6 +1,6 @@
 """The encoding of a point, and the raw numbers and settings with which its vectors are made.
 
-Points with the same encoding share their vectors. Of all that are computed in the same way, the first is tried in
+Points with the same encoding share their vectors. The first of all points that are computed in the same way is tried in
 depth, the others only with their limits.
 """
 
@@ -18,7 +18,7 @@ MANY = 3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointEncoding:
-    """How raw numbers and words of a point are encoded: all that its vectors, but for its identity, depend on.
+    """How raw numbers and words of a point are encoded: everything on which its vectors depend, except its identity.
 
     `bits` are those of a group in its word. `order` has the words in ascending order of address, 0 for the high one; it
     is None if the address is unknown. `symbol` is that of the unit where texts for people have it.
@@ -82,7 +82,7 @@ _ONE = (0,)
 
 
 def _facts(shape: Shape) -> Hashable:
-    """Return the facts that decide how a point is computed, but for its limits: type, scale, special codes."""
+    """Return the facts that decide how a point is computed, except its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
     enum = shape.digits.enum if shape.digits is not None else shape.enum
@@ -91,7 +91,7 @@ def _facts(shape: Shape) -> Hashable:
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:
-    """Return the forms of the limits; of a long list, its numbers too."""
+    """Return the forms of the limits; for a long list, its numbers too."""
     if len(intervals) > MANY:
         return intervals
     return tuple([(_form(interval.low), _form(interval.high)) for interval in intervals])
@@ -108,12 +108,12 @@ _FACTORS = (50.0, 60.0, 1.0, 0.1, -100.0, 650.168, 0.0, -0.0, inf, nan)
 
 
 def edges(limits: Limits) -> dict[int, None]:
-    """Return each limit and the number beyond it, so that every hole of a list is tried."""
+    """Return each limit and the number beyond it, so that every gap in a list is tried."""
     return dict.fromkeys(raw for low, high in limits for raw in (low, high, low - 1, high + 1))
 
 
 def limits_to_try(limits: Limits) -> Limits:
-    """Return the limits that are tried for each point of a shape: all of a few, the ends of a long list."""
+    """Return the limits that are tried for each point of a shape: all if there are few, else the ends of the list."""
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
@@ -185,7 +185,7 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
 
 @lru_cache(maxsize=4096)
 def raw_telling_division(ratio: Ratio) -> int | None:
-    """Return the lowest raw number that shows a multiplication by the reciprocal where a division is right."""
+    """Return the lowest raw number that reveals a multiplication by the reciprocal instead of a division."""
     under = ratio.denominator
     numerators = ((raw, ratio.numerator(raw)) for raw in range(1, 200))
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
@@ -195,7 +195,7 @@ def settings(oracle: Oracle, encoding: PointEncoding, *, deep: bool = True) -> l
     """Return settings of all arguments: a typical one, then each argument in turn at all its interesting raw numbers.
 
     Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
-    which shows exchanged arguments, and each case is met once.
+    which reveals exchanged arguments, and each case occurs once.
     """
     names = encoding.arguments
     if not names:

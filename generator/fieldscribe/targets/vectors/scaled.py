@@ -15,9 +15,9 @@ INT32 = 1 << 31
 
 
 class Conversions:
-    """Converts between raw numbers, values and counts of one shape under one ratio, each number once.
+    """Converts between raw numbers, values and counts of one shape under one ratio; remembers each number.
 
-    It knows no limits: many points with other limits share it.
+    It knows no limits, so points with different limits share it.
     """
 
     def __init__(self, shape: Shape, ratio: Ratio) -> None:
@@ -34,7 +34,7 @@ class Conversions:
         return quotient(4 * self.ratio.numerator(raw) + side * step, 4 * self.ratio.denominator)
 
     def _decode(self, raw: int) -> str:
-        """Return the line with status and value; empty where languages may differ in the last place."""
+        """Return the line with status and value; empty if languages may differ in the last place."""
         shape, ratio = self.shape, self.ratio
         if (code := code_of(shape, raw)) is not None:
             return f"decode\t{raw}\tspecial\t-\t{text(code.name)}"
@@ -118,7 +118,7 @@ def _without_limits(lines: Lines, encoding: PointEncoding, ratio: Ratio, status:
 
 @dataclass(frozen=True, slots=True)
 class _Vectors:
-    """The vectors of an encoding under one setting with which it can be computed.
+    """The vectors of an encoding under one setting that allows computing.
 
     They are `deep` for the first encoding that is computed in this way, and `full` for its first setting.
     """

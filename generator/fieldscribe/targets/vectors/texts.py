@@ -24,7 +24,7 @@ _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range
 
 
 def text(lines: Lines, shape: Shape) -> None:
-    """Add vectors of a text: full, shorter, empty, too long, ending in blanks, with bytes that are no characters."""
+    """Add vectors of a text: full, shorter, empty, too long, ending in blanks, with bytes that are not characters."""
     if shape.text is None:
         return
     layout, size = shape.text, shape.text.characters
@@ -76,7 +76,7 @@ _MALFORMED = {
     ),
     "utf-16": ((0xD800,), (0xDBFF, 0x0041), (0xDC00,), (0xDFFF, 0xD800), (0xD834, 0xD834, 0xDD1E)),
 }
-"""What is no text, by encoding."""
+"""Bytes that are not a text, by encoding."""
 _TEXTS = (
     *("", "A", "AB", " B", "A ", "\u00a0", "\u00e4\u00df", "\u07ff", "\u0800", "\u20ac", "\ud7ff", "\ue000", "\uffff"),
     *("\U00010000", "A\U0001d11e", "\U0010ffff", "\u2020", "\u0120", "\x7f", "\x80", "\x9f", "\x1f", "A\0"),
@@ -84,7 +84,7 @@ _TEXTS = (
 
 
 def _unicode(lines: Lines, shape: Shape, layout: Text) -> None:
-    """Add vectors of a text of UTF-8 or UTF-16: all lengths of a character, what is none, and what does not fit."""
+    """Add vectors of a text of UTF-8 or UTF-16: all lengths of a character, invalid ones, and texts that do not fit."""
     wide, size = layout.encoding == "utf-16", layout.characters
     last, texts = "\U0001d11e" if wide else "\u20ac", [*_TEXTS]
     texts += [
@@ -121,7 +121,7 @@ def _codes(text: str, *, wide: bool) -> Iterator[int]:
 
 
 def words_of_text(layout: Text, data: Sequence[int], beside: int | None = None) -> list[int]:
-    """Return the words of a text, filled up; `beside` is in bytes that are no characters of it, None as is written."""
+    """Return the words of a text, padded; `beside` is the value of bytes outside the text, None for the written one."""
     codes = [*data, *[layout.padding] * (layout.characters - len(data))]
     if layout.encoding == "utf-16":
         pairs = [divmod(code, 0x100) for code in codes]
@@ -158,7 +158,7 @@ def digits(lines: Lines, shape: Shape) -> None:
 
 
 def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
-    """Return digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
+    """Return digits to try: each place with all its numbers and two invalid ones, all others at their least."""
     known = sorted(allowed)
     impossible = [next(digit for digit in range(256) if digit not in known), 10]
     base = (known[0],) * layout.count
@@ -170,7 +170,7 @@ def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
 
 
 _NEAR = range(-400, 401)
-"""Where halves of the last decimal are looked for."""
+"""The range in which halves of the last decimal are searched."""
 
 
 def displayed(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
@@ -199,7 +199,7 @@ def _add_texts(lines: Lines, encoding: PointEncoding, rows: Iterable[tuple[int, 
 
 
 def _raws(encoding: PointEncoding, ratio: Ratio, *, deep: bool) -> list[int]:
-    """Return limits; in depth the ends of the type, small numbers, halves and special codes too."""
+    """Return limits; if deep, also the ends of the type, small numbers, halves and special codes."""
     shape = encoding.shape
     found = [*outer_bounds(shape, encoding.allowed), 1]
     if deep:
@@ -226,7 +226,7 @@ def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
 
 
 def _patterns(shape: Shape) -> list[int]:
-    """Return patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
+    """Return patterns: halves of the last decimal, numbers that round to zero, the largest, and no numbers."""
     half = 0.5 ** ((shape.display or 0) + 1)
     numbers = (0.0, -0.0, 1.0, 0.1, half, -half, 3 * half, half / 2, -half / 2, 1.5e9, -12345678.0, 3e38)
     return [bits_of(number, shape.width) for number in (*numbers, inf, -inf, nan)]
