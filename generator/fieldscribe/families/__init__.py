@@ -10,9 +10,9 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `frames.py` (Modbus also `exchange.py`; USS `telegrams.py` and `parts.py`) builds and parses bytes; pure functions.
 - `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has longer lists of sentences.
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
-- `lines.py`: the lines that a live device may be on, as `SCHEMES` with their settings, and what opens them; how what is
-  said there is cut into frames, as `listening/__init__.py` asks for.
-- `bus_facts.py`: what the documentation and exports say of the bus.
+- `lines.py`: the kinds of lines as `SCHEMES` with their settings, the functions that open them, and the cutter that
+  divides what is received into frames, as `listening/__init__.py` describes it.
+- `bus_facts.py`: the facts of the bus for documentation and exports.
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
 
 To add a function of a bus:
@@ -25,7 +25,7 @@ To add a function of a bus:
    `FIELDSCRIBE_MODBUS_FUNCTIONS` and `..._INTERFACE`, which `templates/c/modbus.h.j2` asks for.
 3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.
 
-A part that a family does not have is left out; whoever asks for a part says what it must offer.
+A family leaves out the parts that it does not need; the caller of a part documents its interface.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ _OF_ALL = frozenset(
 class BusKeys:
     """The keys of a family under `bus` (required ones, and those shared with some other families), and its limits.
 
-    `codes` is the range of its numbered codes. `broadcast` is the unit number that addresses all units, if it is fixed.
+    `codes` is the range of its numbered codes. `broadcast` is the unit number that addresses all units, if the protocol
+    fixes it.
     """
 
     needed: tuple[str, ...] = ()
@@ -101,7 +102,7 @@ class Option:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """The facts of a family that every stage may read; whatever needs code is a module of its folder, a part."""
+    """The facts of a family that every stage may read; behaviour is in the modules of its folder, its parts."""
 
     name: str
     folder: str
@@ -114,17 +115,17 @@ class Family:
     """The framings of worked examples, the usual one first."""
     codes: tuple[Codes, ...] = ()
     indexed: frozenset[str] = frozenset()
-    """The spaces where an index travels with the address."""
+    """The spaces in which an index travels with the address."""
     words: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
-    """The spaces whose numbers travel one at a time, with the most words that a number may have."""
+    """The spaces whose numbers travel one at a time, each with the most words of a number."""
     frame_keys: tuple[str, ...] = ()
     """The keys of a worked example that only this family knows."""
     lays_out_messages: bool = False
     """True if descriptions lay out the messages of the device byte by byte."""
     commands_in: str | None = None
-    """The space of commands that do not name one; None where the family has no commands."""
+    """The space of commands that do not name one; None if the family has no commands."""
     writes_elsewhere: bool = False
-    """True if a point may be written at another address than it is read from."""
+    """True if a point may have different addresses for reading and writing."""
     has_bases: bool = False
     """True if addresses may count from a base that is given or found."""
     chooses_memory: bool = False
@@ -138,7 +139,7 @@ class Family:
         return 16 * self.words.get(space, 4)
 
     def numbers(self, space: str, address: int) -> Mapping[str, int]:
-        """Return the numbers that people use for an address, by numbering, where the manual prints none."""
+        """Return the usual numbers for an address, by numbering, for manuals that print none."""
         numbers: Mapping[str, int] = getattr(self.part("bus_facts"), "numbers", lambda _space, _: {})(space, address)
         return numbers
 

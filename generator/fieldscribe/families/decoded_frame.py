@@ -1,4 +1,4 @@
-"""A decoded frame in the form that all families share: what it is, what it carries, and which request it answers.
+"""A decoded frame in the form that all families share: its kind, its contents, and the request that it answers.
 
 A family's `frame_decoder` turns bytes into a `DecodedFrame`; `conversation` matches its contents with the points of the
 device and makes a `FrameResult` of it.
@@ -12,12 +12,12 @@ from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.model import Telegram
 
 MOST_STATES = 256
-"""For how many units, or telegrams of units, a decoder keeps a state: those used last. A stream may last for days."""
+"""The most units, or telegrams of units, whose state a decoder keeps: those used last. A stream may last for days."""
 
 
 @dataclass(frozen=True, slots=True)
 class AddressSpan:
-    """Consecutive addresses of a space with their words or bits; `words` is None where the frame only names them."""
+    """Consecutive addresses of a space with their words or bits; `words` is None if the frame only names them."""
 
     space: str
     address: int
@@ -30,7 +30,7 @@ class AddressSpan:
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One element of a parameter; `value` is None where the frame only names the element.
+    """One element of a parameter; `value` is None if the frame only names the element.
 
     `width` is the number of words that the value should have. `counts`: the value is the number of elements.
     """
@@ -47,9 +47,9 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """One word of a parameter; `raw` is None where the frame only names it.
+    """One word of a parameter; `raw` is None if the frame only names it.
 
-    `learned`: the device itself reported it. `stale`: values that the device derives from the parameter are outdated.
+    `learned`: the device itself reported it. `stale`: known values that depend on the parameter are outdated.
     """
 
     address: int
@@ -100,7 +100,7 @@ Content = AddressSpan | Element | Word | ProcessData | Masks | Piece | Item
 class DecodedFrame(NamedTuple):
     """One decoded frame, before its contents are matched with points.
 
-    `unit` is the unit that sends or receives it; `exchange` tells apart exchanges that are open at the same time.
+    `unit` is the unit that sends or receives it; `exchange` distinguishes exchanges that are open at the same time.
     `request` is the family's own form of a request, if the frame is one. `unanswered`: nobody answers this request.
     `answers`: the frame closes the open request. `stays_open`: given as the expected request, it stays open for all
     frames that follow.
@@ -146,7 +146,7 @@ class OpenRequests:
 
 
 class CutFrame(bytes):
-    """A frame that was cut out of bytes with several frames; `note` says which one it is."""
+    """A frame that was cut out of bytes with several frames; `note` gives its number and place."""
 
     note = ""
 

@@ -1,4 +1,4 @@
-"""What a user gives and gets: options for frames, decoded frames, and the frames that write a point."""
+"""The input and output of frame commands: options, decoded frames, and the frames that write a point."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Bits:
-    """What some bits of a word mean: `raw` is their number; `true` says whether the name of a single bit applies.
+    """The meaning of some bits of a word: `raw` is their number; `true` says whether the name of a single bit applies.
 
-    `name` is None for a set bit that the manual does not name. `text` is the meaning of the number in the manual.
+    `name` is None for a set bit that the manual does not name. `text` is the meaning of the number.
     `row` is the label and the text of these bits in a table.
     """
 
@@ -61,19 +61,18 @@ class BitTexts(Protocol):
         """Return the same in one sentence."""
 
     def true(self, raw: int) -> str:
-        """Return those flags alone that apply."""
+        """Return only the flags that apply."""
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """What a frame holds at one address: a point with its value, a part of a point, a command, or nothing known.
+    """The content of a frame at one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `summary` is one line with everything but the flags of a word; `bit_texts` works those out on demand (few users look
-    at them). `missing` names the points whose raw numbers are needed to compute the value. `findings` say what the
-    device refuses, or that the manual closes the address; `summary` repeats them. `meaning` is the value with its
-    unit, or a name. `doubts`, where they are asked for, say that the number lies outside its range, and which other
-    readings are within. `carries` is what the frame says of a point without bringing its whole number. `subject` is
-    what the item is about if that is no point.
+    `summary` is one line with everything but the flags of a word; `bit_texts` builds those on demand. `missing` names
+    the points whose raw numbers are needed to compute the value. `findings` say what the device refuses, or that the
+    address is in a gap; `summary` repeats them. `meaning` is the value with its unit, or a name. `doubts`, on request,
+    say that the number lies outside its range, and which other readings are within it. `carries` is a statement about a
+    point whose whole number is not in the frame. `subject` is the subject of an item that is not a point.
     """
 
     space: str
@@ -94,7 +93,7 @@ class Item:
 
     @property
     def about(self) -> str:
-        """The point, or what it is about instead."""
+        """The point, or the other subject."""
         return self.point or self.subject
 
     @property
@@ -140,7 +139,7 @@ class FrameResult(NamedTuple):
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
     `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
     are other remarks. `details` are further facts of the family for JSON. `captured` is the frame in the notation of
-    its users, where that is not plain bytes. `refusal` says how the device refuses a request, in one line.
+    its bus, if that is not plain bytes. `refusal` says how the device refuses a request, in one line.
     """
 
     data: bytes
@@ -179,11 +178,11 @@ class FrameResult(NamedTuple):
         }
 
     def captured_as(self, data: bytes, captured: Captured) -> FrameResult:
-        """Return the same for these bytes, as they were captured."""
+        """Return the result with the frame as it was captured."""
         return self._replace(data=data, captured=captured)
 
     def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
-        """Return the same with items, and further notes."""
+        """Return the result with items and further notes."""
         return self._replace(items=items, notes=self.notes + notes)
 
     @property
@@ -204,7 +203,7 @@ class BuiltFrames:
 class WriteMethod:
     """How a point is written: in words (`how`), and as example frames.
 
-    `example` returns the frames for a raw number, or an empty text where none can be built. `joint` is the text between
+    `example` returns the frames for a raw number, or an empty text if none can be built. `joint` is the text between
     the words and the example.
     """
 

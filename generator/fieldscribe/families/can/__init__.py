@@ -6,7 +6,7 @@ from fieldscribe.families import BusKeys, Codes, Family, Option
 from fieldscribe.model import Bus, FamilyFacts, Frame
 
 USUAL_BITS = 11
-"""The bits of an identifier where the description does not give them."""
+"""The bits of an identifier if the description does not give them."""
 
 FAMILY = Family(
     name="can",
@@ -29,7 +29,7 @@ FAMILY = Family(
 
 @dataclass(frozen=True, slots=True)
 class CanBus(FamilyFacts):
-    """The speed of the bus and the bits of its identifiers; None where the description does not give them."""
+    """The speed of the bus and the bits of its identifiers; None if the description does not give them."""
 
     bitrate: int | None = None
     identifier_bits: int | None = None

@@ -1,4 +1,4 @@
-"""The facts of a bus and of frames that only this family has, and what people must know about the line."""
+"""The facts of a bus and of frames that only this family has, and the facts about the line for people."""
 
 from collections.abc import Iterator
 

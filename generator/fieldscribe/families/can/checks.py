@@ -17,7 +17,7 @@ from fieldscribe.resolve.points import ResolvedPoint
 
 _WIDEST_SELECTOR, _MOST_VIEWS = 16, 64
 _MOST_COMPARED = 64
-"""With how many messages of its identifier each message is compared."""
+"""The most messages of one identifier with which each message is compared."""
 
 
 def messages_differ(subject: Analysis) -> None:
@@ -35,7 +35,7 @@ def messages_differ(subject: Analysis) -> None:
                 if other.name in reported or subject.report.full or not _look_the_same(other, message):
                     continue
                 reported.add(other.name)
-                text = f"nobody can tell `{message.name}` from `{other.name}` under the identifier {identifier:X}h"
+                text = f"`{message.name}` and `{other.name}` cannot be told apart under the identifier {identifier:X}h"
                 here, there = (_place(nodes[each.name]) for each in (message, other))
                 related = [(there, f"`{other.name}` stands here")]
                 hint = "a constant byte must differ, or the identifiers; which there are with + unit, `units` says"
@@ -49,7 +49,7 @@ def _place(node: Map) -> Span:
 
 
 def _look_the_same(message: Message, other: Message) -> bool:
-    pairs = zip(message.roles, other.roles, strict=False)  # none of a message with signals
+    pairs = zip(message.roles, other.roles, strict=False)  # messages of signals have none
     return not any(mine.kind == theirs.kind == "constant" and mine.number != theirs.number for mine, theirs in pairs)
 
 
@@ -61,7 +61,7 @@ def parameters_are_reachable(subject: Analysis) -> None:
 def _missing_messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str, str]]:
     described = list(subject.scope.listed("messages"))
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(described):
-        return  # the missing message may be one that could not be read
+        return  # the missing message may have a finding
     answered = {message.answers for message in subject.messages if frames.carries(message, "raw")}
     requests = [
         message for message in subject.messages if message.direction == "request" and frames.carries(message, "address")
@@ -117,7 +117,7 @@ def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> 
 
 
 def _readings(subject: Analysis, frame: Frame, number: int, request: _Reading | None) -> Iterator[_Reading]:
-    """Yield the frame read as each message that it could be."""
+    """Yield the frame as read by each message that it could be."""
     read_frame = frames.CanFrame(number, frame.printed)
     for message in subject.messages:
         fits = request is None or message.answers == request.message.name
@@ -130,7 +130,7 @@ def _readings(subject: Analysis, frame: Frame, number: int, request: _Reading | 
 def _with_right_checksum(
     subject: Analysis, open_frame: LocatedFrame, number: int, readings: list[_Reading]
 ) -> tuple[Frame, _Reading | None]:
-    """Return the frame with its checksum corrected, and as which message it is read; None if it is none of them."""
+    """Return the frame with its checksum corrected, and how it is read; None if it is none of the messages."""
     frame = open_frame.frame
     by_status = {reading.parsed.status: reading for reading in reversed(readings)}
     wrong = by_status.get("wrong_check")
@@ -145,7 +145,7 @@ def _with_right_checksum(
 
 
 def _fault(frame: Frame, readings: list[_Reading], reading: _Reading | None, request: _Reading | None) -> str | None:
-    """Return why the frame is no message of the device, or does not answer its request."""
+    """Return why the frame is not a message of the device, or does not answer its request."""
     what = f"does not answer `{frame.answers}`" if request is not None else "is no message of this device"
     if reading is None:
         faults = {tried.parsed.status.replace("_", " ") for tried in readings} or {"wrong id"}
@@ -171,7 +171,7 @@ def _words(subject: Analysis, reading: _Reading, frame: Frame) -> Words:
 
 
 def signals_fit(subject: Analysis) -> None:
-    """Report signals outside their message, signals that share bits, and conditions that no selector can be."""
+    """Report signals outside their message, signals that share bits, and conditions that cannot select a signal."""
     coexistence = Coexistence(subject)
     viewed = {each.point.name: each.point.view_of for each in subject.resolved}
     for message in (message for message in subject.messages if not message.roles):
@@ -223,7 +223,7 @@ def _signal_fits(
 def _meet(
     coexistence: Coexistence, viewed: Mapping[str, str | None], resolved: ResolvedPoint, other: ResolvedPoint
 ) -> bool:
-    """Return True if two signals with common bits can exist in the same frame, and are no views of each other."""
+    """Return True if two signals with common bits can exist in the same frame and are not views of each other."""
     ends = [resolved.point.name, other.point.name]
     for _ in range(_MOST_VIEWS):  # views of views
         ends = [viewed.get(name) or name for name in ends]

@@ -16,7 +16,7 @@ from fieldscribe.text import dbc_string
 _MASTER = "master"
 _SYMBOLS = ("NS_DESC_", "CM_", "BA_DEF_", "BA_", "VAL_", "BA_DEF_DEF_", "SG_MUL_VAL_")
 _TIMES = ('BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535 ;', 'BA_DEF_DEF_ "GenMsgCycleTime" 0 ;')
-"""The attribute of messages that are sent at equal times; left out where there are none."""
+"""The attribute of messages with a period; left out if there are none."""
 _ATTRIBUTES = (
     'BA_DEF_ BO_ "SystemMessageLongSymbol" STRING ;',
     'BA_DEF_ SG_ "SystemSignalLongSymbol" STRING ;',
@@ -62,7 +62,7 @@ def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[st
 
 
 def _values(messages: list[DbcMessage]) -> Iterator[str]:
-    """Yield names of numbers, what multiplexers select, and which signals are floating-point numbers."""
+    """Yield names of numbers, selections of multiplexers, and the signals that are floating-point numbers."""
     for message in messages:
         for signal in message.signals:
             if signal.values:
@@ -118,7 +118,7 @@ def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
 
 
 def _things(messages: list[DbcMessage]) -> Iterator[tuple[str, str, DbcMessage | Signal]]:
-    """Yield each message and its signals: the kind, how a line of the database names it, and the thing."""
+    """Yield each message and its signals: the kind, its name in a line of the database, and the thing."""
     for message in messages:
         yield "Message", f"BO_ {message.id}", message
         yield from (("Signal", f"SG_ {message.id} {signal.short}", signal) for signal in message.signals)

@@ -21,7 +21,7 @@ from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
 
 _EXTENDED = 1 << 31
-"""The bit that marks an identifier of 29 bits."""
+"""The bit that marks an extended identifier (29 bits)."""
 _MOST_NAME = 32
 _MOST_CODES = 32
 """A longer band of special codes goes to the comment only: a database names single numbers."""
@@ -117,7 +117,7 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
 
 
 def _written(device: Device, message: Message, unit: int) -> int:
-    """Return the identifier of a message as databases write it."""
+    """Return the identifier of a message in the form of databases."""
     bits = message.bits or identifier_bits(device.bus)
     return identifier(message, unit) | (_EXTENDED if bits > USUAL_BITS else 0)
 
@@ -147,7 +147,7 @@ def _of_fields(device: Device, unit: int, message: Message) -> DbcMessage:
 
 
 def _with_unique_names(signals: list[Signal]) -> list[Signal]:
-    """Return the signals of a message with names of their own, whole and short."""
+    """Return the signals of a message with unique names, long and short."""
     names, shorts = set[str](), set[str]()
     return [
         replace(each, name=_unique(each.name, names), short=_unique(each.name, shorts, _MOST_NAME)) for each in signals
@@ -155,7 +155,7 @@ def _with_unique_names(signals: list[Signal]) -> list[Signal]:
 
 
 def _switch(message: Message, placed: Field, named: Mapping[int, Point]) -> dict[str, Any]:
-    """Return what selects a signal: of several selectors the one that the others select."""
+    """Return the selector of a signal; of several, the one that the others select."""
     if not placed.when:
         return {}
     place, raws = max(placed.when, key=lambda choice: len(message.fields[choice[0]].when))
@@ -163,7 +163,7 @@ def _switch(message: Message, placed: Field, named: Mapping[int, Point]) -> dict
 
 
 def _name_of(point: Point) -> str:
-    """Return the name of a signal: its code if that may stand in a database."""
+    """Return the name of a signal: its code, if that is a valid name in a database."""
     return point.code if point.code and point.code.isascii() and point.code.isidentifier() else point.name
 
 
@@ -297,7 +297,7 @@ def point_signals(device: Device, point: Point, message: Message) -> Iterator[tu
 
 
 def _words_join(message: Message) -> bool:
-    """Return True if the words of a frame lie side by side with the high byte first, as one big-endian number."""
+    """Return True if the words are adjacent in a frame with the high byte first, as one big-endian number."""
     run = places(message, "word")
     return [message.roles[place].number for place in run] == list(range(len(run))) and run[-1] - run[0] == len(run) - 1
 
@@ -361,7 +361,7 @@ def _names(point: Point) -> Iterator[tuple[int, str]]:
 
 
 def _comment(device: Device, point: Point) -> str:
-    """Return the title, and facts that a database has no place for: rules that need other points, bits of a word."""
+    """Return the title, and facts that a database cannot hold: rules that need other points, bits of a word."""
     parts = [point.title["en"]]
     if not point.generated:
         parts.append(f"Raw: {point.reason or 'the manual leaves it open'}")
@@ -392,7 +392,7 @@ def _bytes_of_mask(mask: int) -> str:
 
 
 def _unique(name: str, taken: set[str], most: int | None = None) -> str:
-    """Return a name that is not taken, at most so long; it gets a number if another has it."""
+    """Return a unique name of at most this length; a taken one gets a number."""
     free_name, count = name[:most], 1
     while free_name in taken:
         count += 1

@@ -20,7 +20,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 
     A bit group is put into the word of `--with-word`.
     """
-    del settings  # a message carries one parameter alone
+    del settings  # a message carries one parameter
     if point.place.bit is not None and point.writable:
         frame = signal_frame(device, point, raw, options.unit)
         return BuiltFrames((frame,), ("all other bits of the message are 0: its other signals travel with it",))

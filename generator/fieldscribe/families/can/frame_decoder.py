@@ -30,12 +30,12 @@ from fieldscribe.wording.frames import check_text, hex_words, strange_unit
 
 _DAMAGED = "its words are not read, for the frame is damaged"
 _MOST_HEADS = 1024
-"""For how many heads of frames it is kept what they are."""
+"""The most heads of frames whose message is remembered."""
 _KINDS = {"request": "request", "response": "reply"}
 
 
 class CanFrameDecoder:
-    """Decodes the frames of one device; keeps the words of telegrams that come in several frames."""
+    """Decodes the frames of one device; keeps the words of telegrams that span several frames."""
 
     remembers = False
 
@@ -63,7 +63,7 @@ class CanFrameDecoder:
 
     def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
-        del expecting  # the messages themselves tell which frame answers which
+        del expecting  # the messages themselves say which frame answers which
         for message in () if frame.remote else self._carrying:
             if frames.is_of(message, self._device.bus.units, frame.frame):
                 return self._signals(message, frame)
@@ -78,9 +78,9 @@ class CanFrameDecoder:
         return self._cyclic(head, result, frame, telegram)
 
     def _known(self, frame: CanFrame) -> tuple[Head, FrameResult] | None:
-        """Return the message that a frame is, and what its head says; None if no message fits.
+        """Return the message of a frame, and the result of its head; None if no message fits.
 
-        Both depend on the bytes that carry no words alone, so they are kept for frames that differ in these only.
+        Both depend only on the bytes that carry no words, so they are remembered for frames that differ in words alone.
         """
         data = frame.data
         if len(data) != LENGTH:
@@ -97,7 +97,7 @@ class CanFrameDecoder:
         return self._heads[key]
 
     def _telling_places(self, frame: CanFrame) -> tuple[int, ...]:
-        """Return the places of the bytes that tell which message a frame is, or that a check is made of."""
+        """Return the places of the bytes that identify the message of a frame, or that a checksum covers."""
         messages = [message for message, _ in _senders(self._device, frame) if message.roles and _fits(message, frame)]
         if any(carries(message, "xor") for message in messages):
             return tuple(range(LENGTH))
@@ -121,7 +121,7 @@ class CanFrameDecoder:
         return Head(message, unit, slot, address, differences(message, unit or 0, frame), here != right, foreign)
 
     def _result(self, head: Head, frame: CanFrame) -> FrameResult:
-        """Return what the head of a frame says, whatever words the frame carries."""
+        """Return the result of the head of a frame, for any words in it."""
         message = head.message
         telegram = self._telegrams.get(message.name)
         about = {"parameter": head.address} if telegram is None else {"multiplexer": head.slot}
@@ -151,7 +151,7 @@ class CanFrameDecoder:
         return DecodedFrame(result, (piece,), head.unit)
 
     def _signals(self, message: Message, pasted: Pasted) -> DecodedFrame:
-        """Return what the signals of a message say."""
+        """Return the result for the signals of a message."""
         frame, telegram = pasted.frame, self._telegrams[message.name]
         unit = frame.id - message.identifier if message.adds_unit else None
         words = signals.words_of(message, frame.data)
@@ -188,7 +188,7 @@ class CanFrameDecoder:
         return DecodedFrame(result, (word,), head.unit, exchange, answers=answers)
 
     def _unknown(self, pasted: Pasted) -> DecodedFrame:
-        """Return the result of a frame that is no message of the device, or an incomplete one."""
+        """Return the result of a frame that is not a message of the device, or is incomplete."""
         frame = pasted.frame
         text = f"CAN {hex_text(frame.id, 3)}"
         details = {"can_id": frame.id}
@@ -227,7 +227,7 @@ def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
 
 
 def _senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:
-    """Yield the messages with the identifier of the frame, and the unit that identifier or bytes give."""
+    """Yield the messages with the identifier of the frame, and the unit from the identifier or the bytes."""
     low, high = device.bus.units
     for message in device.messages:
         first, last = (low, high) if message.adds_unit else (0, 0)
@@ -236,7 +236,7 @@ def _senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | N
 
 
 def _fits(message: Message, frame: CanFrame) -> bool:
-    """Return True if the first constant byte is that of the message; else it is another message."""
+    """Return True if the first constant byte is that of the message: otherwise it is another message."""
     first = next(iter(places(message, "constant")), None)
     return first is None or frame.data[first] == message.roles[first].number
 
@@ -269,7 +269,7 @@ def _foreign_note(device: Device) -> str:
 
 
 def _faults(head: Head, bus: Bus) -> Iterator[str]:
-    """Yield what is wrong with a frame as this message."""
+    """Yield what is wrong with a frame read as this message."""
     if head.foreign:
         yield strange_unit(bus, head.unit or 0)
     for byte in head.differences:
@@ -289,10 +289,10 @@ def _answer_findings(request: ParameterWord, answer: ParameterWord) -> Iterator[
 
 
 def _unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
-    """Return why a frame is none of the messages with its identifier."""
+    """Return why none of the messages with its identifier fits a frame."""
     frame = pasted.frame
     if pasted.remote:
-        return "a remote request carries no data, and the manual knows none"
+        return "a remote request carries no data, and the manual has none"
     due = dict.fromkeys(str(message.length) for message in messages)
     if str(len(frame.data)) not in due:
         return f"every message has {' or '.join(due)} bytes, here are {len(frame.data)}"

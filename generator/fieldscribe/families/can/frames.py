@@ -26,7 +26,7 @@ class CanFrame(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """A frame read as a message; what the message does not carry is 0, and all is 0 unless `status` is "ok"."""
+    """A frame read as a message; fields that it does not carry are 0, and all fields unless `status` is "ok"."""
 
     status: str
     address: int = 0
@@ -47,7 +47,7 @@ class Difference:
 class Head:
     """A frame read as a message, without its words. `foreign`: it answers for a unit that the device cannot have.
 
-    `slot` is the multiplexer (0 without one), `address` the parameter that the message is about, if it is about one.
+    `slot` is the multiplexer (0 without one), `address` the parameter of the message, if it has one.
     """
 
     message: Message
@@ -66,14 +66,14 @@ class Head:
 
 @dataclass(frozen=True, slots=True)
 class ParameterWord:
-    """The parameter that a request or its answer is about, and the word that it carries."""
+    """The parameter of a request or an answer, and the word that it carries."""
 
     address: int
     raw: int | None
 
 
 def identifier(message: Message, unit: int) -> int:
-    """Return the identifier that carries a message to or from a unit."""
+    """Return the identifier of a message to or from a unit."""
     return message.identifier + unit if message.adds_unit else message.identifier
 
 
@@ -97,7 +97,7 @@ def carries(message: Message, kind: str) -> bool:
 
 
 def request_and_answer(messages: Sequence[Message], *, writes: bool) -> tuple[Message | None, Message | None]:
-    """Return the request that reads or writes a parameter, and its answer; None for what the device lacks."""
+    """Return the request that reads or writes a parameter, and its answer; None for one that the device lacks."""
     for request in messages:
         asks = request.direction == "request" and carries(request, "address")
         if asks and carries(request, "raw") == writes:
@@ -123,7 +123,7 @@ def is_of(message: Message, units: tuple[int, int], frame: CanFrame) -> bool:
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
-    """Return the number in the bytes with a role of this kind."""
+    """Return the number in the bytes with a role of this kind, the high byte first."""
     bytes_by_role = zip(message.roles, frame.data, strict=False)
     return sum(
         byte << (0 if kind == "multiplexer" else role.number) for role, byte in bytes_by_role if role.kind == kind
@@ -174,7 +174,7 @@ def _byte(role: Role, unit: int, address: int, raw: int) -> int:
 
 
 def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Difference, ...]:
-    """Return the bytes of a frame of the right length that this message of this unit cannot have; no checksums."""
+    """Return the wrong bytes of a frame of the right length for this message and unit, apart from checksums."""
     result = []
     for place, (role, here) in enumerate(zip(message.roles, frame.data, strict=True)):
         if role.kind in _STATUSES:
@@ -184,7 +184,7 @@ def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Differenc
 
 
 def sums(message: Message, data: bytes) -> tuple[bytes, bytes]:
-    """Return the checksums in the data of a message, and those that its other bytes give."""
+    """Return the checksums in the data of a message, and the right ones for its other bytes."""
     masks = {place: message.roles[place].number for place in places(message, "xor")}
     return bytes([data[place] for place in masks]), bytes([checksum(data, mask) for mask in masks.values()])
 
@@ -210,7 +210,7 @@ def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
 
 @dataclass(slots=True)
 class _Slot:
-    """The last and the previous words of one multiplexer value; `at` and `before` count frames, 0 means never."""
+    """The last and the previous words of one multiplexer value; `at` and `before` are numbers of frames, 0 for none."""
 
     words: tuple[int, ...] = ()
     at: int = 0
@@ -219,7 +219,7 @@ class _Slot:
 
 
 class Receiver:
-    """Takes the frames of one unit's telegram, and returns the words that have come."""
+    """Collects the frames of one unit's telegram, and returns the received words."""
 
     def __init__(self, telegram: Telegram, message: Message, unit: int) -> None:
         self.message = message
@@ -231,7 +231,7 @@ class Receiver:
         self._own = itemgetter(*[at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)])
         firsts = range(0, telegram.words, self.per_frame)
         self.positions = [range(first, min(first + self.per_frame, telegram.words)) for first in firsts]
-        """The positions of the words that a frame with each multiplexer brings."""
+        """The positions of the words of a frame, for each multiplexer value."""
         self._slots = [_Slot() for _ in firsts]
 
     def take(self, frame: CanFrame) -> bool:
@@ -247,15 +247,15 @@ class Receiver:
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
-        data = frame.data + b"\0"  # half a word that no byte of the message carries is 0
+        data = frame.data + b"\0"  # the half of a word that no byte carries is 0
         slot.words, slot.at = words_in(bytes(self._own(data))), self._clock
         return slot.words
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
         """Return the words at these positions, the high one first: ("ok", words), or "missing" or "torn" without words.
 
-        Two words from two frames belong together if the same high word came before and after the low one. More than two
-        words, such as a text, are given as they came last.
+        Two words from two frames belong together if the same high word came before and after the low one. For more than
+        two words, such as a text, the last ones count.
         """
         if len(positions) == 1:
             slot, word = self._slots[positions[0] // self.per_frame], positions[0] % self.per_frame

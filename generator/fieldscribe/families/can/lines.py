@@ -1,4 +1,4 @@
-"""A CAN bus, as python-can names it (an interface and a channel), and its messages: each is a frame of its own."""
+"""A CAN bus, as python-can names it (an interface and a channel), and its messages: each is one frame."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def open_bus(line: LineAddress) -> can.BusABC:
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
-    """Return a device of the runtime; others on a busy bus do not make it wait longer than a timeout that is given."""
+    """Return a device of the runtime; on a busy bus, a given timeout limits its wait all the same."""
     del model
     device = kind(line.transport, unit, **variants)
     if line.timeout is not None:
@@ -60,7 +60,7 @@ def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variant
 KINDS = (MESSAGE,)
 PORTS: frozenset[int] = frozenset()
 _LONG, _REMOTE, _SHORT = 0x80000000, 0x40000000, 0x7FF
-"""How SocketCAN marks long identifiers and remote messages, and the last short identifier."""
+"""The marks of SocketCAN for extended identifiers and remote frames, and the last standard identifier."""
 
 
 class CanCutter:
@@ -77,7 +77,7 @@ class CanCutter:
 
 
 def cutter() -> CanCutter:
-    """Return what makes frames of messages."""
+    """Return the cutter for messages."""
     return CanCutter()
 
 
@@ -90,7 +90,7 @@ def packet(cut: Cut) -> Packet:
 
 
 def hear(line: LineAddress) -> Iterator[Chunk]:
-    """Yield the messages on a bus; nothing for a while is a message without data. Raises UnclearError."""
+    """Yield the messages on a bus; silence is a message without data. Raises UnclearError."""
     try:
         bus = open_bus(line)
     except ModuleNotFoundError as error:
@@ -110,7 +110,7 @@ def hear(line: LineAddress) -> Iterator[Chunk]:
 
 
 def action(result: FrameResult) -> str:
-    """Return what a message is."""
+    """Return the kind of a message in a word."""
     return str(result.details.get("message", "message"))
 
 

@@ -66,7 +66,7 @@ def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
 
 
 def read_identifier(text: str) -> int:
-    """Return an identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
+    """Return an identifier, which is always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
     match = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
     if match is None or int(match[1], 16) > MOST_IDENTIFIER:
         raise UnclearError(f"`{shortened(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
@@ -74,7 +74,7 @@ def read_identifier(text: str) -> int:
 
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
-    """Return the arguments; pieces of one line are joined again if the user forgot the quotes."""
+    """Return the arguments; join the pieces of one line if the user forgot the quotes."""
     if len(texts) == 1 or not any("#" in text for text in texts):
         return rejoined(texts, 2)
     return _lines_of_pieces(list(texts))

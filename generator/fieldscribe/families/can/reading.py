@@ -26,7 +26,7 @@ _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENG
 _UNITS = 256
 _MOST_BITS = 29
 _TO_ALL = 0xF0
-"""From this byte on a parameter group of J1939 has no destination."""
+"""From this byte on, a parameter group of J1939 has no destination."""
 _USUAL_PRIORITY, _EVERYONE = 6, 0xFF
 _TIME = re.compile(r"([0-9]{1,7}) ?(ms|s)")
 _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
@@ -46,7 +46,7 @@ class CanReading(FamilyReader):
         if "can_id" in node:
             return CanExample(integer(node["can_id"], node.span("can_id"), scope.report))
         if "can_id" not in node.broken:
-            message = f"the frame `{node['name']}` says no identifier"
+            message = f"the frame `{node['name']}` has no identifier"
             scope.report.error("missing-key", message, node.span("name"), "add `can_id: …`")
         return CanExample()
 
@@ -93,7 +93,7 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
     if "can_id" in node or "can_id" in node.broken:
         identifier = _identifier(scope, bus, node)
         if "pgn" in node:
-            message, hint = "`pgn` and `can_id` stand in place of each other", "leave one of them out"
+            message, hint = "`pgn` and `can_id` exclude each other", "leave one of them out"
             scope.report.error("two-meanings", message, node.key_span("pgn"), hint)
     else:
         identifier = _group(scope, bus, node)
@@ -126,7 +126,7 @@ def _bits(bus: Bus, node: Map) -> int:
 
 
 def _milliseconds(scope: Scope, node: Map) -> int | None:
-    """Return how often a message is sent; report what is no time."""
+    """Return the period of a message in milliseconds; report a text that is not a time."""
     text = node.get("every")
     match = None if text is None else _TIME.fullmatch(str(text))
     if text is not None and match is None:
@@ -139,7 +139,7 @@ def _group(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
     """Return the identifier of a parameter group of J1939, and True if the unit is added to it."""
     if "pgn" not in node:
         if "pgn" not in node.broken:
-            message = f"the message `{node['name']}` says no identifier"
+            message = f"the message `{node['name']}` has no identifier"
             scope.report.error("missing-key", message, node.span("name"), "add `can_id: …`, or the `pgn` of J1939")
         return None
     pgn = integer(node["pgn"], node.span("pgn"), scope.report)
@@ -252,7 +252,7 @@ def _constant(text: str, count: int) -> list[Role] | tuple[str, str]:
     try:
         number = parse_integer(text)
     except NumberError:
-        return f"`{shortened(text)}` is nothing that a byte can hold", _HOW
+        return f"`{shortened(text)}` is not something that a byte can hold", _HOW
     if not 0 <= number < 1 << 8 * count:
         return f"{text} does not fit into {_bytes(count)}", f"0..{(1 << 8 * count) - 1:X}h does"
     return [Role("constant", byte) for byte in number.to_bytes(count, "big")]

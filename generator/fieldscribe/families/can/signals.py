@@ -1,7 +1,7 @@
-"""Signals of messages: where each lies in the words of its message's telegram, and how they leave and enter a frame.
+"""Signals of messages: their places in the words of the telegram of the message, packing and unpacking.
 
-Signals under the same condition are neighbours in the telegram: those that always come, then those that each value of
-a selector brings.
+Signals under the same condition are neighbours in the telegram: first those that are always present, then those for
+each value of a selector.
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -41,7 +41,7 @@ def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Pla
 
 
 def _with_those_of_selectors(name: str, own: Mapping[str, Selection]) -> Selection:
-    """Return what selects a signal, and what selects the signals that do."""
+    """Return the selection of a signal, with the selections of its selectors."""
     result, open_names = dict[str, tuple[int, ...]](), [name]
     while open_names and len(result) <= len(own):
         for selector, raws in own.get(open_names.pop(), {}).items():
@@ -56,7 +56,7 @@ def _rank(when: Selection, listed: Mapping[str, int]) -> list[tuple[int, tuple[i
 
 
 def selected(point: Point, names: Collection[str]) -> tuple[tuple[str, tuple[int, ...]], ...] | None:
-    """Return which raw numbers of which others of these signals select a point; None if `when` is no such condition.
+    """Return the raw numbers of other signals that select a point; None if `when` is not such a condition.
 
     Comparisons of variants and of points elsewhere select nothing here.
     """
@@ -73,7 +73,7 @@ def selected(point: Point, names: Collection[str]) -> tuple[tuple[str, tuple[int
 
 
 def _raws(clause: Clause, own: str, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
-    """Return the raw numbers that a clause asks of other signals of the message; None if it compares otherwise."""
+    """Return the raw numbers of other signals in a clause; None if it compares anything else."""
     raws: dict[str, tuple[int, ...]] = {}
     for comparison in clause:
         if comparison.of in names and comparison.of != own:
@@ -84,7 +84,7 @@ def _raws(clause: Clause, own: str, names: Collection[str]) -> dict[str, tuple[i
 
 
 def parts(message: Message) -> list[tuple[range, When]]:
-    """Return the words that come together, with what selects them; in the order of the words."""
+    """Return the words that are present together, with their selection, in the order of the words."""
     return [
         (range(run[0].word, run[-1].word + run[-1].words), when)
         for when, group in groupby(message.fields, lambda field: field.when)
@@ -93,7 +93,7 @@ def parts(message: Message) -> list[tuple[range, When]]:
 
 
 def comes(message: Message, when: When, words: Sequence[int]) -> bool:
-    """Return True if the words of a frame have what is selected by these numbers."""
+    """Return True if the words of a frame satisfy this selection."""
     return all(_raw(message.fields[place], words) in raws for place, raws in when)
 
 
@@ -108,7 +108,7 @@ def exclude(field: Field, other: Field) -> bool:
 
 
 class TakenBits(Generic[T]):
-    """Who has which bits of a message, by what selects them: those that no frame has together are not compared."""
+    """The owners of the bits of a message, by selection: signals that no frame has together are not compared."""
 
     def __init__(self, message: Message) -> None:
         self._message = message
@@ -119,7 +119,7 @@ class TakenBits(Generic[T]):
         return next((choice for choice in field.when if not self._message.fields[choice[0]].when), (None, (0,)))
 
     def others(self, field: Field) -> Iterator[T]:
-        """Yield who has bits of a field in a frame that has the field."""
+        """Yield the owners of bits of a field in frames that have the field."""
         selector, raws = self._selected(field)
         for bit in field.bits:
             for place, by_raw in self._of.get(bit, {}).items():
@@ -138,7 +138,7 @@ class TakenBits(Generic[T]):
 
 
 def words_of(message: Message, data: bytes) -> tuple[int, ...]:
-    """Return the words of all fields in the bytes of a message, also of those that do not come."""
+    """Return the words of all fields in the bytes of a message, also of absent ones."""
     words: list[int] = []
     for field in message.fields:
         raw = sum((data[bit >> 3] >> (bit & 7) & 1) << place for place, bit in enumerate(field.bits))

@@ -105,7 +105,7 @@ class Profile:
     framings: tuple[str, ...] = FRAMINGS
 
     def write_function(self, space: str, count: int) -> int | None:
-        """Return the function that writes so many items: that for a single item if it is allowed, else for several."""
+        """Return the function that writes this many items: the one for a single item if it is allowed."""
         functions = SPACES[space]
         return functions.write_one if count == 1 and functions.write_one in self.most else functions.write_many
 

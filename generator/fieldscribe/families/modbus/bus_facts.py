@@ -1,4 +1,4 @@
-"""The facts of a bus that only this family has, and what people and pages must know beside them."""
+"""The facts of a bus that only this family has, and further facts for people and pages."""
 
 from collections.abc import Iterator, Mapping
 
@@ -14,7 +14,7 @@ LIMITS = family_facts(ModbusBus, Fact("pad_coil_bytes", _PADDING, null_or(STRING
 """The facts of a bus that only this family has."""
 
 _DIGITS = {"discrete": 1, "input": 3, "holding": 4}
-"""The first digit of traditional references; that of coils is 0, which leaves the number as it is."""
+"""The first digit of traditional references; that of coils is 0 and not printed."""
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
@@ -31,7 +31,7 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:
-    """Return an address as PLC and panel tools count: from 1, and with the digit of the space before it."""
+    """Return an address as PLC and panel tools count: from 1, and with the digit of the space in front."""
     modicon = {"modicon": address + 1}
     return modicon if space == "coil" else {**modicon, "reference": _DIGITS[space] * 100000 + address + 1}
 

@@ -1,4 +1,4 @@
-"""The keys that only this family has, and what a new description of a device starts with."""
+"""The keys that only this family has, and the text of a new description."""
 
 from collections.abc import Collection
 

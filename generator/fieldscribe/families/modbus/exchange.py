@@ -1,4 +1,4 @@
-"""Modbus requests and replies: builds requests, reads bytes as a request or as its reply. Pure functions, no I/O."""
+"""Modbus requests and replies: builds requests, parses bytes as a request or as its reply. Pure functions, no I/O."""
 
 from dataclasses import dataclass
 
@@ -88,7 +88,7 @@ def parse_request(framing: str, data: bytes) -> Request | frames.Flaw:
 
 
 def request_in(unwrapped: frames.Unwrapped) -> Request | frames.Flaw:
-    """Return the request in a PDU, also out of a flawed frame; else the first flaw.
+    """Return the request in a PDU, even that of a flawed frame; else the first flaw.
 
     `bad_function` (one that is not supported here), `short_request`, `long_request`, `bad_count`, and the flaws of
     the data that it writes.
@@ -164,7 +164,7 @@ def reply_in(request: Request, unwrapped: frames.Unwrapped) -> Reply:
 
 
 def confirmed_write(pdu: bytes) -> Request | None:
-    """Return the write of several items that a reply confirms, without its unit and values, which are not in it."""
+    """Return the write of several items that a reply confirms; unit and values are not in it."""
     if pdu[0] not in (0x0F, 0x10) or len(pdu) != 5:
         return None
     address, count = words_in(pdu[1:])

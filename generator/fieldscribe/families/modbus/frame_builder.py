@@ -64,7 +64,7 @@ def write_requests(
 
 
 def _most(device: Device, point: Point, function: int, count: int) -> int:
-    """Return how many items of a point go at once: all of them, or of a long text what the function allows."""
+    """Return how many items of a point one request carries: all, or for a long text as many as the function allows."""
     return count if point.text is None else min(count, profile_of(device.bus).most.get(function, count))
 
 
@@ -95,7 +95,7 @@ def read_text(device: Device, point: Point) -> str:
 
 
 def frames_of_step(device: Device, step: Step, arguments: Mapping[str, int]) -> Iterator[str]:
-    """Yield the requests of a step of a command, to the usual unit; bits that stay are 0. None at an unknown base."""
+    """Yield the requests of a step to the usual unit; bits that the step keeps are 0. None for an unknown base."""
     words = tuple(word.of(arguments) for word in step.words)
     for function, values in ((step.read, ()), (step.write, words)):
         if function is not None and step.base is None:
@@ -121,7 +121,7 @@ def way_to_write(device: Device, point: Point) -> WriteMethod | None:
 
 
 def _wanted(device: Device, point: Point) -> list[str]:
-    """Return what has to be given to know where the point is."""
+    """Return the names of the numbers that must be given to compute the point's address."""
     base = device.base_of(point)
     return [] if base is None else base.wanted
 

@@ -1,4 +1,4 @@
-"""Decodes Modbus frames: requests, replies, echoes and exceptions. The request before a reply tells what it holds."""
+"""Decodes Modbus frames: requests, replies, echoes and exceptions. The request before a reply says what it holds."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -25,13 +25,13 @@ from fieldscribe.text import counted
 from fieldscribe.wording.frames import hex_words, no_answer_text, spaced
 
 _MOST_FRAMES = 1024
-"""How many decoded frames are kept."""
+"""The number of decoded frames that are kept."""
 
 
 class ModbusFrameDecoder:
     """Decodes the frames of one device; without `framing` each frame is tried as RTU and as TCP.
 
-    A bus repeats itself, so what was decoded last is kept.
+    A bus repeats itself, so the last results are kept.
     """
 
     remembers = True
@@ -155,7 +155,7 @@ def _is_whole(pdu: bytes) -> bool:
 def _unmatched_reply(
     unwrapped: Unwrapped, parsed: Request | Flaw, request: Request | None, status: str
 ) -> DecodedFrame:
-    """Return a reply that does not fit the open request, with what can be known of its contents."""
+    """Return a reply that does not fit the open request, with the part of its contents that is certain."""
     pdu = unwrapped.pdu
     faults = (no_answer_text(status),) if request else ()
     if pdu[0] in READS and len(pdu) == reply_length(pdu):
@@ -196,7 +196,7 @@ def _reply(
 
 
 def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> AddressSpan:
-    """Return the addresses of a request, with the values that it writes, or that its reply brings."""
+    """Return the addresses of a request, with the values that it writes or that its reply carries."""
     count = min(request.count, 0x10000 - request.address)
     written, words = request.function not in READS, request.values or None if words is None else words
     return AddressSpan(FUNCTIONS[request.function].space, request.address, count, words, written, learned)

@@ -11,7 +11,7 @@ LEAST = {"rtu": 4, "tcp": 8}
 
 @dataclass(frozen=True, slots=True)
 class Flaw:
-    """Why bytes are no frame, or no request: `here` is the number found, `due` the number expected.
+    """Why bytes are not a frame, or not a request: `here` is the number found, `due` the number expected.
 
     `of` is the function, or the number of items.
     """

@@ -1,6 +1,6 @@
-"""Modbus lines: in a network, on a serial line, and RTU frames through a network.
+"""Modbus lines: TCP, serial, and RTU frames over TCP.
 
-What is heard there is cut by length and CRC on a serial line, by the header in a network.
+Received bytes are cut into frames by length and CRC on a serial line, by the header on TCP.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> SerialLine | TcpLin
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
-    """Return a device of the runtime. Behind `tcp://` a serial one has a gateway that translates."""
+    """Return a device of the runtime. A serial device at `tcp://` is behind a gateway that translates."""
     del model
     framings = kind.PROFILE.framings
     if line.address.scheme == "tcp" and "tcp" not in framings:
@@ -64,7 +64,7 @@ def any_device(line: OpenLine, unit: int) -> ModbusDevice:
 
 
 def probe(device: ModbusDevice) -> str:
-    """Ask a device for something harmless, whatever it is; return what came. Raises FieldscribeError."""
+    """Send a harmless request to any device; return its answer. Raises FieldscribeError."""
     return f"holding register 0 is {device.read_at('holding', 0)[0]}"
 
 
@@ -75,7 +75,7 @@ PORTS = frozenset({502})
 _LONGEST, _LONGEST_TCP, _LEAST_TCP = 256, 260, 8
 _MOST_STREAMS = 2048
 _COUNTED = frozenset(number for number, function in FUNCTIONS.items() if function.does == "write_many")
-"""Functions whose requests say how long they are."""
+"""Functions whose requests contain their length."""
 
 
 class ModbusCutter:
@@ -86,7 +86,7 @@ class ModbusCutter:
         self._streams: OrderedDict[tuple[str, bool | None], bytes] = OrderedDict()
 
     def take(self, chunk: Chunk) -> Iterator[Cut]:
-        """Return the frames that are complete with this chunk; RTU frames may travel in a connection, too."""
+        """Return the frames that this chunk completes; a connection may also carry RTU frames."""
         if chunk.kind == BYTES:
             yield from self._serial.take(chunk)
             return
@@ -121,7 +121,7 @@ class ModbusCutter:
 
 
 def _framed(chunk: Chunk, data: bytes) -> Cut:
-    """Return a frame of a connection. Its number goes into the exchange, so that equal frames have equal bytes."""
+    """Return a frame of a connection. Its number moves to the exchange, so that equal frames have equal bytes."""
     return Cut(chunk.time, b"\0\0" + data[2:], data, "tcp", data[6], chunk.place, data[:2], chunk.sent)
 
 
@@ -139,12 +139,12 @@ def _size_at(data: bytes, begins: bool) -> int:
 
 
 def cutter() -> ModbusCutter:
-    """Return what cuts chunks into frames."""
+    """Return the cutter for chunks of bytes."""
     return ModbusCutter()
 
 
 def chunk_of_text(text: str) -> Chunk:
-    """Return the bytes in a line of a log, perhaps a frame of a network. Raises HexError for a line without any."""
+    """Return the bytes in a line of a log, which may be a TCP frame. Raises HexError for a line without any."""
     chunk = logged_bytes(text)
     if unwrap("rtu", chunk.data).flaw is None or unwrap("tcp", chunk.data).flaw is not None:
         return chunk
@@ -152,7 +152,7 @@ def chunk_of_text(text: str) -> Chunk:
 
 
 def hear(line: LineAddress) -> Iterator[Chunk]:
-    """Yield what comes on a line. Raises UnclearError."""
+    """Yield the chunks received on a line. Raises UnclearError."""
     if line.scheme == "tcp":
         message = "a network does not bring what others say"
         raise UnclearError(message, "capture it where it passes, as with tcpdump -w FILE, and give --capture FILE")
@@ -160,6 +160,6 @@ def hear(line: LineAddress) -> Iterator[Chunk]:
 
 
 def action(result: FrameResult) -> str:
-    """Return what an exchange does, in a word."""
+    """Return the action of an exchange in a word."""
     function = FUNCTIONS.get((result.function or 0) & 0x7F)
     return "function" if function is None else function.does.partition("_")[0]

@@ -15,7 +15,7 @@ class ModbusReading(FamilyReader):
     """Reads functions, their counts and broadcasts, and plans batched reads."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> ModbusBus:
-        """Return how coils are padded; report functions that the protocol cannot do as described."""
+        """Return how coils are padded; report functions whose description contradicts the protocol."""
         by_name = {value["name"]: value for value in node.get("functions", {}).values() if isinstance(value, Map)}
         can_be = ", ".join(f"{number:02X}h" for number in sorted(BROADCAST))
         for code in functions:
@@ -49,14 +49,14 @@ class ModbusReading(FamilyReader):
 READING = ModbusReading()
 
 _LaneKey = tuple[str, str | None, int]
-"""A space, what its addresses count from, and the element of what repeats to the end of a block, else -1."""
+"""A space, the base of its addresses, and the element of a repetition to the end of a block, else -1."""
 _Place = tuple[str, str, tuple[int, ...]]
 """The name of a point, its space, and the addresses from which it is read."""
 
 
 @dataclass(slots=True)
 class _Lane:
-    """What one function reads in one space: `spans` of points (low, end, name), and `crossable` addresses.
+    """The points that one function reads in one space: their `spans` (low, end, name), and `crossable` addresses.
 
     A block may cross an address if every device has a readable point there.
     """
@@ -70,7 +70,7 @@ def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[
 
     A block covers only addresses with a readable point (also a reserved one) and none of the gaps of the bus. It holds
     whole points, and at most as many items as the device allows. A point that some devices lack (by a condition, a
-    firmware or a variant) has a block to itself, for a device refuses a whole read if one address is missing. A point
+    firmware or a variant) has its own block, because a device refuses a whole read if one address is missing. A point
     that no single read can fetch (no allowed function, too many words, words that are not neighbours) is in no block.
     """
     most = profile_of(bus).most
@@ -110,7 +110,7 @@ def _place(point: Point) -> _Place:
 def _always_there(
     point: Point, variants_at: Mapping[_Place, set[Variant]], variants: Mapping[str, tuple[str, ...]]
 ) -> bool:
-    """Return True if every device has this point at the place that it is read from."""
+    """Return True if every device has this point at its read address."""
     terms = point.terms
     if terms.when is not None or terms.since is not None or terms.until is not None:
         return False

@@ -47,13 +47,13 @@ _FLAWS: Mapping[str, str] = {
 }
 _MOST_BYTES = {"rtu": 256, "tcp": 260}
 _LEAST = {4: "an RTU frame", 8: "a TCP frame"}
-NO_REQUEST = "which addresses these are, only the request says: give it before this frame, or with --request"
+NO_REQUEST = "only the request says which addresses these are: give it before this frame, or with --request"
 BROADCAST_NOTE = "broadcast: no unit answers"
 UNKNOWN_REQUEST = "which request it refuses is not in the frame"
 
 
 def flaw_text(flaw: Flaw) -> str:
-    """Return why bytes are no frame, or no request."""
+    """Return why bytes are not a frame, or not a request."""
     if flaw.status == "short_frame":
         return too_short(_LEAST[flaw.due], flaw.due, flaw.here)
     return "the bytes of the checksum are swapped" if flaw.swapped else _FLAWS[flaw.status].format(**asdict(flaw))
@@ -64,7 +64,7 @@ def frame_faults(unwrapped: Unwrapped) -> tuple[str, ...]:
     if unwrapped.flaw is not None:
         return (flaw_text(unwrapped.flaw),)
     size, most = len(unwrapped.data), _MOST_BYTES[unwrapped.framing]
-    return (f"the frame has {size} bytes, {most} are the most",) if size > most else ()
+    return (f"the frame has {size} bytes, at most {most} are allowed",) if size > most else ()
 
 
 def frame_checks(unwrapped: Unwrapped) -> str:
@@ -99,7 +99,7 @@ def reply_text(framing: str, unit: int | None, request: Request) -> str:
 
 
 def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
-    """Return why a PDU is no request, and for a read also why it is no reply."""
+    """Return why a PDU is not a request, and for a read also why it is not a reply."""
     problem = flaw_text(flaw)
     if pdu[0] not in READS or len(pdu) < 2:
         return problem
@@ -109,7 +109,7 @@ def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
 
 
 def exception_text(device: Device, code: int) -> str:
-    """Return the meaning of an exception, from the manual, else from the protocol."""
+    """Return the meaning of an exception from the manual, or else from the protocol."""
     known = numbered(device.bus.exceptions, code)
     if known is not None:
         return line(f"{hex_text(code, 2)} {known.name}: {known.title['en']}")

@@ -48,8 +48,8 @@ FAMILY = Family(
 class UssBus(FamilyFacts):
     """The response ids, and the lengths that the parts of a telegram may have.
 
-    `pkw` are the lengths in words that the parameter part may have (127 is variable), `pzd` how many words of process
-    data there may be; `variant_pzd` has variants that take at most so many.
+    `pkw` are the allowed lengths of the parameter part in words (127 is variable), `pzd` is the interval of allowed
+    words of process data; `variant_pzd` has variants with a lower maximum.
     """
 
     responses: tuple[Code, ...] = ()

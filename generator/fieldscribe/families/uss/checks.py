@@ -32,7 +32,7 @@ _LISTS = ("answers", "refusals")
 
 
 def codes_agree(subject: Analysis) -> None:
-    """Report codes that are named on one side only or do not exist, and printed lists that disagree."""
+    """Report codes that only one side names or that do not exist, and printed lists that disagree."""
     bus = subject.scope.bus
     if bus is None or not subject.bus_is_whole:
         return
@@ -84,7 +84,7 @@ def _errors_have_tasks(subject: Analysis, bus: Map) -> None:
 
 
 def _printed_lists_agree(subject: Analysis, code: Code, node: Map, about: str) -> None:
-    """Compare the printed lists of a code with those that were taken."""
+    """Compare the printed lists of a code with those of the description."""
     printed: Map = node.get("printed") or Map(node.file, node.start)
     for key in _LISTS:
         taken = sorted(getattr(code, key))
@@ -126,7 +126,7 @@ def _missing_tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int
 
 
 def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
-    """Read a worked frame, a whole telegram or one part, as the device does; `Seen.request` is (link, `Request`)."""
+    """Read a worked frame, a whole telegram or one part, as the device would; `Seen.request` is (link, `Request`)."""
     frame = open_frame.frame
     if frame.framing == "broadcast":
         return _broadcast(subject, open_frame)

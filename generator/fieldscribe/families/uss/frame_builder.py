@@ -47,7 +47,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 def _process_words(
     device: Device, point: Point, raw: int, link: Link, settings: Settings
 ) -> tuple[tuple[int, ...], list[str]]:
-    """Return the process data that writes one of its points, and notes. Raises RefusedError."""
+    """Return the process data that writes a point, and notes. Raises RefusedError."""
     last = max(point.addresses) + 1
     if last > link.pzd:
         message = f"{label(point)} is word {last} of the process data, the link has {link.pzd}"
@@ -98,7 +98,7 @@ def _hint(link: Link, status: str) -> str:
 
 
 def read_text(device: Device, point: Point) -> str:
-    """Return how to read the point: the task, or the word of process data; empty if it cannot be read."""
+    """Return how to read the point: its task, or its word of process data; empty if it cannot be read."""
     link, unit = default_link(device.bus), device.bus.usual_unit
     if point.telegram is not None:
         return f"{_word(point)} of every answer, for example to task 0{_example(device, Request(unit, 0), link)}"

@@ -71,7 +71,7 @@ class UssFrameDecoder:
         return decoded
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
-        """Return True if these words, read as a request, carry values: they could be a response instead."""
+        """Return True if these words carry values when read as a request: they could be a response instead."""
         part = parts.part_of(parts.split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
@@ -139,7 +139,7 @@ class UssFrameDecoder:
         return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
     def _refusal(self, base: FrameResult, part: parts.Part, open_request: Request | None) -> FrameResult:
-        """Return the result of a response that refuses the request, and says how."""
+        """Return the result of a response that refuses the request, with the way it refuses."""
         if part.code == parts.NO_RIGHTS or not part.values:
             return base._replace(kind="exception")
         error, task = part.values[0], None if open_request is None else open_request.task

@@ -1,6 +1,6 @@
-"""USS lines: serial, with how the telegrams of the device are set.
+"""USS lines: serial lines, with the settings of the device's telegrams.
 
-What is heard there is cut into telegrams by their start, length and check byte.
+Received bytes are cut into telegrams by start, length and check byte.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def open_line(line: LineAddress, timeout: dict[str, Any]) -> UssLine:
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
-    """Return a device of the runtime, with its link as the line says."""
+    """Return a device of the runtime, with the link of the line."""
     from fieldscribe_runtime.uss import Link
 
     usual = default_link(model.bus)
@@ -42,7 +42,7 @@ def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variant
 
 
 def _link(line: OpenLine, pkw: int, pzd: int) -> tuple[int, int, bool]:
-    """Return how the line says that the telegrams are set, else as given. Raises UnclearError."""
+    """Return the link of the line, else the given one. Raises UnclearError."""
     address = line.address
     pkw, pzd = (address.number(key, usual, (0, VARIABLE)) for key, usual in (("pkw", pkw), ("pzd", pzd)))
     return pkw, pzd, address.choice("single_first", "no", ("no", "yes")) == "yes"
@@ -64,7 +64,7 @@ def any_device(line: OpenLine, unit: int) -> UssDevice:
 
 
 def probe(device: UssDevice) -> str:
-    """Ask a device for its process data, which commands nothing; return what came. Raises FieldscribeError."""
+    """Send process data that commands nothing; return the answer of the device. Raises FieldscribeError."""
     return f"word 1 of its process data is {device.read_at('reply', 0)[0]:04X}h"
 
 
@@ -86,16 +86,16 @@ def _size_at(data: bytes, begins: bool) -> int:
 
 
 def cutter() -> ByteCutter:
-    """Return what cuts chunks into telegrams."""
+    """Return the cutter for chunks of bytes."""
     return ByteCutter(_size_at, _LONGEST, None, 2)
 
 
 def hear(line: LineAddress) -> Iterator[Chunk]:
-    """Yield what comes on a line. Raises UnclearError."""
+    """Yield the chunks received on a line. Raises UnclearError."""
     return serial_chunks(line, "8E1")
 
 
 def action(result: FrameResult) -> str:
-    """Return what an exchange does, in a word."""
+    """Return the action of an exchange in a word."""
     task = result.details.get("task")
     return "process data" if not task else "write" if task in parts.TASK_WIDTHS else "read"

@@ -16,15 +16,15 @@ VARIABLE = 127
 SHORT = 3
 """The words of a parameter part that carries values of one word only."""
 MASKS = 4
-"""The words of masks that a broadcast has in place of the parameter part."""
+"""The words of masks that a broadcast has instead of a parameter part."""
 READ_TASK, READ_ELEMENT_TASK = 1, 6
 _WRITE_TASKS = {(1, False): (2, 14), (2, False): (3, 13), (1, True): (7, 12), (2, True): (8, 11)}
-"""The tasks that write so many words, to an element of an array or not: to the RAM, and to the EEPROM too."""
+"""The tasks that write this many words, to an array element or not: to the RAM, and also to the EEPROM."""
 TASK_WIDTHS = {task: width for (width, _), tasks in _WRITE_TASKS.items() for task in tasks}
-"""The words of value that the tasks that write carry."""
+"""The words of value in the tasks that write."""
 EEPROM_TASKS = frozenset(eeprom for _, eeprom in _WRITE_TASKS.values())
 RESPONSE_WIDTHS = {1: 1, 2: 2, 4: 1, 5: 2, 6: 1}
-"""The words of value that the responses carry."""
+"""The words of value in the responses."""
 SIZE, REFUSED, NO_RIGHTS = 6, 7, 8
 """The responses with the number of elements, and those that refuse a task."""
 DOUBLE_RESPONSES = frozenset(response for response, width in RESPONSE_WIDTHS.items() if width == 2)
@@ -34,7 +34,7 @@ _PAGE_BITS = (15, 12, 13, 14)
 
 
 def write_task(width: int, *, array: bool, keep: bool) -> int:
-    """Return the task that writes a value of so many words: to the RAM, with `keep` also to the EEPROM."""
+    """Return the task that writes a value of this many words: to the RAM, with `keep` also to the EEPROM."""
     return _WRITE_TASKS[width, array][keep]
 
 
@@ -56,7 +56,7 @@ class Link:
 
     @property
     def single_last(self) -> bool:
-        """True if a single value stands in the second value word."""
+        """True if a single value is in the second value word."""
         return self.pkw == 4 and not self.single_first
 
 

@@ -1,4 +1,4 @@
-"""Reads the facts that only USS has from the description, and reports what its telegrams cannot carry."""
+"""Reads the facts that only USS has, and reports what its telegrams cannot carry."""
 
 from collections.abc import Iterator, Sequence
 
@@ -29,7 +29,7 @@ class UssReading(FamilyReader):
         )
 
     def frame(self, scope: Scope, node: Map, framing: str) -> UssFrame:
-        """Return the length of the parameter part that the link is set to."""
+        """Return the length of the parameter part on the link."""
         del scope
         return UssFrame(None if framing in ("pzd", "broadcast") else node.get("pkw", VARIABLE))
 

@@ -22,7 +22,7 @@ _FLAWS: Mapping[str, str] = {
 
 
 def flaw_texts(unwrapped: Unwrapped) -> Iterator[str]:
-    """Yield what is wrong with the bytes of a telegram, or of a part alone."""
+    """Yield what is wrong with the bytes of a telegram, or of a single part."""
     data = unwrapped.data
     count, are = len(data), "is" if len(data) == 1 else "are"
     length = data[1] + 2 if count > 1 else 0
@@ -43,7 +43,7 @@ def checks_text(unwrapped: Unwrapped) -> str:
 
 
 def misfit_text(words: int, link: Link, *, request: bool) -> str:
-    """Return the fault that a telegram has another number of words than the link."""
+    """Return the fault of a telegram whose number of words is not that of the link."""
     length, sizes = f"of {link.pkw}", f"{link.pkw + link.pzd}"
     if link.pkw == VARIABLE:
         length = "of variable length"
@@ -86,7 +86,7 @@ def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[s
 
 
 def request_notes(part: Part, link: Link) -> Iterator[str]:
-    """Yield what is worth knowing about a request."""
+    """Yield notes about a request."""
     here, there = (1, 0) if link.single_last else (0, 1)
     single = TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1
     if single and part.values[there] and not part.values[here]:
@@ -99,14 +99,14 @@ def request_notes(part: Part, link: Link) -> Iterator[str]:
 
 
 def error_findings(device: Device, error: int, task: int | None) -> Iterator[str]:
-    """Yield the finding that this task cannot have this error."""
+    """Yield a finding if this task cannot have this error."""
     code = numbered(device.bus.exceptions, error)
     if task is not None and code is not None and code.answers and task not in code.answers:
         yield f"the manual does not give error {error} for task {task}"
 
 
 def error_notes(part: Part, link: Link) -> Iterator[str]:
-    """Yield the note that the error may stand in another word."""
+    """Yield a note if the error may be in another word."""
     if link.single_last and len(part.values) > 1:
         yield (
             "the error value is taken from the first value word; over this link single words stand in the second, "

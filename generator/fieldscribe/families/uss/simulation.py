@@ -117,9 +117,9 @@ class _Unit:
                 self._elements.setdefault(point.addresses[0], {})[-1 if point.index is None else point.index] = point
 
     def link(self, count: int, sent: int | None = None) -> Link:
-        """Return the link as the device is set now, or as the count of a telegram's words has it if no point says.
+        """Return the current link of the device; if no point holds it, the one that fits the words of a telegram.
 
-        `sent` is how many of them are no process data, if not those of a parameter part.
+        `sent` is how many of them are not process data, if not those of a parameter part.
         """
         raw, (pkw, pzd), (low, high) = self.device.memory.raw, self._settings, of_bus(self.device.device.bus).pzd
         part = self._usual.pkw if pkw is None else raw(pkw)
@@ -150,7 +150,7 @@ class _Unit:
         return Answer(self.device, data, refused=result.refused)
 
     def broadcast(self, words: tuple[int, ...]) -> Answer:
-        """Take the process data that the masks let count; nobody answers."""
+        """Take the process data that the masks select; nobody answers."""
         if len(words) == parts.MASKS + self.link(len(words), parts.MASKS).pzd:
             self.device.heard()
             which, bits = words[:2]
@@ -164,7 +164,7 @@ class _Unit:
         return Answer(self.device, b"")
 
     def _take_words(self, words: Mapping[int, int], bits: int) -> None:
-        """Take words of process data; one that lacks its constant bits is ignored, as is what no point takes.
+        """Take words of process data; words without their constant bits or without a point are ignored.
 
         `bits` are those of the first word that count; its constant ones must be among them.
         """

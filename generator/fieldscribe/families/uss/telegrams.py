@@ -92,7 +92,7 @@ def sound_size(data: bytes) -> int:
 
 
 def bare_words(data: bytes) -> Unwrapped:
-    """Return the words of a part alone."""
+    """Return the words of a single part."""
     whole = len(data) > 0 and len(data) % 2 == 0
     return Unwrapped(data, None, words_in(data) if whole else None, () if whole else ("no_words",))
 
@@ -107,7 +107,7 @@ def build(bus: Bus, link: parts.Link, request: Request) -> tuple[str, bytes]:
     """Return ("ok", the bytes of a request), or (status, b"") if it must not be sent.
 
     The first failure wins: `bad_link` (a length that the device does not know, or other words of process data),
-    `bad_unit`, `bad_task`, `bad_parameter`, `bad_index`, `bad_value` (also a double value where there is no room).
+    `bad_unit`, `bad_task`, `bad_parameter`, `bad_index`, `bad_value` (also a double value without room).
     """
     status = _refusal(bus, link, request)
     if status != "ok":
@@ -185,7 +185,7 @@ def answer_in(bus: Bus, link: parts.Link, request: Request, received: tuple[int,
 
 
 def _answer_fault(bus: Bus, request: Request, pkw: tuple[int, ...]) -> str | None:
-    """Return why a parameter part is no good response; None if it is one."""
+    """Return why a parameter part is not a good response; None if it is."""
     response = pkw[0] >> 12
     if response == 0:
         return "no_answer"

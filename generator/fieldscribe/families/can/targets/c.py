@@ -1,4 +1,4 @@
-"""The view of the CAN header: messages, cyclic telegrams, and frames point by point."""
+"""The view of the CAN header: messages, cyclic telegrams, and the frames of each point."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
 Cases: TypeAlias = Callable[[], Iterator[str]]
-"""Returns the macros of the conformance program for the members of a struct; made when that is written."""
+"""Returns the macros of the conformance program for the members of a struct, called as that is written."""
 
 NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = False
@@ -37,7 +37,7 @@ class MessageView:
 
 @dataclass(frozen=True, slots=True)
 class TelegramView:
-    """A telegram that comes in frames of a message."""
+    """A telegram that frames of a message carry."""
 
     name: str
     constant: str
@@ -74,7 +74,7 @@ class SignalsView:
 
 @dataclass(frozen=True, slots=True)
 class GroupView:
-    """The addresses that reading a group takes, each word once."""
+    """The addresses to read for a group, each word once."""
 
     title: str
     array: str
@@ -163,7 +163,7 @@ def _role_number(role: Role) -> str:
 
 
 def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPoint], members: Members) -> TelegramView:
-    """Return the view of a telegram. A point whose words come in two frames is no member of its struct."""
+    """Return the view of a telegram. A point whose words are in two frames is not a member of its struct."""
     scope, per_frame = members.scope, message.words
     macro, name = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}", f"{scope.prefix}_telegram_{telegram.name}"
     array, slots = _array(message, scope), frame_count(telegram, message)
@@ -261,7 +261,7 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
 
 
 def _fits(point: Point, words: int) -> bool:
-    """Return True if a point is a text, or has at most so many words."""
+    """Return True if a point is a text, or has at most this many words."""
     return point.text is not None or point.words <= words
 
 

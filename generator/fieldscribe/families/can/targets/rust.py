@@ -98,7 +98,7 @@ def _message(message: Message) -> tuple[str, Lines]:
 
 
 def _signals(message: Message) -> dict[str, object]:
-    """Return what the template writes of a message of signals."""
+    """Return the context of the template for a message of signals."""
     words = {place: field.word for place, field in enumerate(message.fields)}
     return {
         "doc": sentence(message.name),

@@ -36,7 +36,7 @@ KINDS = {
 """The kinds of vectors for frames of a maker's own protocol."""
 
 _PATTERN = 0x9A6C_5D33_E18F_2B47
-"""Bits around the signal that is looked at."""
+"""Bits around the signal under test."""
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
 
@@ -183,7 +183,7 @@ def _pairs(frames: Sequence[CanFrame]) -> list[tuple[int, bytes]]:
 
 
 class _Received:
-    """Frames for one point of a telegram, and what the point is after them."""
+    """Frames for one point of a telegram, and the value of the point after them."""
 
     def __init__(self, lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
         self.lines, self.telegram, self.message, self.point, self.unit = lines, telegram, message, point, unit
@@ -228,7 +228,7 @@ class _Received:
             self._answer(frames[:count])
 
     def _answer(self, frames: list[CanFrame]) -> None:
-        """Add one vector: what the point is when these frames came. Each word of a text may come from another frame."""
+        """Add one vector: the value of the point after these frames. Each word of a text may be from another frame."""
         receiver = Receiver(self.telegram, self.message, self.unit)
         taken = [int(receiver.take(frame)) for frame in frames]
         addresses, is_text = self.point.addresses, self.point.form == "text"
@@ -245,7 +245,7 @@ class _Received:
 
 
 def _signals(lines: Lines, device: Device, message: Message) -> None:
-    """Add frames of a message: what each signal is in them, and the bytes of this signal and those that select it."""
+    """Add frames of a message: the value of each signal in them, and the bytes of the signal with its selectors."""
     low, high = device.bus.units
     places = {field.word: place for place, field in enumerate(message.fields)}
     for point in device.points:
@@ -267,7 +267,7 @@ def _signals(lines: Lines, device: Device, message: Message) -> None:
 
 
 def _signal(lines: Lines, message: Message, signal: tuple[int, Point], frame: CanFrame) -> None:
-    """Add what a signal is in a frame."""
+    """Add the value of a signal in a frame."""
     number, point = signal
     when = message.fields[number].when
     if len(frame.data) != message.length:

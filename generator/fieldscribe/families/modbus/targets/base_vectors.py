@@ -1,6 +1,6 @@
-"""Vectors of what addresses count from: bases that follow from given numbers, and blocks that a client finds.
+"""Vectors of the bases of addresses: those that follow from given numbers, and blocks that a client finds.
 
-Each has the whole exchange that reads the set point there, for languages whose devices find a base by themselves.
+Each has the whole exchange that reads the set point, for languages whose devices find a base by themselves.
 """
 
 from collections.abc import Iterator, Mapping
@@ -70,7 +70,7 @@ class BaseVectors:
         script.read(SPACES[point.space].read, start + point.addresses[0], 1)
 
     def _add_given(self, base: Base, point: Point) -> None:
-        """Add the ends of all numbers, and one number after the other beyond its ends."""
+        """Add the ends of all numbers, then each number in turn beyond its ends."""
         given = [self._given[name] for name, _ in base.terms]
         for numbers in ({each.name: each.low for each in given}, {each.name: each.high for each in given}):
             start = base.at(numbers)
@@ -98,13 +98,13 @@ class BaseVectors:
 
 
 def _is_a_word(point: Point) -> bool:
-    """Return True for a point that one request for one item reads, and that every device has."""
+    """Return True for a point of one item that every device has and one request reads."""
     conditional = point.when is not None or point.since or point.until or point.terms.selects
     return point.readable and point.words == 1 and bool(point.addresses) and not conditional
 
 
 def _devices(found: Found, base: Base, block: int, length: int, *, many: bool) -> Iterator[_Held]:
-    """Yield what devices hold that have the block somewhere, or not; `many` yields broken ones, too."""
+    """Yield the words of devices with the block at some place, or without it; with `many`, also of broken ones."""
     first, last, size = found.places[0], found.places[-1], len(found.words)
     words = [0] * (2 * length)
     for number, (_, address, _) in enumerate(base.counts, 1):
@@ -131,7 +131,7 @@ def _chain(found: Found, place: int, *blocks: tuple[int, list[int]]) -> _Held:
 
 
 def _search(script: _Script, found: Found, base: Base, block: int) -> tuple[str, tuple[int, ...]]:
-    """Search as a client does that knows the whole chain before it reads; return status, start and last address."""
+    """Search as a client that reads the whole chain first; return status, start and last address."""
     function = SPACES[found.space].read
     marked = (each for each in found.places if script.read(function, each, len(found.words)) == found.words)
     place, blocks = next(marked, None), dict[int, tuple[int, int]]()

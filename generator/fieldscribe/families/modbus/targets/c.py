@@ -1,4 +1,4 @@
-"""The view of the Modbus header: the device's profile, reads block by block, requests point by point, commands."""
+"""The view of the Modbus header: the profile of the device, block reads, the requests of each point, commands."""
 
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
@@ -47,14 +47,14 @@ class SteppedView:
 
     @property
     def comment(self) -> Iterator[str]:
-        """The lines that say what it does."""
+        """The lines of its comment."""
         texts = [f"{number}. {text}" for number, text in enumerate(steps_texts(self.command), 1)]
         for text in (f"{self.command.title['en']}: {run_text(self.command)}", *texts):
             yield from textwrap.wrap(c_comment(text), _WIDTH)
 
     @property
     def arguments(self) -> list[tuple[str, str, str]]:
-        """The macro of each argument, its number, and what it may be."""
+        """The macro of each argument, its number, and its range."""
         ends = enumerate(self.command.arguments.items())
         return [(f"{self.macro}_{upper(name)}", f"{at}U", f"{low}..{high}") for at, (name, (low, high)) in ends]
 
@@ -80,7 +80,7 @@ class SteppedView:
 
     @property
     def case(self) -> str:
-        """What the conformance program checks."""
+        """The macro of the conformance program that checks it."""
         given = "".join(f'(uint16_t)fieldscribe_with(v, "{name}"), ' for name in self.command.arguments)
         return f'"{self.command.name}", {self.steps}, {{{given}0U}}'
 
@@ -116,7 +116,7 @@ class BlocksView:
 
     @property
     def rows(self) -> Iterator[tuple[str, str, str, str]]:
-        """The function, address and count of each block, and what it holds; made when the header is written."""
+        """The function, address and count of each block, and its points; built as the header is written."""
         for block in self.blocks:
             ends = [self.by_name[name][-1].point for name in (block.points[0], block.points[-1])]
             holds = c_comment("..".join(dict.fromkeys(point.code or point.name for point in ends)))
@@ -221,7 +221,7 @@ def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
     ends += [f"({each.name}_number <= {each.high}U)" for each in numbers if each.high < _LAST]
     terms = [(factor, f"({abs(factor)}U * (uint32_t){name}_number)") for name, factor in base.terms]
     terms += [(base.offset, f"{abs(base.offset)}U")] if base.offset or not terms else []
-    (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive, and stands first
+    (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive and comes first
     function = f"{scope.prefix}_{base.name}_base"
     values = ", ".join([f'fieldscribe_given(v, "{each.name}")' for each in numbers])
     return BaseView(
@@ -235,7 +235,7 @@ def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
 
 
 def _chain(found: Found) -> dict[str, str]:
-    """Return the literals of how blocks are found."""
+    """Return the literals for the search of blocks."""
     return {
         "text": c_comment(found.marker),
         "marker": ", ".join(map(hexadecimal, found.words)),
@@ -282,7 +282,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
 
 
 def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
-    """Return the row of a point; `update` stands where other rows have `write`."""
+    """Return the row of a point; `update` is in the place of `write`."""
     names = {"r": "read", "w": "write", "u": "update"}
     ways = {way: f"&{view.function}_frame.{names[way]}" for way in access if way == "r" or is_written_by_row(view)}
     read, write = ways.get("r", "NULL"), ways.get("w", ways.get("u", "NULL"))
@@ -291,7 +291,7 @@ def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
 
 
 def _transfer(function: int | None, address: str, words: int) -> str:
-    """Return the arguments of the runtime's macros that say what reads or writes a point; empty if nothing does."""
+    """Return the arguments of the runtime's macros for reading or writing a point; empty if no request does."""
     if not function:
         return ""
     return f"{unsigned(function)}, {address}{f', {words}U' if words > 1 else ''}"

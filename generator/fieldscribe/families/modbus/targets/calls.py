@@ -32,7 +32,7 @@ def _profile(device: Device, scope: Scope) -> Node:
 
 
 def _facts(device: Device, scope: Scope) -> Mapping[str, Node]:
-    """Return the planned reads, what addresses count from, what is given for that, and how blocks are found."""
+    """Return the planned reads, bases of addresses, given numbers, and the search of blocks."""
     facts: dict[str, Node] = {}
     planned = {group: tuple(_block(block, scope) for block in blocks) for group, blocks in device.blocks.items()}
     if any(planned.values()):

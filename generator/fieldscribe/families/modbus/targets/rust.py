@@ -69,7 +69,7 @@ def _profile(bus: Bus) -> Lines:
 
 
 def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
-    """Yield the comment and the lines of each constant: what bases follow from, and how blocks are found."""
+    """Yield the comment and the lines of each constant: given numbers, bases, and the search of blocks."""
     found, given = device.found, {each.name: each for each in device.given}
     if found is not None:
         name = found.name.upper()
@@ -81,7 +81,7 @@ def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
     for base in device.bases:
         name, text = base.name.upper(), rust_string(base.name)
         if base.block is not None and not base.starts_block:
-            continue  # whoever reads the counting points makes it
+            continue  # a program makes it after reading the counting points
         if found is not None and base.block is not None:
             made = f"FoundBlock::new({text}, &{found.name.upper()}, {base.block})"
             yield f"Block {base.block}.", binding(4, Item(f"pub const {name}", "FoundBlock"), made)
@@ -96,7 +96,7 @@ def _bases(device: Device) -> Iterator[tuple[str, Lines]]:
 
 
 def _names_of(name: str, kind: str, bases: list[str]) -> Lines:
-    """Return the list of bases of one kind that the conformance test takes."""
+    """Return the list of bases of one kind for the conformance test."""
     names = [f"device::bases::{base.upper()}" for base in bases]
     return array(Item(f"const {name}", f"&[device::runtime::modbus::{kind}]"), names)
 

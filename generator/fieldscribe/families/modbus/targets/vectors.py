@@ -42,7 +42,7 @@ class ModbusWire:
         self._at_zero: dict[tuple[int, tuple[int, ...]], tuple[bytes, bytes] | None] = {}
 
     def opens(self, lines: Lines) -> None:
-        """Set the unit and the framing, and where bases are."""
+        """Set the unit, the framing and the bases."""
         lines.set("unit", self.unit, self.framing)
         if self.starts:
             lines.set("bases", self.starts, {name: _LAST - start for name, start in self.starts.items()})
@@ -64,7 +64,7 @@ class ModbusWire:
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """Return one request for consecutive addresses and its reply; None if the device does not allow it.
 
-        Frames are built once for address 0, and moved: many points have the same words.
+        Frames are built once for address 0 and then moved, because many points have the same words.
         """
         first, last = min(addresses), max(addresses)
         if last - first + 1 != len(words) or last > 0xFFFF:
@@ -109,7 +109,7 @@ class ModbusWire:
 
 
 def starts_of(device: Device) -> dict[str, int]:
-    """Return a place for each base: with the greatest numbers that can be given; blocks lie apart."""
+    """Return an address for each base: that of the greatest given numbers; blocks are well separated."""
     greatest = {each.name: each.high for each in device.given}
     return {
         base.name: _FIRST_BLOCK + 1000 * number if base.block is not None else base.at(greatest)
@@ -179,7 +179,7 @@ def frames(lines: Lines, device: Device) -> None:
 
 
 def _steps(lines: Lines, command: SteppedCommand) -> None:
-    """Add the words of each step with the ends of the arguments, in place of what the device held."""
+    """Add the words of each step for the ends of the arguments, over what the device held."""
     ends = {end: {name: both[end] for name, both in command.arguments.items()} for end in (0, 1)}
     for index, step in enumerate(command.steps):
         for given, filled in itertools.product((ends[0], ends[1]) if command.arguments else ({},), (0x0000, 0xA5C3)):
@@ -189,7 +189,7 @@ def _steps(lines: Lines, command: SteppedCommand) -> None:
 
 
 def _word(word: Word, given: Mapping[str, int], held: str) -> int:
-    """Return a word with these arguments in place of what the device held, bit by bit."""
+    """Return a word for these arguments over what the device held, bit by bit."""
     number = f"{(word.constant + word.factor * given.get(word.argument or '', 0)) % 0x10000:016b}"
     bits = zip(number, f"{word.mask:016b}", held, strict=True)
     return int("".join([new if mask == "1" else old for new, mask, old in bits]), 2)
@@ -279,7 +279,7 @@ def _reply(lines: Lines, framing: str, request: Request, data: bytes, printed: s
 
 
 def _bad_pdus(request: Request, bus: Bus) -> Iterator[bytes]:
-    """Yield PDUs that are no good reply in an intact frame: exceptions, other functions, lengths or echoes."""
+    """Yield PDUs that are not a good reply in an intact frame: exceptions, other functions, lengths or echoes."""
     good = _reply_pdu(request)
     refused = request.function | 0x80
     for code in dict.fromkeys((*(code.number for code in bus.exceptions), 0, 2, 255)):

@@ -1,4 +1,4 @@
-"""The view of the USS header: tasks, responses and errors, requests point by point, words of process data."""
+"""The view of the USS header: tasks, responses and errors, requests of points, words of process data."""
 
 from collections.abc import Iterator, Sequence
 

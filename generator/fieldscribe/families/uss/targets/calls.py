@@ -33,7 +33,7 @@ def _profile(device: Device, scope: Scope) -> Node:
 
 
 def _maker(point: Point) -> str:
-    """Return the maker of an attribute; the caller chooses RAM or EEPROM where the description does not."""
+    """Return the function that creates an attribute; the caller chooses RAM or EEPROM if the description does not."""
     usual = usual_maker(point)
     stored = point.telegram is None and point.keeps in (None, "choice")
     return _STORED.get(usual, usual) if stored else usual

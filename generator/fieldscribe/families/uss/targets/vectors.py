@@ -219,7 +219,7 @@ class _Dialogue:
         self.sent((6, 0xFFFF, 0, 0), (*self.words, 0))
 
     def replies(self) -> None:
-        """Add all responses to some tasks, the known ones to the others, and spoiled ones to one task."""
+        """Add all responses to some tasks, the known ones to the others, and damaged ones to one task."""
         if not of_bus(self.bus).pzd[0] <= self.link.pzd <= of_bus(self.bus).pzd[1]:
             return
         unit, answers = self.bus.units[1], {code.number: code.answers for code in self.bus.functions}
@@ -233,7 +233,7 @@ class _Dialogue:
             self.answered(request, data)
 
     def _part(self, request: Request, response: int) -> tuple[int, ...]:
-        """Return the parameter part of a response, with recognisable values; a variable one only as long as needed."""
+        """Return the parameter part of a response, with recognisable values; a variable part is short."""
         if self.link.pkw == 0:
             return ()
         head = parameter_words(response, request.parameter, request.index)
