@@ -1,7 +1,7 @@
-"""Holds a description against the text of its manual: what it cites must be printed where it says.
+"""Compares a description with the text of its manual: every cited fact must be printed where it is cited.
 
-Plain audit: `Citations` are what a description cites, `Held` finds them in a text, `audit` lists what is missing there.
-Two editions: `Editions` aligns both texts, `compare` lists every line that differs with the facts that cite it.
+Plain audit: `Citations` are what a description cites, `Held` finds them in a text, `audit` lists what is missing.
+Two editions: `Editions` aligns both texts, `compare` lists every line that differs, with the facts that cite it.
 
 numbers.py, manual.py, passage.py    a text: its numbers, its sections and rows, a piece of it
 claims.py                            one shape of a claim, with few kinds of evidence, and how claims are made
@@ -9,9 +9,9 @@ point_claims.py, flag_claims.py, claims_of_device.py    the claims of points, of
 notation.py                          how the manual writes things
 evidence.py, held.py                 whether a passage has the evidence; all claims in a text
 plain_audit.py                       the plain audit and its findings
-alignment.py, comparison.py          two texts line by line; what cites the lines that differ
+alignment.py, comparison.py          two texts line by line; the facts that cite lines that differ
 renumbering.py                       writing new line numbers, and the new text's checksum, into the YAML
-report.py                            both for people
+report.py                            both as text and as a page
 """
 
 from fieldscribe.audit.comparison import Comparison, Editions

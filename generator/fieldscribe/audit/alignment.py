@@ -1,7 +1,7 @@
 """Two texts of a manual, line by line: which lines stayed, changed, moved, were added or were removed.
 
-Lines that are unique in both texts are aligned first, then what lies between them. So the cost grows with the length of
-the texts, also where every line changed, which difflib alone would not end.
+Lines that are unique in both texts are aligned first, then the lines between them. So the cost grows with the length of
+the texts even if every line changed; difflib alone would not finish.
 """
 
 import re
@@ -15,15 +15,15 @@ from operator import itemgetter
 from typing import Final, NamedTuple, TypeAlias
 
 _MOST_PAIRS: Final = 4_000
-"""A block of so many pairs of lines, or words, is compared pair by pair."""
+"""The most pairs of lines, or of words, in a block that is compared pair by pair."""
 _MOST_STEPS: Final = 40
-"""Each line is looked at so many times at most; what is not aligned then was removed and added."""
+"""The most times that a line is looked at; a line not aligned by then was removed or added."""
 _ALIKE = 0.3
-"""The share of words from which on one line is another one changed."""
+"""The share of equal words from which on two lines are one changed line."""
 
 
 _Chain: TypeAlias = "tuple[tuple[int, int], _Chain] | None"
-"""Pairs of lines, each with those that follow it."""
+"""Pairs of lines, each linked to the pairs that follow it."""
 
 
 class Change(NamedTuple):
@@ -35,7 +35,7 @@ class Change(NamedTuple):
 
 
 class Alignment:
-    """The lines of an old and a new text with their counterparts. Blanks and the width of cells do not count."""
+    """The lines of an old and a new text with their counterparts. Blanks and the width of cells are ignored."""
 
     def __init__(self, old: Sequence[str], new: Sequence[str]) -> None:
         self.old, self.new = _Text(old), _Text(new)
@@ -45,7 +45,7 @@ class Alignment:
         self._old_of = {new: old for old, new in (*self._new_of.items(), *self._moved.items())}
 
     def _moved_lines(self) -> dict[int, int]:
-        """Lines without a counterpart whose text stands exactly once among such lines of the other text."""
+        """Return the lines without a counterpart whose text occurs exactly once among such lines of the other text."""
         aligned = set(self._new_of.values())
         left = _unique((line, self.old.text(line)) for line in self.old.numbers if line not in self._new_of)
         right = _unique((line, self.new.text(line)) for line in self.new.numbers if line not in aligned)
@@ -61,7 +61,7 @@ class Alignment:
 
     @cached_property
     def changes(self) -> list[Change]:
-        """All lines that differ, in the order of the new text; removed ones where they were."""
+        """All lines that differ, in the order of the new text; removed ones at their old place."""
         entries: list[tuple[int, int, Change]] = []
         above = 0
         for old in self.old.numbers:
@@ -78,7 +78,7 @@ class Alignment:
 
 
 class _Text:
-    """The lines of a text that hold something, without layout; `numbers` are their numbers from 1."""
+    """The non-empty lines of a text, without layout; `numbers` are their numbers from 1."""
 
     def __init__(self, lines: Sequence[str]) -> None:
         contents = [" ".join(line.replace("|", " | ").split()) for line in lines]
@@ -115,7 +115,7 @@ class _Aligner:
         self._steps = _MOST_STEPS * (len(old) + len(new) + 1)
 
     def pairs(self) -> list[tuple[int, int]]:
-        """Return the indices of lines that belong together, rising in both."""
+        """Return the pairs of indices of aligned lines, rising in both texts."""
         found: list[tuple[int, int]] = []
         blocks = [(range(len(self.old)), range(len(self.new)))]
         while blocks:
@@ -142,7 +142,7 @@ class _Aligner:
         return old, new
 
     def _anchors(self, old: range, new: range) -> list[tuple[int, int]]:
-        """Return lines that are unique in both blocks: as they are, without numbers, or by their first words."""
+        """Return lines that are unique in both blocks: by text, by text without numbers, or by first words."""
         keys: tuple[Callable[[str], str], ...] = (
             str,
             lambda line: re.sub(r"[0-9]+", "#", line),
@@ -157,7 +157,7 @@ class _Aligner:
         return []
 
     def _block(self, old: range, new: range) -> list[tuple[int, int]]:
-        """Pair the lines of a block by the words that they share; of a large one those at the same places."""
+        """Pair the lines of a block by the words that they share; those of a large block by position."""
         if len(old) * len(new) > _MOST_PAIRS:
             return list(zip(old, new, strict=False)) if len(old) == len(new) else []
         nothing: tuple[float, _Chain] = (0.0, None)
@@ -184,7 +184,7 @@ def _unchained(chain: _Chain) -> Iterator[tuple[int, int]]:
 
 
 def _longest_rising(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the longest choice of pairs that rises in both texts; the pairs come in the order of the old one."""
+    """Return the longest subsequence of pairs that rises in both texts; the pairs are in the order of the old one."""
     ends: list[int] = []
     chains: list[_Chain] = []
     for pair in pairs:

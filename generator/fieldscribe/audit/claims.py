@@ -21,7 +21,7 @@ _LITERAL = re.compile(
 
 
 class Cited(NamedTuple):
-    """Lines that a description cites at `key` of the YAML; `last` is 0 where `first` opens a row or section."""
+    """Lines that a description cites at `key` of the YAML; `last` is 0 if `first` opens a row or section."""
 
     first: int
     last: int
@@ -34,18 +34,18 @@ class Cited(NamedTuple):
 
 
 class Number(NamedTuple):
-    """One of these numbers, `times` times; or a word that contains it (`PZD2`); or a run from `ends` to `ends`."""
+    """One of these numbers, `times` times; or a word that contains it (`PZD2`); or a run between `ends`."""
 
     numbers: frozenset[Fraction]
     words: tuple[str, ...] = ()
     ends: frozenset[Fraction] = frozenset()
     times: int = 1
     names: tuple[str, ...] = ()
-    """What stands before the number, such as `Mux` in `Mux 3`, unless the number opens a line."""
+    """The word before the number, such as `Mux` in `Mux 3`, unless the number opens a line."""
 
 
 class Run(NamedTuple):
-    """Numbers that follow each other in one of these ways; if `spread`, they may have other numbers between them."""
+    """Numbers in one of these orders; if `spread`, other numbers may come between them."""
 
     ways: tuple[tuple[frozenset[Fraction], ...], ...]
     spread: bool = False
@@ -61,14 +61,14 @@ class Label(NamedTuple):
     beside: tuple[frozenset[Fraction], ...] = ()
 
     def numbers(self, way: int) -> frozenset[Fraction]:
-        """Return the numbers that it stands beside in one way to print the list."""
+        """Return the numbers beside the label in one way to print the list."""
         return self.beside[min(way, len(self.beside) - 1)] if self.beside else frozenset()
 
 
 class Word(NamedTuple):
-    """One of these words by itself. `rivals` would say another fact in its place, such as `R/W` for `R`.
+    """One of these words by itself. `rivals` are words for another fact, such as `R/W` for `R`.
 
-    With rivals a place that prints neither agrees. In `cells` only whole cells count.
+    With rivals, a place that prints neither agrees. In `cells`, only whole cells count.
     """
 
     words: tuple[str, ...]
@@ -89,7 +89,7 @@ Evidence: TypeAlias = "Number | Run | Label | Word | Bytes"
 class Claim:
     """A fact of a subject, as `shown` in reports, and the evidence for it at every place that it cites.
 
-    An `optional` fact need not be printed. Between two editions one that the old one prints must stay.
+    An `optional` fact need not be printed. Between two editions, one that the old edition prints must stay.
     """
 
     subject: str
@@ -97,7 +97,7 @@ class Claim:
     shown: str
     cited: tuple[Cited, ...]
     place: Span
-    """Where the description says the fact."""
+    """The place of the fact in the description."""
     evidence: Evidence
     optional: bool = False
     about: About = ""
@@ -110,13 +110,13 @@ class Claim:
 
     @property
     def identity(self) -> tuple[object, ...]:
-        """What tells it from other claims: the same fact may be stated in three notations."""
+        """The key of a claim: the same fact in several notations is one claim."""
         lines = tuple(cited.lines for cited in self.cited)
         return self.subject, self.fact, self.shown, lines, self.evidence, self.optional
 
     @property
     def numbers(self) -> frozenset[Fraction]:
-        """The numbers that can state it."""
+        """The numbers that are evidence for it."""
         if isinstance(self.evidence, Number):
             return self.evidence.numbers
         if isinstance(self.evidence, Run):
@@ -125,7 +125,7 @@ class Claim:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """The words that can state it."""
+        """The words that are evidence for it."""
         return self.evidence.words if isinstance(self.evidence, Number | Label | Word) else ()
 
 
@@ -173,7 +173,7 @@ class ClaimMaker:
         spread: bool = False,
         optional: bool = False,
     ) -> Iterator[Claim]:
-        """Yield the claim that numbers are printed one after the other in one of these ways."""
+        """Yield the claim that numbers are printed in one of these orders."""
         runs = tuple(tuple(absolute((number,)) for number in way) for way in ways)
         if len(runs[0]) == 1:
             evidence: Evidence = Number(absolute(number for way in ways for number in way))

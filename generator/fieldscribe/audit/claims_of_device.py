@@ -1,4 +1,4 @@
-"""All claims of a description, what its errata say that the manual prints, and the lines that it passes over."""
+"""All claims of a description, the printed texts of its errata, and the lines that it passes over."""
 
 import re
 from collections.abc import Iterator
@@ -66,7 +66,7 @@ def _all_claims(subject: Analysis) -> Iterator[Claim]:
 
 
 def passed_over(subject: Analysis) -> list[tuple[Cited, frozenset[str]]]:
-    """Return each line of `looked_through` with its numbers that are no facts; none for a line without any fact."""
+    """Return each line of `looked_through` with its numbers that are not facts; no numbers for a line without facts."""
     return [
         (Cited(line, 0, cited.key), frozenset(map(str, passage.get("numbers", ()))))
         for file in subject.scope.files
@@ -87,7 +87,7 @@ def _shared_numberings(subject: Analysis) -> frozenset[str]:
 
 
 def _claims_of_enum(name: str, entries: Map, notation: Notation) -> Iterator[Claim]:
-    """Entries of a shared enum that cite a line themselves."""
+    """Yield the claims of entries of a shared enum that cite a line themselves."""
     for key, entry in entries.items():
         if isinstance(entry, Map) and "line" in entry:
             maker = ClaimMaker(f"enum {name}", entries.key_span(key), line_of(entry), None)
@@ -96,13 +96,13 @@ def _claims_of_enum(name: str, entries: Map, notation: Notation) -> Iterator[Cla
 
 
 def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim]:
-    """The numbers and the title of a command, a message or a telegram."""
+    """Yield the claims of a command, a message or a telegram: its numbers and its title."""
     maker = ClaimMaker(f"{kind} {entry['name']}", entry.span("name"), line_of(entry), entry.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
     for key in ("at", *identifiers, "value", "length", "wears"):
         for number in numbers_in(entry.get(key)):
             yield from maker.number(key, number, entry.span(key))
-    for number in numbers_in(entry.get("steps")):  # some are computed, as a complement is
+    for number in numbers_in(entry.get("steps")):  # some are computed, such as a complement
         yield from maker.number("steps", number, entry.span("steps"), optional=True)
     yield from maker.label("title", notation.label(entry.get("title")), entry.span("title"))
     layout = entry.get("layout", Map(entry.file, entry.start))
@@ -118,7 +118,7 @@ def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim
 
 
 def claims_of_settings(bus: Map) -> Iterator[Claim]:
-    """The bit rate, which may be printed in kBaud, the length of identifiers, and whatever `lines` names a place of."""
+    """Yield the claims of settings: the bit rate, perhaps in kBaud, the length of identifiers, those under `lines`."""
     maker = ClaimMaker("bus", bus.span(), line_of(bus), bus.get("lines"))
     for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
         for number in numbers_in(bus.get(key)):
@@ -131,7 +131,7 @@ def claims_of_settings(bus: Map) -> Iterator[Claim]:
 
 
 def _claims_of_setting(maker: ClaimMaker, key: str, value: Any, place: Span) -> Iterator[Claim]:
-    """The numbers and the parity of a setting; of codes with meanings, each code with its meaning."""
+    """Yield the claims of a setting: its numbers and its parity; or each code with its meaning."""
     if not isinstance(value, Map):
         for number in numbers_in(value):
             yield from maker.number(key, number, place)
@@ -148,13 +148,13 @@ def _claims_of_setting(maker: ClaimMaker, key: str, value: Any, place: Span) -> 
 
 
 def _parity_words(setting: Any) -> tuple[str, ...]:
-    """Return how manuals write the parity that a setting names."""
+    """Return the words of manuals for the parity in a setting."""
     named = next((words for parity, words in _PARITIES.items() if re.search(rf"\b{parity}\b", str(setting))), ())
     return (*named, *map(str.capitalize, named))
 
 
 def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
-    """The numbers of function, response and exception codes; several codes may share a row, as in "9 - 12"."""
+    """Yield the claims of function, response and exception codes; several codes may share a row, as in "9 - 12"."""
     rows: dict[int, list[Fraction]] = {}
     for key, entry in codes.items() if isinstance(codes, Map) else ():
         if isinstance(entry, Map) and "line" in entry:
@@ -175,7 +175,7 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
 
 
 def _claims_of_frames(file: Map) -> Iterator[Claim]:
-    """The bytes of the worked frames, and the numbers that they are said to carry."""
+    """Yield the claims of the worked frames: their bytes, and the numbers that they carry."""
     for frame in file.get("frames", ()):
         about = Named("frame", frame["name"])
         maker = ClaimMaker(f"frame {frame['name']}", frame.span("name"), line_of(frame), frame.get("lines"), about)
@@ -193,22 +193,22 @@ def _claims_of_frames(file: Map) -> Iterator[Claim]:
 
 
 class PrintedErratum(NamedTuple):
-    """What an erratum says that the manual prints, and where."""
+    """The text that the manual prints according to an erratum, and its place."""
 
     id: str
     shown: str
     place: Span
     numbers: tuple[Fraction, ...]
     texts: tuple[str, ...]
-    """What a sentence quotes."""
+    """The quotations in a sentence."""
     cited: tuple[Cited, ...]
     subjects: tuple[About, ...]
     taken: frozenset[Fraction]
-    """The numbers that the description has instead. The manual need not print them there."""
+    """The numbers that the description has instead, which the manual need not print there."""
     taken_text: str
     """`taken` as the author wrote it: it may name codes that the manual does not print."""
     is_sentence: bool
-    """Whether `printed` is a sentence: then it may speak of what stands around the cited line too."""
+    """True if `printed` is a sentence, which may speak of text around the cited line too."""
 
 
 def printed_errata(subject: Analysis) -> list[PrintedErratum]:
@@ -250,7 +250,7 @@ def _numbers_of(facts: Map) -> list[Fraction]:
 
 
 def _printed_numbers(key: str, value: Any) -> Iterator[Fraction]:
-    """The numbers of a printed fact; a checksum is bytes."""
+    """Return the numbers of a printed fact; a checksum is bytes."""
     if key == "crc":
         yield from map(Fraction, bytes.fromhex("".join(str(value).split())))
     else:

@@ -15,7 +15,7 @@ _Mapping = Callable[[Cited], tuple[int, int] | None]
 
 @dataclass(frozen=True, slots=True)
 class CitedFact:
-    """A fact that cites a line; `stands` says whether the new edition prints it where it is cited."""
+    """A fact that cites a line; `stands` is True if the new edition prints it where it is cited."""
 
     subject: str
     fact: str
@@ -39,7 +39,7 @@ class ChangedLine:
 
 @dataclass(slots=True)
 class Comparison:
-    """All lines that differ, all facts and errata that do not stand in the new edition, and what lines are counted."""
+    """All lines that differ, all facts and errata that do not stand in the new edition, and the numbering in use."""
 
     device: str
     old: str
@@ -49,21 +49,21 @@ class Comparison:
     errata: list[str]
     """The errata whose printed text the new edition does not print."""
     left_to_renumber: int
-    """The cited places that count the lines of the old edition, where the new one has other numbers."""
+    """The cited places with line numbers of the old edition that differ in the new one."""
 
     @property
     def stands(self) -> bool:
-        """Whether every cited fact, errata too, stands in the new edition."""
+        """True if every cited fact and every erratum stands in the new edition."""
         return not self.fallen and not self.errata
 
     @property
     def uncited(self) -> int:
-        """How many lines that differ have no fact that cites them."""
+        """The number of lines that differ and that no fact cites."""
         return sum(not line.facts for line in self.lines)
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many lines there are of each kind, and what is open."""
+        """The numbers of lines of each kind, and of open items."""
         kinds = Counter(line.kind for line in self.lines)
         return {
             **{kind: kinds[kind] for kind in ("changed", "added", "removed", "moved")},
@@ -88,10 +88,10 @@ class Comparison:
 
 
 class Editions:
-    """A description between two texts. It counts the lines of the old one until it is renumbered.
+    """A description between two texts. Its line numbers are those of the old one until it is renumbered.
 
-    What was added or edited meanwhile may count the lines of the new one: each place where lines are cited counts those
-    at which more of its facts stand; where that says nothing, those that most other places count.
+    Facts added or edited meanwhile may have line numbers of the new one: each place that cites lines uses the text in
+    which more of its facts stand; if that does not decide, the one that most other places use.
     """
 
     def __init__(self, citations: Citations, old: str, new: str) -> None:
@@ -105,7 +105,7 @@ class Editions:
         self.in_new = Held(citations, self._new, self._now, self._added_rows())
 
     def _added_rows(self) -> list[int]:
-        """The rows of tables that only the new edition has: a fact of the row above does not stand in them."""
+        """Return the rows of tables that only the new edition has: a fact of the row above does not reach into them."""
         added = (change.new for change in self.alignment.changes if change.kind == "added" and change.new is not None)
         return list(filter(self._new.opens_row, added))
 
@@ -120,7 +120,7 @@ class Editions:
         return not self._new.line(line).strip()
 
     def _decide(self) -> None:
-        """Find out which places count the lines of the new edition; lines that did not move tell nothing."""
+        """Find the places with line numbers of the new edition; lines that did not move do not decide."""
         needed = (claim for claim in self.citations.claims if not claim.optional)
         claims = [claim for claim in needed if any(map(self._has_moved, claim.cited))]
         self._counting_old: set[tuple[str, int, int]] = set()
@@ -139,10 +139,10 @@ class Editions:
         return self.alignment.now(cited.first) != cited.first
 
     def _standing(self, claims: list[Claim], in_old: _Mapping, in_new: _Mapping) -> Counter[tuple[str, int, int]]:
-        """Count the claims that one of both texts prints, by the place of their lines in the YAML.
+        """Count the claims that only one of the texts prints, by the place of their lines in the YAML.
 
-        They count once for the whole place that is cited, and once for its first row alone: a row below has the facts
-        of another numbering.
+        Claims count once for the whole cited place, and once for its first row: a row below has the facts of another
+        numbering.
         """
         counts: Counter[tuple[str, int, int]] = Counter()
         for row_alone in (False, True):
@@ -162,7 +162,7 @@ class Editions:
 
     def _moved(self, line_of: Callable[[int], int | None]) -> _Mapping:
         def moved(cited: Cited) -> tuple[int, int] | None:
-            numbers = range(cited.first, max(cited.first, cited.last) + 1)  # a range keeps what is left of it
+            numbers = range(cited.first, max(cited.first, cited.last) + 1)  # a range keeps the lines that are left
             lines = [line for number in numbers if (line := line_of(number)) is not None]
             return (min(lines), max(lines) if cited.last else 0) if lines else None
 
@@ -188,7 +188,7 @@ class Editions:
         return Comparison(self.citations.device, old_name, new_name, lines, facts_that_fell, errata, len(left))
 
     def _fact(self, claim: Claim) -> CitedFact:
-        """A fact that need not be printed, such as a unit, stands where the old edition prints it."""
+        """Return a cited fact; an optional one, such as a unit, must stand if the old edition prints it."""
         stands = self.in_new.stands(claim)
         if claim.optional and not isinstance(claim.evidence, Word):
             stands = stands or not self.in_old.is_printed(claim)
@@ -208,7 +208,7 @@ class Editions:
 
 
 def _by_line(held: Held, fallen: Iterable[Claim]) -> dict[int, dict[Claim, None]]:
-    """Return the claims on each line: where their evidence stands, or at the cited line what fell."""
+    """Return the claims on each line: on the lines of their evidence, or on the cited line if it is missing."""
     lines: dict[int, dict[Claim, None]] = {}
     for claim, places in held.places.items():
         for place in places:
@@ -218,7 +218,7 @@ def _by_line(held: Held, fallen: Iterable[Claim]) -> dict[int, dict[Claim, None]
 
 
 def _lines(held: Held, claim: Claim) -> set[int]:
-    """Return the lines on which a claim's evidence stands."""
+    """Return the lines with the evidence of a claim."""
     return {line for place in held.places[claim] for line in place.found.lines}
 
 

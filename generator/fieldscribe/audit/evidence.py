@@ -12,15 +12,15 @@ from fieldscribe.audit.numbers import Token
 from fieldscribe.audit.passage import Passage
 
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
-"""What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
+"""Matches a run of numbers ("0 to 4", "0..4"), which means all numbers between its ends."""
 _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 _MOST = 0.75
 _FEWEST_LISTED = 4
-"""So many labels show on which side of their numbers a list prints them."""
+"""The number of labels that are enough to decide on which side of its numbers a list prints them."""
 
 
 class Found(NamedTuple):
-    """How often a passage has the evidence, with the numbers that state it and the lines on which it stands."""
+    """How often a passage has the evidence, with its numbers and its lines."""
 
     times: int
     tokens: tuple[Token, ...] = ()
@@ -28,7 +28,7 @@ class Found(NamedTuple):
 
 
 def found(evidence: Evidence, passage: Passage, *, binary: bool) -> Found:
-    """Look for one kind of evidence; labels are looked for together by `labels_found`.
+    """Search for one kind of evidence; `labels_found` searches for labels together.
 
     `binary`: two or three binary digits may mean a number, as in `11` for 3.
     """
@@ -46,10 +46,10 @@ def found(evidence: Evidence, passage: Passage, *, binary: bool) -> Found:
 
 
 def _number(evidence: Number, passage: Passage, *, binary: bool) -> Found:
-    """A number counts once for each time that it is printed, in whatever notation, also as part of a name."""
+    """Find a number: it counts each time that it is printed, in any notation, also as part of a name."""
     tokens = [token for token in passage.tokens if _reads(token, evidence.numbers, binary=binary)]
     if evidence.names:
-        named = {id(token) for token in passage.behind_names(evidence.names)}
+        named = {id(token) for token in passage.after_names(evidence.names)}
         allowed = named | passage.opening_lines if named else set()
         tokens = [token for token in tokens if not allowed or id(token) in allowed]
     words = [_word(Word((word,)), passage) for word in evidence.words]
@@ -62,7 +62,7 @@ def _number(evidence: Number, passage: Passage, *, binary: bool) -> Found:
 
 
 def _run(evidence: Run, passage: Passage, *, binary: bool) -> Found:
-    """Numbers in one of the given orders; spread ones each somewhere on one line."""
+    """Find numbers in one of the given orders; spread ones anywhere on one line."""
     runs = [
         run
         for way in evidence.ways
@@ -82,7 +82,7 @@ def _spread(way: Sequence[frozenset[Fraction]], passage: Passage) -> Iterator[li
 
 
 def _word(evidence: Word, passage: Passage) -> Found:
-    """A word by itself. With rivals the first line counts alone, and agrees if it prints neither."""
+    """Find a word by itself. With rivals only the first line counts, and it agrees if it prints neither."""
     if evidence.rivals:
         line = passage.pieces[0][0]
         printed = printed_notations(evidence, passage.pieces[0][2])
@@ -94,7 +94,7 @@ def _word(evidence: Word, passage: Passage) -> Found:
 
 
 def printed_notations(evidence: Word, line: str) -> list[str]:
-    """Return those of a word and its rivals that a line prints, or has as whole cells."""
+    """Return the words, out of a word and its rivals, that a line prints or has as whole cells."""
     notations = sorted((*evidence.words, *evidence.rivals), key=len, reverse=True)
     if evidence.cells:
         cells = [cell.strip() for cell in line.split("|" if line.startswith("|") else "\t")]
@@ -104,7 +104,7 @@ def printed_notations(evidence: Word, line: str) -> list[str]:
 
 
 def _bytes(evidence: Bytes, passage: Passage) -> Found:
-    """A frame in one piece, or each of its bytes or words as a number of its own, along the text or down a column."""
+    """Find a frame in one piece, or each of its bytes or words as a number, along the text or down a column."""
     digits = evidence.digits
     spans = [span for pattern in (digits, f"{digits[:-4]}(?=CRC)") for span in _pieces(pattern, passage)]
     if spans:
@@ -112,23 +112,23 @@ def _bytes(evidence: Bytes, passage: Passage) -> Found:
         return Found(1, tokens, frozenset(passage.line_at(first) for first, _ in spans))
     ways = [[int(digits[at : at + width], 16) for at in range(0, len(digits), width)] for width in (2, 4)]
     wanted = {Fraction(number) for way in ways for number in way}
-    tokens = tuple(token for token in passage.tokens if token.readings & wanted)  # names of bytes, too: Low byte (1)
+    tokens = tuple(token for token in passage.tokens if token.readings & wanted)  # also names of bytes: Low byte (1)
     runs = (tuple(frozenset((Fraction(number),)) for number in way) for way in ways)
     stands = any(True for run in runs for part in (passage, *passage.columns) for _ in part.in_order(run))
     return Found(int(stands), tokens, frozenset(token.line for token in tokens))
 
 
 def _pieces(pattern: str, passage: Passage) -> Iterator[tuple[int, int]]:
-    """Yield where hexadecimal digits stand in one piece, with or without blanks between."""
+    """Yield the places of hexadecimal digits in one piece, with or without blanks between."""
     spaced = r"\s*".join(re.findall(r"[0-9A-F]|\(.*\)", pattern))
     for match in re.finditer(spaced, passage.text, re.IGNORECASE):
         yield match.span()
 
 
 def labels_found(labels: Sequence[Label], passage: Passage) -> dict[Label, Found]:
-    """Look for the labels of a list, which is printed in one way: each label before or after its number.
+    """Find the labels of a list, which is printed in one way: each label before or after its number.
 
-    Where most labels stand right beside their numbers, all have to. The labels of a short list may stand on any side.
+    If most labels are right beside their numbers, all must be. The labels of a short list may be on either side.
     """
     search = _LabelSearch(labels, passage)
     ways = {
@@ -161,7 +161,7 @@ def _standing(way: Mapping[Label, Found]) -> int:
 
 
 class _LabelSearch:
-    """Where the labels of one list stand. A label inside a longer one of the list does not count."""
+    """The places of the labels of one list. A label inside a longer one of the list does not count."""
 
     def __init__(self, labels: Sequence[Label], passage: Passage) -> None:
         self.passage = passage
@@ -210,7 +210,7 @@ class _LabelSearch:
 
 
 def _without_inner(spans: set[tuple[int, int]]) -> set[tuple[int, int]]:
-    """Return the spans that do not lie inside a longer one."""
+    """Return the spans that are not inside a longer one."""
     longest: set[tuple[int, int]] = set()
     end = -1
     for span in sorted(spans, key=lambda span: (span[0], -span[1])):

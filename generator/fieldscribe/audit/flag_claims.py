@@ -1,4 +1,4 @@
-"""The claims of a word's flags: their bits, their titles, and what each of their values means."""
+"""The claims of a word's flags: their bits, their titles, and the meaning of each of their values."""
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
@@ -38,7 +38,7 @@ class _FlagClaims:
         label = self.notation.label(self.node.get("title")) if isinstance(self.node, Map) else ()
         values = [_label_of_value(self.node, entry.raw, enum, self.notation) for entry in self.flag.values]
         once_for_all = "values" in self.maker.lines_of_fact
-        at_values = any(values) and not once_for_all  # the values carry the numbers, the title is one of them or none
+        at_values = any(values) and not once_for_all  # the values have the numbers
         yield from self._bits(optional=bool(label or at_values) and not self.named)
         if label and self.flag.width > 1 and not self.named and not at_values:
             ends = (Fraction(self.numbers.number(self.high)), Fraction(self.numbers.number(self.low)))
@@ -74,13 +74,13 @@ class _FlagClaims:
             yield from self.maker.claim("flag values", shown, evidence, self.place, key="flags", optional=is_optional)
 
     def _bits_of_flag(self) -> list[Fraction]:
-        """Return the bits that may stand for the flag: its ends, or as `printed` has it."""
+        """Return the bits that may represent the flag: its ends, or those under `printed`."""
         return numbers_in(self.printed.get("bit")) or [
             Fraction(self.numbers.number(bit)) for bit in (self.high, self.low)
         ]
 
     def _masks(self) -> list[Fraction]:
-        """Return the masks that may stand for the flag, in its own word and in the whole one."""
+        """Return the masks that may represent the flag, in its own bits and in the whole word."""
         always = self.point.fixed.bits if self.point.fixed is not None else 0
         own = [1 << self.flag.low, 1 << self.flag.low + self.flag.width - 1]
         masks = [*own, 1 << self.low, 1 << self.high, *(mask | always for mask in own)]
@@ -110,7 +110,7 @@ def _label_of_value(node: Any, raw: int, enum: Map | None, notation: Notation) -
 
 
 def _node_of(facts: PointFacts, ends: set[int]) -> tuple[Span, Any]:
-    """Return where the description names the bits of a flag, and what it says of them."""
+    """Return the node that names the bits of a flag, and its key."""
     flags = facts.get("flags")
     if not isinstance(flags, Map):
         return facts.span("flags"), None

@@ -1,4 +1,4 @@
-"""A description held against a text: where each of its claims stands, and which numbers of the text they use."""
+"""A description compared with a text: where each of its claims is printed, and which numbers of the text they use."""
 
 import re
 from bisect import bisect_right
@@ -20,10 +20,10 @@ from fieldscribe.resolve.analysis import Analysis
 _BINARY_FACTS = ("enum", "flag values", "special", "fixed bits", "default")
 """Facts that a manual may print with two or three binary digits."""
 _SPREAD_FACTS = ("enum", "flags", "flag values", "says")
-"""Facts of several numbers: of several cited places each prints some of them."""
+"""Facts of several numbers: each of several cited places prints some of them."""
 _WORDS_OF_ROW = ("access", "type", "unit")
 _NEAR = 200
-"""A sentence of an erratum speaks of at most so many lines above and below the one that it cites."""
+"""The most lines above and below the cited line of which a sentence of an erratum may speak."""
 _NEVER_PRINTED = ("scale", "default")
 """Facts that an erratum took of which it does not say that the manual prints them."""
 _TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
@@ -110,7 +110,7 @@ class Held:
             here = Found(1, here.tokens, here.lines)
         tokens = here.tokens
         if claim.optional:
-            tokens = tuple(token for token in tokens if token.line >= extent.first)  # merged cells are of rows above
+            tokens = tuple(token for token in tokens if token.line >= extent.first)  # merged cells belong to rows above
         self._use(tokens)
         return Place(extent, here)
 
@@ -121,7 +121,7 @@ class Held:
         return extents
 
     def extent(self, cited: Cited) -> Extent | None:
-        """Return the lines of this text that a citation means; None if they are gone."""
+        """Return the lines of this text for a citation; None if they are gone."""
         span = self._now(cited)
         if span is None:
             return None
@@ -134,7 +134,7 @@ class Held:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """The first lines of all cited rows and sections."""
+        """Return the first lines of all cited rows and sections."""
         cited = (cited for claim in self.citations.claims for cited in claim.cited if not cited.last)
         return sorted({span[0] for line in cited if (span := self._now(line)) is not None} | set(self._other_rows))
 
@@ -149,7 +149,7 @@ class Held:
         self.used.update((token.line, token.column) for token in tokens)
 
     def _labels_not_for_each(self) -> set[Claim]:
-        """Labels that several subjects or flags have, and that a place prints more than once, but not for each."""
+        """Yield labels that several subjects or flags share, that a place prints several times, but not for each."""
         alike: dict[tuple[object, ...], list[tuple[Claim, Place]]] = {}
         for claim, places in self.places.items():
             for place in places if isinstance(claim.evidence, Label) else ():
@@ -166,7 +166,7 @@ class Held:
         return any(times) if claim.fact in _SPREAD_FACTS else bool(times) and all(times)
 
     def stands(self, claim: Claim) -> bool:
-        """Return True if the text prints a claim where it is cited, or an erratum says that it does not."""
+        """Return True if the text prints a claim where it is cited, or an erratum explains that it does not."""
         return self.is_printed(claim) or self.is_taken(claim)
 
     def is_taken(self, claim: Claim) -> bool:
@@ -200,7 +200,7 @@ class Held:
 
     @cached_property
     def _numbers_of_addresses(self) -> dict[str, frozenset[Fraction]]:
-        """All numbers of the addresses of each subject."""
+        """Return all numbers of the addresses of each subject."""
         numbers: dict[str, frozenset[Fraction]] = {}
         for claim in self.citations.claims:
             if _is_address(claim):
@@ -208,7 +208,7 @@ class Held:
         return numbers
 
     def _lacks_a_letter(self, claim: Claim, extents: list[Extent]) -> bool:
-        """Return True if the manual prints the number of a code in these places, and nowhere with its letter."""
+        """Return True if the manual prints the number of a code in these places, but never with its letter."""
         digits = "".join(filter(str.isdigit, claim.words[0])).lstrip("0")
         if len(digits) < 2 or any(has_word(line, word) for word in claim.words for line in self.manual.lines):
             return False
@@ -220,7 +220,7 @@ class Held:
         return any(one.first <= extent.last and extent.first <= one.last for one in lines for extent in extents)
 
     def erratum_stands(self, erratum: PrintedErratum) -> bool:
-        """Return True if the text prints what an erratum says that it prints; the numbers count as used."""
+        """Return True if the text prints what an erratum quotes; its numbers count as used."""
         cited = [extent for line in erratum.cited if (extent := self.extent(line)) is not None]
         extents = [self._around(extent) for extent in cited] if erratum.is_sentence else cited
         passages = [self.passage(extent) for extent in extents]
@@ -235,14 +235,14 @@ class Held:
         return stands and all(" ".join(quoted.split()) in text for quoted in erratum.texts)
 
     def _around(self, extent: Extent) -> Extent:
-        """Return the section around a cited place, or what of it is near: a text without headings is one section."""
+        """Return the section around a cited place, or the near part of it: a text without headings is one section."""
         section = self.manual.section_around(extent.first)
         first, last = max(section.first, extent.first - _NEAR), min(section.last, extent.first + _NEAR)
         return Extent(min(extent.first, first), max(extent.last, last), "section")
 
     @cached_property
     def passed_over(self) -> dict[int, frozenset[str]]:
-        """The passed-over lines of this text, each with its numbers that are no facts; none for whole lines."""
+        """The passed-over lines of this text, each with its numbers that are not facts; no numbers for whole lines."""
         lines: dict[int, frozenset[str]] = {}
         for cited, listed in self.citations.passed_over:
             if (span := self._now(cited)) is not None:

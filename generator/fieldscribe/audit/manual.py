@@ -12,18 +12,18 @@ from fieldscribe.audit.numbers import Token, tokens_of
 _HEADING = re.compile(r"#{1,6}\s+\S|[0-9]+(?:\.[0-9]+)+\.?[ \t]*[^\W\d]")
 _SECTION_NUMBER = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])")
 _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
-"""A number and a title. Many other lines look so: only those are chapters that the table of contents lists."""
+"""Matches a number and a title. Other lines look alike: only those in the table of contents are chapters."""
 _RULE = re.compile(r"[|\s:-]+")
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _BLANKS = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " "))
 _DASH = r"\s*[-\u2010-\u2015\u2212]\s*"
 _PAGE_REFERENCE = r"(?<!\w)(?:(?:auf )?Seite|(?:on )?page)\s+(?:[A-Z0-9]{1,2}\s*[-\u2013]\s*)?[0-9]+(?!\w)"
 _LONGEST_ROW = 40
-"""A row or paragraph has at most so many lines."""
+"""The most lines of a row or paragraph."""
 _TALLEST_CELL = 200
-"""A merged cell spans at most so many rows."""
+"""The most rows of a merged cell."""
 _NEAR = 200
-"""A fact that is missing is looked for in so many lines above and below its place."""
+"""The number of lines above and below its place in which a missing fact is searched for."""
 _LONGEST_HEAD = 120
 _PAGE_COUNT = re.compile(
     r"\b(?:Seite|Blatt|page|sheet)\s*[0-9]+\b|\b[A-Z][-\u2013][0-9]+\s*$|[-\u2013]\s*[0-9]+\s*[-\u2013]\s*$|\b[0-9]+\s*(?:/|von|of)\s*[0-9]+\s*$",
@@ -49,7 +49,7 @@ class Extent(NamedTuple):
 
 
 class Manual:
-    """A manual's text, read once. `names` are words with digits in them that are no numbers, such as `CRC-16`."""
+    """A manual's text, read once. `names` are words with digits in them that are not numbers, such as `CRC-16`."""
 
     def __init__(self, text: str, names: Sequence[str] = ()) -> None:
         self.lines = lines_of(text)
@@ -71,18 +71,18 @@ class Manual:
         return self._tokens[number]
 
     def tokens_in(self, text: str, number: int, column: int) -> list[Token]:
-        """Return the numbers in a piece of a line that begins after `column` characters, but for those in names."""
+        """Return the numbers in a piece of a line that begins after `column` characters, except those in names."""
         tokens = tokens_of(text, number, column)
         names = [match.span() for match in self._names.finditer(text)] if tokens else []
         return [token for token in tokens if not any(first <= token.column - 1 - column < end for first, end in names)]
 
     def without_names(self, text: str) -> str:
-        """Return a text with blanks in place of the words that are no facts."""
+        """Return a text with blanks in place of the words that are not facts."""
         return self._names.sub(lambda name: " " * len(name[0]), text)
 
     @cached_property
     def page_lines(self) -> frozenset[int]:
-        """The heads and feet that count pages: lines alike but for one number, which rises from page to page."""
+        """The heads and feet that count pages: lines that differ only in one number, which rises from page to page."""
         groups: dict[str, list[int]] = {}
         for number, text in enumerate(self.lines, 1):
             if len(text) <= _LONGEST_HEAD and not text.startswith("|") and _PAGE_COUNT.search(text):
@@ -106,7 +106,7 @@ class Manual:
 
     @cached_property
     def _chapters(self) -> set[tuple[str, str]]:
-        """Number and title of each chapter in the table of contents."""
+        """The number and title of each chapter in the table of contents."""
         return {chapter for text in self.lines if _CONTENTS.search(text) and (chapter := _chapter(text)) is not None}
 
     @cached_property
@@ -135,7 +135,7 @@ class Manual:
         return Extent(first, last, "section")
 
     def extent(self, number: int, following: int | None) -> Extent:
-        """Return what a cited line opens: a section, or the row or paragraph up to the next cited line `following`."""
+        """Return the extent that a cited line opens: a section, row or paragraph before the cited line `following`."""
         section = self.section_around(number)
         if number == section.first and number in self.headings:
             return section
@@ -154,7 +154,7 @@ class Manual:
         return (text.startswith("|") and not _RULE.fullmatch(text)) or "\t" in text.strip()
 
     def opens_row(self, number: int) -> bool:
-        """Return True for a row of a table that has a first cell: without one it goes on with the row above."""
+        """Return True for a row of a table that has a first cell: without one it continues the row above."""
         text = self.line(number)
         first_cell = text.split("|")[1] if text.startswith("|") else text.split("\t")[0]
         return self.is_row(number) and bool(first_cell.strip())
@@ -193,7 +193,7 @@ class Manual:
 
 
 def lines_of(text: str) -> list[str]:
-    """Return the lines of a text, with plain blanks in place of those that hold two words together."""
+    """Return the lines of a text, with plain blanks in place of non-breaking ones."""
     return text.translate(_BLANKS).splitlines()
 
 
@@ -209,12 +209,12 @@ def _chapter(text: str) -> tuple[str, str] | None:
 
 
 def has_word(text: str, word: str) -> bool:
-    """Return True if a word stands in a text by itself: `4.2.1` is not in `4.2.10`, nor `A02` in `A020`."""
+    """Return True if a word occurs in a text by itself: `4.2.1` is not in `4.2.10`, nor `A02` in `A020`."""
     return next(places_of_word(text, word), None) is not None
 
 
 def places_of_word(text: str, word: str) -> Iterator[int]:
-    """Yield where a word stands in a text by itself."""
+    """Yield the places of a word by itself in a text."""
     at = text.find(word)
     while at >= 0:
         before, after = text[at - 1 : at], text[at + len(word) : at + len(word) + 1]

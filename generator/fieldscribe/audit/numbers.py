@@ -16,7 +16,7 @@ USUAL_ACCESS: Final = {
     "w": ("W", "WO", "W/O", "w", "wo"),
     "rw": ("R/W", "RW", "r/w", "rw"),
 }
-"""How tables print access in cells of their own, where the description does not say how this manual does."""
+"""How tables print access in its own cells, if the description does not say how this manual does."""
 USUAL_TYPES: Final = {
     "bit": ("BIT", "Bit", "BOOL", "Bool", "bool"),
     "u8": ("UINT8", "uint8", "U8", "u8", "BYTE", "Byte"),
@@ -32,7 +32,7 @@ USUAL_TYPES: Final = {
 
 
 class Notation:
-    """What `writes`, `access` and `names` of the documents say, and the language that the manual is in."""
+    """The notation of a manual: `writes`, `access` and `names` of its document, and its language."""
 
     def __init__(self, documents: Map) -> None:
         self._words: dict[str, list[str]] = {}
@@ -55,7 +55,7 @@ class Notation:
         return self.written(f"{high}..{low}")
 
     def label(self, titles: Mapping[str, Any] | str | None) -> tuple[str, ...]:
-        """Return a title as the manual prints it, in its language; empty where `writes` says that it prints none."""
+        """Return a title as the manual prints it, in its language; empty if `writes` says that it prints none."""
         text = titles.get(self.language) if isinstance(titles, dict) else titles if self.language == "en" else None
         if text is None or not any(map(str.isalpha, str(text))):
             return ()
@@ -85,9 +85,9 @@ _LIST = re.compile("(?![0-9]{1,3}(?:,[0-9]{3})+$)[0-9]+(?:,[0-9]+){2,}")
 """Numbers separated by commas without blanks; three digits after each comma are thousands."""
 _LATEX_FRACTION = "\\frac{"
 _DENOMINATOR = re.compile("/(?:[^\\W\\d_]|%|[0-9]{2})")
-"""What makes a 1 the numerator of a fraction: `1/V`, `1/100`."""
+"""Matches a 1 that is the numerator of a fraction: `1/V`, `1/100`."""
 _LONGEST_NUMBER = 80
-"""A longer run of digits is no number of a fact; it has no reading."""
+"""A longer run of digits is not the number of a fact: it has no reading."""
 
 
 class Token(NamedTuple):
@@ -125,7 +125,7 @@ def _is_numerator(text: str, match: re.Match[str]) -> bool:
 
 @lru_cache(10_000)
 def readings_of(number: str) -> frozenset[Fraction]:
-    """Return all that a number can mean; the cache pays because the same few are printed again and again."""
+    """Return all that a number can mean. Cached, because manuals print the same few numbers again and again."""
     match = _NUMBER.fullmatch(number) if len(number) <= _LONGEST_NUMBER else None
     return frozenset(_readings(match) if match else ())
 
@@ -153,7 +153,7 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
 
 
 def _decimal_readings(text: str) -> set[Fraction]:
-    """Points and commas may separate decimals, thousands, or the numbers of a list."""
+    """Return the readings of digits with points and commas, which separate decimals, thousands, or items."""
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}

@@ -1,4 +1,4 @@
-"""A piece of a manual's text as claims are looked for in it: its numbers in order, and its letters without layout."""
+"""A piece of a manual's text in which claims are searched for: its numbers in order, and its letters without layout."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 
 
 def letters_of(text: str) -> str:
-    """Return letters and digits alone, without case: blanks, hyphens and line breaks are layout."""
+    """Return only letters and digits, without case: blanks, hyphens and line breaks are layout."""
     return "".join(char for char in text.casefold() if char.isalnum())
 
 
@@ -46,7 +46,7 @@ class Passage:
 
     @cached_property
     def _letters(self) -> tuple[str, list[int]]:
-        """The letters, and where each stands in the text."""
+        """The letters, each with its place in the text."""
         visible = _TAG.sub(lambda tag: " " * len(tag[0]), self.text)
         letters, places = [], []
         for place, char in enumerate(visible):
@@ -57,7 +57,7 @@ class Passage:
         return "".join(letters), places
 
     def places(self, words: str) -> Iterator[tuple[int, int]]:
-        """Yield where words stand by themselves: the first place and the place after the last letter."""
+        """Yield the places of words by themselves: that of the first letter and the one after the last letter."""
         wanted = letters_of(words)
         letters, places = self._letters
         at = letters.find(wanted) if wanted else -1
@@ -68,7 +68,7 @@ class Passage:
             at = letters.find(wanted, at + 1)
 
     def _may_begin(self, place: int, wanted: str) -> bool:
-        """Tables lose their gaps when text is extracted: a capital or a digit tells where a cell began."""
+        """Return True if a word may begin here: extracted tables lose gaps, so a capital or digit may begin a cell."""
         before, char = self.text[place - 1 : place] if place else "", self.text[place]
         glued = char.isupper() or (char.isdigit() and before.isalpha() and not wanted.isdigit())
         return not before.isalnum() or glued
@@ -94,10 +94,10 @@ class Passage:
         return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
 
     def overlapping(self, first: int, end: int) -> list[Token]:
-        """Return the numbers of which a part stands in a part of the text."""
+        """Return the numbers that overlap a part of the text."""
         return self.tokens[bisect_right(self.ends, first) : bisect_left(self.starts, end)]
 
-    def behind_names(self, names: tuple[str, ...]) -> list[Token]:
+    def after_names(self, names: tuple[str, ...]) -> list[Token]:
         """Return the numbers right after one of these names, as in `Mux 3` or `Default: 0`."""
         pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})(?:\s*[:=])?\s*(?=[0-9])"
         matches = re.finditer(pattern, self.text)
@@ -112,7 +112,7 @@ class Passage:
         return {id(token) for token, start in zip(self.tokens, self.starts, strict=True) if start in starts}
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
-        """Yield each run of numbers that follow each other as these do, with no other number between them."""
+        """Yield each run of consecutive numbers in this order."""
         for at in range(len(self.tokens) - len(numbers) + 1):
             run = self.tokens[at : at + len(numbers)]
             if all(token.readings & wanted for token, wanted in zip(run, numbers, strict=True)):

@@ -1,4 +1,4 @@
-"""The plain audit: what a description cites and a text does not print, and what cited places print beside that."""
+"""The plain audit: cited facts that a text does not print, and numbers at cited places that no fact uses."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -14,7 +14,7 @@ from fieldscribe.audit.numbers import readings_of
 from fieldscribe.audit.passage import Passage
 
 _SHORT = 100
-"""Findings show at most so many characters of a line."""
+"""The most characters of a line in a finding."""
 _SHORT_LABEL = 60
 _COMPOUND = re.compile(r"-[^\W\d]{2,}")
 """What makes a number part of a word: `16-bit`."""
@@ -22,7 +22,7 @@ _CAPTION = re.compile(
     r"[\s*_]*(?:Abbildung|Abb\.|Bild|Tabelle|Tab\.|Figure|Fig\.|Picture|Table)\s+[0-9]+(?:[-.][0-9]+)*\s*[:.\u2013-]",
     re.IGNORECASE,
 )
-"""The number of a picture or a table is no fact."""
+"""The number of a picture or a table is not a fact."""
 _END_OF_CELL = re.compile(r"[|\t\n]|<br>")
 
 
@@ -30,8 +30,8 @@ _END_OF_CELL = re.compile(r"[|\t\n]|<br>")
 class Missing:
     """A fact that is not printed where it is cited.
 
-    `place` is where the description says it (file:line:column), `printed` what stands there instead, `nearest` the
-    nearest line that prints the fact; both are None if unknown.
+    `place` is the place in the description (file:line:column), `printed` the text there instead, `nearest` the nearest
+    line that prints the fact; both are None if unknown.
     """
 
     subject: str
@@ -46,7 +46,7 @@ class Missing:
 
 @dataclass(frozen=True, slots=True)
 class Unused:
-    """A number in a cited place that no fact uses. `place` is where the description says the first of the subjects."""
+    """A number in a cited place that no fact uses. `place` is that of the first subject in the description."""
 
     line: int
     column: int
@@ -78,12 +78,12 @@ class Unprinted:
 
 @dataclass(slots=True)
 class Audit:
-    """All findings. `facts` counts the claims; `uncheckable` the errata without a number or quoted text to look for."""
+    """All findings. `facts` counts the claims; `uncheckable` the errata without a number or a quotation."""
 
     device: str
     manual: str
     same_text: bool | None
-    """Whether the text is the one that was transcribed; None if the description does not record which that was."""
+    """True if the text is the one that was transcribed; None if the description does not record its checksum."""
     lines: int
     facts: int = 0
     errata: int = 0
@@ -95,12 +95,12 @@ class Audit:
 
     @property
     def is_clean(self) -> bool:
-        """Whether all that is cited is printed, errata too, and nothing else is in the cited places."""
+        """True if everything cited is printed, errata too, and the cited places have no other numbers."""
         return self.findings == 0 and not self.cites_nothing
 
     @property
     def cites_nothing(self) -> bool:
-        """Whether the description cites no line of the text, so that nothing was compared."""
+        """True if the description cites no line of the text, so that nothing was compared."""
         return self.facts + self.errata == 0
 
     @property
@@ -115,7 +115,7 @@ class Audit:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many there are of each."""
+        """The number of findings of each kind."""
         return {
             "facts": self.facts,
             "missing": len(self.missing),
@@ -142,12 +142,12 @@ class Audit:
 
 
 def audit(citations: Citations, name: str, text: str, *, same_text: bool | None) -> Audit:
-    """Hold a description against the text `name`; `same_text` as in `Audit`."""
+    """Compare a description with the text `name`; `same_text` as in `Audit`."""
     return audit_of(Held(citations, citations.manual(text)), name, same_text=same_text)
 
 
 def audit_of(held: Held, name: str, *, same_text: bool | None) -> Audit:
-    """Return the findings of a description that is held against a text already."""
+    """Return the findings of a description that is already compared with a text."""
     claims = held.citations.claims
     outcome = Audit(held.citations.device, name, same_text, len(held.manual))
     outcome.facts = sum(not claim.optional for claim in claims)
@@ -164,7 +164,7 @@ def audit_of(held: Held, name: str, *, same_text: bool | None) -> Audit:
 
 
 def _errata(held: Held, outcome: Audit) -> None:
-    """Look for what errata say that the manual prints."""
+    """Search for the printed texts of errata."""
     for erratum in held.citations.errata:
         if not erratum.numbers and not erratum.texts:
             outcome.uncheckable += 1
@@ -183,7 +183,7 @@ def _missing(claim: Claim, held: Held, unused: dict[int, list[Unused]]) -> Missi
 
 
 def _printed_instead(claim: Claim, passages: list[Passage], unused: list[Unused]) -> str | None:
-    """Return the words beside the number of a label, the other access, or the only number there that no fact uses."""
+    """Return what is printed instead: words beside the number of a label, another access, or the only unused number."""
     evidence = claim.evidence
     if isinstance(evidence, Word) and evidence.rivals:
         return next((word for passage in passages for word in printed_notations(evidence, passage.pieces[0][2])), None)
@@ -240,14 +240,14 @@ class _Unused:
 
     @cached_property
     def _forms_of_codes(self) -> re.Pattern[str]:
-        """Letters and at least three digits, as some code of the description has them."""
+        """Return patterns of letters and at least three digits, like the codes of the description."""
         codes = [code for code in self.held.citations.codes if re.fullmatch("[A-Za-z]+[0-9]{3,}", code)]
         forms = {re.sub("[0-9]", "[0-9]", code) for code in codes}
         return re.compile(rf"(?<!\w)(?:{'|'.join(sorted(forms))})(?!\w)" if forms else "(?!)")
 
 
 def _uncited(held: Held) -> Iterator[Uncited]:
-    """Find sections and rows of tables that nothing cites."""
+    """Yield sections and rows of tables that nothing cites."""
     manual = held.manual
     extents: list[Extent] = list(held.extents)
     of_errata = (cited for erratum in held.citations.errata for cited in erratum.cited)
@@ -264,7 +264,7 @@ def _uncited(held: Held) -> Iterator[Uncited]:
 
 
 def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:
-    """Yield the first and last of lines that follow each other."""
+    """Yield the first and the last line of each run of consecutive lines."""
     for _, run in groupby(enumerate(lines), key=lambda entry: entry[1] - entry[0]):
         numbers = [line for _, line in run]
         yield numbers[0], numbers[-1]

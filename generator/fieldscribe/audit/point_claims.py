@@ -1,4 +1,4 @@
-"""The claims of a point: its code, section, address, title, access, numbers, labels, and what `printed` says."""
+"""The claims of a point: its code, section, address, title, access, numbers, labels, and those under `printed`."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -19,15 +19,18 @@ _INDEX_AFTER_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
 _NUMBERS = re.compile(r"\b0x[0-9A-Fa-f]+\b|\b[0-9][0-9A-Fa-f]*h\b")
 _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
-"""The keys of `printed` whose place `lines` names by another key."""
+"""The keys of `printed` that have another key under `lines`."""
 KEYS_OF_PRINTED = keys_of(PRINTED)
-"""What `printed` may say of every point; its other keys are the numberings of the device."""
+"""The keys of `printed` that every point may have; its other keys are the numberings of the device."""
 
 
 def claims_of_point(
     point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation, shared: frozenset[str]
 ) -> Iterator[Claim]:
-    """Yield the claims of all that a point itself says. `shared` numberings give one number to several addresses."""
+    """Yield the claims of all facts that a point itself states.
+
+    `shared` numberings give one number to several addresses.
+    """
     yield from _PointClaims(point, facts, enums, notation).all(shared)
 
 
@@ -59,7 +62,7 @@ class _PointClaims:
         yield from self._printed()
 
     def _says(self, key: str) -> bool:
-        """Return True if the point (or its format, record, set) says a fact: what its group says cites no line."""
+        """Return True if the point (or its format, record, set) states a fact: facts of its group cite no line."""
         layer = self.facts.layer(key)
         return layer is not None and layer is not self.facts.group
 
@@ -102,7 +105,7 @@ class _PointClaims:
             yield from self.maker.claim("address", f"{first:04X}h", evidence, place)
 
     def _access(self) -> Iterator[Claim]:
-        """Who may write. A row that prints nothing of it agrees, and is right for `none`."""
+        """Yield the claim of access. A row that prints no access agrees, also with `none`."""
         access, declared = str(self.facts.get("access")), self.notation.access
         notations = declared or USUAL_ACCESS
         words = tuple(notations.get(access, ()))
@@ -113,7 +116,10 @@ class _PointClaims:
             yield from self.maker.claim("access", words[0] if words else access, evidence, self.facts.span("access"))
 
     def _type_and_unit(self) -> Iterator[Claim]:
-        """No cell of the row prints another type. Between editions, type and unit stand if the old one prints them."""
+        """Yield the claim that no cell of the row prints another type.
+
+        Between editions, type and unit stand if the old edition prints them.
+        """
         kind, place = str(self.facts.get("type") or ""), self.facts.span("type")
         words = USUAL_TYPES.get(kind, ())
         if words:
@@ -126,7 +132,7 @@ class _PointClaims:
 
     def _ranges(self) -> Iterator[Claim]:
         for key in ("range", "range_in_units"):
-            if self._says(key) and not self.point.flags:  # the flags of a word say which numbers it holds
+            if self._says(key) and not self.point.flags:  # the flags of a word decide which numbers it holds
                 spread = _is_spread(self.facts.get(key))
                 for shown, numbers in _runs_of(self.facts.get(key)):
                     ways = self._in_both_units(numbers, in_units=key == "range_in_units")
@@ -136,7 +142,7 @@ class _PointClaims:
             yield from self.maker.number("characters", characters, self.facts.span("characters"), key="range")
 
     def _in_both_units(self, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
-        """Return limits as they are written, and in the other unit unless `printed` or the scale forbids that."""
+        """Return limits as written, and also raw or in the unit, unless `printed` or the scale forbids that."""
         printed, cases = self.facts.get("printed"), self.point.scale or ()
         prints_units = isinstance(printed, Map) and "range_in_units" in printed and self._says("range")
         if prints_units or len(cases) != 1 or cases[0].rule.factors:
@@ -147,7 +153,7 @@ class _PointClaims:
         return [numbers, [(number - rule.offset) / rule.ratio for number in numbers]]
 
     def _bits(self) -> Iterator[Claim]:
-        """The bits of the word that the point takes, and the bits that are always written as a constant."""
+        """Yield the claims of the bits of the point in its word, and of constant bits."""
         bits = self.point.bits
         if bits is not None:
             words, numbers = self.notation.bits(*bits), bit_numbers(self.facts)
@@ -166,7 +172,7 @@ class _PointClaims:
                 yield from self.maker.claim("fixed bits", f"= {number}", evidence, place, key="bits")
 
     def _scale_and_default(self) -> Iterator[Claim]:
-        """The factors of the scale, and the factory setting."""
+        """Yield the claims of the factors of the scale, and of the default."""
         scale: Any = self.facts.get("scale") if self._says("scale") else None
         for rule in [scale] if isinstance(scale, str) else [case["rule"] for case in scale or ()]:
             for number in numbers_in(rule):
@@ -184,7 +190,7 @@ class _PointClaims:
             yield from self.maker.claim("default", shown, evidence, place)
 
     def _enum(self) -> Iterator[Claim]:
-        """The numbers and labels of the enum, but for entries of a shared enum that cite a line themselves."""
+        """Yield the claims of the numbers and labels of the enum, except entries of a shared enum that cite a line."""
         key = "digits" if self.point.digits else "enum"
         value: Any = self.facts.get(key)
         if not self._says(key) or value is None:
@@ -207,14 +213,14 @@ class _PointClaims:
                 yield from self.maker.claim("enum", str(number), Number(absolute(beside)), place)
 
     def _special_codes(self) -> Iterator[Claim]:
-        """The raw numbers that are no quantity, each with its name."""
+        """Yield the claims of special codes, each with its name."""
         codes: Any = self.facts.get("special") if self._says("special") else None
         for number, entry in codes.items() if isinstance(codes, Map) else ():
             label = self.notation.label(entry) if isinstance(entry, Map) else ()
             yield from self.maker.label("special", label, codes.key_span(number), beside=(numbers_in(number),))
 
     def _printed(self) -> Iterator[Claim]:
-        """What `printed` says that the manual prints: addresses in each numbering, ranges, steps, pairs."""
+        """Yield the claims of `printed`: addresses in each numbering, ranges, steps, pairs."""
         printed = self.facts.get("printed")
         for name, value in printed.items() if isinstance(printed, Map) else ():
             is_numbering, place = name not in KEYS_OF_PRINTED, printed.span(name)
@@ -237,12 +243,12 @@ class _PointClaims:
 
 
 def _is_spread(value: Any) -> bool:
-    """Return True if codes, factors or other intervals stand between the numbers of a range."""
+    """Return True if codes, factors or other intervals may come between the numbers of a range."""
     return any(char.isalpha() or char in "*|" for char in _NUMBERS.sub("", str(value)))
 
 
 def _runs_of(value: Any) -> Iterator[tuple[str, list[Fraction]]]:
-    """Yield what is printed in one piece: each interval, or the list of all single numbers."""
+    """Yield the runs that are printed in one piece: each interval, or the list of all single numbers."""
     texts = [str(item) for item in value] if isinstance(value, list) else [str(value)]
     parts = [part.strip() for text in texts for part in text.split(",")]
     singles = [part for part in parts if ".." not in part]

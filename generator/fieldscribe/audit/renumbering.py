@@ -1,4 +1,4 @@
-"""Writes what a new edition changes into the files of a description: the numbers of cited lines, and its checksum."""
+"""Writes the new line numbers of an edition, and its checksum, into the files of a description."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -23,7 +23,7 @@ _SENTENCES = ("note", "printed", "taken", "where", "why")
 _COMMENT = re.compile(r"(?:^|\s)#")
 _NUMBER = re.compile(r"[0-9]+")
 LONGEST = {"file": 200, "edition": 80}
-"""What is recorded of a document beside its checksum, with the most characters of each."""
+"""The facts recorded of a document in addition to its checksum, with the most characters of each."""
 
 
 class WrittenLines(NamedTuple):
@@ -39,7 +39,7 @@ class WrittenLines(NamedTuple):
     last: int
     kind: str
     key: Span
-    """Where the value of the key stands."""
+    """The place of the value of the key."""
     is_item: bool = False
 
     @property
@@ -50,7 +50,7 @@ class WrittenLines(NamedTuple):
 
 @dataclass(slots=True)
 class Renumbered:
-    """The new texts of files by name, how many numbers changed, what prevents it, and what is left to do by hand."""
+    """The new texts of files by name, the number of changes, what prevents them, and what is left to do by hand."""
 
     texts: dict[str, str] = field(default_factory=dict)
     count: int = 0
@@ -63,7 +63,7 @@ class _AliasError(Exception):
 
 
 def renumber(files: Iterable[Map], document: str, editions: Editions) -> Renumbered:
-    """Write every line number of a document as the new edition counts it."""
+    """Return the files with every line number of a document as in the new edition."""
     outcome = Renumbered()
     try:
         written = _all_written_lines(files, document)
@@ -89,7 +89,7 @@ def renumber(files: Iterable[Map], document: str, editions: Editions) -> Renumbe
 
 
 def _as_in_new(lines: WrittenLines, editions: Editions, outcome: Renumbered) -> str | None:
-    """Return what is to be written in place of lines of the old edition; None if they stay."""
+    """Return the text to write in place of lines of the old edition; None if they stay."""
     now = editions.alignment.now
     if lines.kind == "sentence":
         line = now(lines.first)
@@ -109,7 +109,7 @@ def _as_in_new(lines: WrittenLines, editions: Editions, outcome: Renumbered) -> 
 
 
 def _runs(places: list[int], editions: Editions) -> list[tuple[int, int]]:
-    """Return the lines without new ones between them: those nobody has looked through yet."""
+    """Return the runs of lines without new ones in between, which nobody has looked through yet."""
     runs: list[tuple[int, int]] = []
     for place in places:
         between = range(runs[-1][1] + 1, place) if runs else range(0)
@@ -121,7 +121,7 @@ def _runs(places: list[int], editions: Editions) -> list[tuple[int, int]]:
 
 
 def _in_comments(source: SourceFile, editions: Editions) -> Iterator[str]:
-    """Comments stay as they are; the lines that they name are listed where those moved."""
+    """List the lines named in comments that moved: comments are not changed."""
     scalars = list(scalars_in(source.text))
     for named in LINES_NAMED.finditer(source.text):
         before = source.text[source.text.rfind("\n", 0, named.start()) + 1 : named.start()]
@@ -187,7 +187,7 @@ class _Walk:
             self.found.append(WrittenLines(source, *place, first, last, kind, span, isinstance(value, Seq)))
 
     def _sentences(self, holder: Map, key: str, document: str) -> None:
-        """A sentence, or a note in several languages; what is printed as facts names no lines."""
+        """Yield the lines in a sentence, or in a note in several languages; printed facts name no lines."""
         value, source = holder[key], holder.file
         if document != self.document or not LINES_NAMED.search(source.text):
             return
@@ -218,7 +218,7 @@ def _shape_of(key: str, shape: ValueShape) -> ValueShape | None:
 
 
 def scalars_in(text: str) -> Iterator[tuple[int, int]]:
-    """Yield where each scalar of a YAML text begins and ends."""
+    """Yield the begin and the end of each scalar of a YAML text."""
     import yaml
 
     for token in yaml.scan(text, Loader=yaml.SafeLoader):
@@ -227,7 +227,7 @@ def scalars_in(text: str) -> Iterator[tuple[int, int]]:
 
 
 def hindrances(document: str, recorded: Map, given: Mapping[str, str], name: str, sha256: str) -> Iterator[str]:
-    """Yield why the text of this name and checksum cannot be recorded with what is given: nothing is guessed."""
+    """Yield why the text of this name and checksum cannot be recorded from the given facts: nothing is guessed."""
     if "sha256" not in recorded:
         yield f"documents.{document} records no text: add `sha256: {sha256}` there"
     yield from (f"documents.{document} has no `{key}`: add it there" for key in given if key not in recorded)

@@ -1,4 +1,4 @@
-"""The audit for people: lines of text for a terminal, and a page that stands alone."""
+"""Renders the audit: as lines of text for a terminal, and as a self-contained page."""
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
@@ -9,9 +9,9 @@ from fieldscribe.audit.plain_audit import Audit, Missing, Unused
 from fieldscribe.report import Line, visible
 
 _MOST_NUMBERS = 8
-"""A finding shows so many of the numbers of one place."""
+"""The most numbers of one place in a finding."""
 _FEWEST_TOGETHER = 4
-"""So many facts of a subject that are missing at one place are one finding."""
+"""From this many facts of a subject on that are missing at one place, they are one finding."""
 _MOST_WORDS = 200
 _TEXTS = {
     True: "the text that was transcribed",
@@ -42,7 +42,7 @@ def audit_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
 
 
 def _missing_together(facts: list[Missing]) -> Iterator[Line]:
-    """One finding for each fact, or one for all facts of a subject of which nearly nothing is at its place."""
+    """Yield a finding for each fact, or one for a subject if nearly none of its facts are at their place."""
     if len(facts) < _FEWEST_TOGETHER:
         for fact in facts:
             yield _finding(fact.place, "missing", f"{fact.subject}: {_missing(fact)}")
@@ -64,7 +64,7 @@ def _missing(fact: Missing) -> str:
 
 
 def _unused_together(unused: list[Unused]) -> Iterator[list[Unused]]:
-    """Yield the numbers of one place that stand on lines one below the other."""
+    """Yield the unused numbers of one place, grouped by runs of adjacent lines."""
     numbers: list[Unused] = []
     for number in unused:
         if numbers and (number.subjects != numbers[-1].subjects or number.line > numbers[-1].line + 1):
@@ -111,7 +111,7 @@ def _figures_of_audit(outcome: Audit, everything: bool) -> Iterator[Line]:
 
 
 def comparison_lines(outcome: Comparison, *, with_lines: bool = True) -> Iterator[Line]:
-    """Yield every line that differs between two editions with what cites it, then what fell and the figures."""
+    """Yield every line that differs between two editions with facts that cite it, missing facts and the figures."""
     lines = outcome.lines if with_lines else []
     for line in lines:
         yield from _changed_line(line)
@@ -121,7 +121,7 @@ def comparison_lines(outcome: Comparison, *, with_lines: bool = True) -> Iterato
         for place, named in _listed(list(facts)):
             yield _finding(place, "missing", f"{subject}: {named}: not printed where it is cited")
     for erratum in outcome.errata:
-        yield [("error", "erratum"), ("", visible(f": {erratum}: its printed text is not there any more"))]
+        yield [("error", "erratum"), ("", visible(f": {erratum}: its printed text is no longer there"))]
     yield from _figures_of_comparison(outcome)
 
 
@@ -140,7 +140,7 @@ def _changed_line(line: ChangedLine) -> Iterator[Line]:
     fallen = [fact for fact in line.facts if not fact.stands]
     for subject, facts in groupby(fallen, key=lambda fact: fact.subject):
         for place, named in _listed(list(facts)):
-            yield [("", "  "), *_finding(place, "missing", f"{subject}: {named}: not printed there any more")]
+            yield [("", "  "), *_finding(place, "missing", f"{subject}: {named}: no longer printed there")]
     standing = [fact for fact in line.facts if fact.stands]
     for subject, facts in groupby(standing, key=lambda fact: fact.subject):
         listed = list(facts)
@@ -149,7 +149,7 @@ def _changed_line(line: ChangedLine) -> Iterator[Line]:
 
 
 def _listed(facts: list[CitedFact]) -> list[tuple[str, str]]:
-    """Return place and name of each fact of a subject; many facts are named together, at the place of the first."""
+    """Return place and name of each fact of a subject; many facts are joined, at the place of the first."""
     named = [f"{fact.fact} {_short(fact.says)}" for fact in facts]
     if len(facts) < _FEWEST_TOGETHER:
         return [(fact.place, name) for fact, name in zip(facts, named, strict=True)]
@@ -182,7 +182,7 @@ class _Table(NamedTuple):
 
 
 def audit_page(outcome: Audit) -> str:
-    """Return a page of tables that needs nothing beside it."""
+    """Return a self-contained page of tables."""
     from fieldscribe.resources import render
 
     tables = [
@@ -211,11 +211,11 @@ def audit_page(outcome: Audit) -> str:
         ),
     ]
     safe = [table._replace(rows=[tuple(visible(str(cell)) for cell in row) for row in table.rows]) for table in tables]
-    verdict = "Some of what is cited is not where it is cited."
+    verdict = "Some cited facts are not printed where they are cited."
     if outcome.cites_nothing:
         verdict = "No fact cites a line of the manual, so nothing was compared."
     elif outcome.is_clean:
-        verdict = "Everything that is cited stands where it is cited."
+        verdict = "Every cited fact is printed where it is cited."
     text = _TEXTS[outcome.same_text]
     view = {"found": outcome, "manual": visible(outcome.manual), "text": text, "verdict": verdict, "tables": safe}
     return render("audit.html.j2", view)
