@@ -1,12 +1,12 @@
-"""What users ask of a device: what frames mean, how a value is sent, what is known of a point. All families share it.
+"""The questions of users: what frames mean, how a value is sent, what is known of a point. All families share it.
 
 The modules, in the order in which they build on each other:
 
 - `lookup`, `selection`: the points and variants that a user names
 - `typed_values`, `refusals`, `encoding`: a typed value into a raw number and frames, or the reason why not
 - `meanings`: a raw number into words
-- `explanation`, `explain_other_items`: all facts of a point, and of what is no point
+- `explanation`, `explain_other_items`: all facts of a point, and of everything else
 - `decode_state`, `address_items`, `telegram_items`, `decoder`: frames into results
 
-What depends on the family is in the parts `frame_decoder` and `frame_builder` of its folder.
+The parts `frame_decoder` and `frame_builder` of a family's folder have what depends on the family.
 """

@@ -1,4 +1,4 @@
-"""Items of what a frame carries at consecutive addresses, and of elements and words of parameters."""
+"""Items for the contents of a frame: consecutive addresses, elements and words of parameters."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -25,9 +25,9 @@ from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import element_text, hex_words, span_text, word_text
 
 _MOST_PLANS = 1024
-"""For how many spans it is kept how their items are made."""
+"""The number of spans whose plan of items is kept."""
 _MOST_WORDS = 16
-"""How many words without a point are printed."""
+"""The most words without a point that are printed."""
 
 
 def span_items(state: DecodeState, span: AddressSpan) -> list[Item]:
@@ -61,7 +61,7 @@ class _Step(NamedTuple):
 
 
 def _items_read(state: DecodeState, span: AddressSpan) -> list[Item]:
-    """Return the items of a span whose values came from the device: a plan is made once for its addresses."""
+    """Return the items of a span whose values came from the device; the plan for its addresses is made once."""
     plans, key = state.directory.plans, ((span.space, span.address, 0), span.count)
     if key not in plans:
         if len(plans) >= _MOST_PLANS:
@@ -82,7 +82,7 @@ def _items_read(state: DecodeState, span: AddressSpan) -> list[Item]:
 
 
 def _plan(state: DecodeState, span: AddressSpan) -> tuple[list[tuple[Point, Any, tuple[int, ...]]], list[_Step]]:
-    """Return the points of a span that are settings for others, and the steps to its items."""
+    """Return the plan of a span: its points that are settings for others, and the steps to its items."""
     here, directory = _SpanItems(state, span, taught=False), state.directory
     taught, steps, unknown = [], list[_Step](), list[int]()
     for at in here.addresses:
@@ -108,10 +108,10 @@ def _plan(state: DecodeState, span: AddressSpan) -> tuple[list[tuple[Point, Any,
 
 
 class _SpanItems:
-    """Makes the items of one span; its points are settings for each other."""
+    """Builds the items of one span; its points are settings for each other."""
 
     def __init__(self, state: DecodeState, span: AddressSpan, *, taught: bool = True) -> None:
-        """`taught`: what the points of the span say of each other is not known yet."""
+        """`taught`: the settings that points of the span give each other are not yet known."""
         self._state, self._device, self._directory = state, state.device, state.directory
         self._space, self._start, self._written = span.space, span.address, span.written
         self._words = (span.words or ())[: span.count]
@@ -124,12 +124,12 @@ class _SpanItems:
             if at == place.addresses[0] and self.is_whole(point, place) and self._directory.teaches(point)
         ]
         if raws:
-            # the points of one frame are settings for each other; what only they tell is not kept
+            # the points of one frame are settings for each other; these are not kept
             self._state = state if span.learned else replace(state, settings=dict(state.settings), changed=set())
             self._state.learn(raws)
 
     def _places(self, at: int) -> list[PointPlace]:
-        """Return the points at an address, without those that what was written before does not select."""
+        """Return the points at an address, without those that known selecting points exclude."""
         places, held = self._directory.places(self._space, at), self._state.settings
         if not self._directory.has_selections:
             return places
@@ -143,7 +143,7 @@ class _SpanItems:
         return [*items, *commands] if places or commands else None
 
     def step_item(self) -> Item | None:
-        """Return the item of a step of a command that writes just these words, where no point has them."""
+        """Return the item of a step of a command that writes exactly these words, if no point has them."""
         if not self._written or any(map(self._places, self.addresses)):
             return None
         here = self._space, self._start, len(self._words), None
@@ -159,7 +159,7 @@ class _SpanItems:
         return None
 
     def unknown_items(self, addresses: Sequence[int]) -> list[Item]:
-        """Return the item of neighbouring addresses without a point, with what they carry; none for no address."""
+        """Return the item of neighbouring addresses without a point, with their words; none for no address."""
         if not addresses:
             return []
         low, high = addresses[0], addresses[-1]
@@ -182,7 +182,7 @@ class _SpanItems:
         return sorted(at for at in place.addresses if at in self.addresses)
 
     def _is_place(self, point: Point, place: Place) -> bool:
-        """Return True if the point is read here, or written here, as the frame does."""
+        """Return True if the point is read here, or written here, whichever the frame does."""
         return place is (point.written if self._written else point.place)
 
     def is_whole(self, point: Point, place: Place) -> bool:
@@ -209,7 +209,7 @@ class _SpanItems:
         return named_item(point, base, text, finding=finding)
 
     def _commands(self, at: int) -> list[Item]:
-        """Return the command that is written here: of several the one with this value."""
+        """Return the command that is written here; of several, the one with this value."""
         raw = self._words[at - self._start] if at in self._carried else None
         commands = self._device.commands if self._written else ()
         here = [command for command in commands if (command.space, command.address) == (self._space, at)]
@@ -282,7 +282,7 @@ def word_items(state: DecodeState, word: Word) -> Iterator[Item]:
 
 
 def _raw(point: Point, words: dict[int, int]) -> int | None:
-    """Return the number of a point; None while words of it are not known."""
+    """Return the number of a point; None while some of its words are unknown."""
     known = [words[at] for at in point.addresses if at in words]
     return raw_of(point, known) if len(known) == len(point.addresses) else None
 
@@ -307,7 +307,7 @@ def _word_item(state: DecodeState, word: Word, point: Point) -> Item:
 
 
 def _fixed_finding(point: Point, word: int) -> str:
-    """Return the finding that a written word lacks the constant bits beside a bit group."""
+    """Return a finding if a written word lacks the constant bits beside a bit group."""
     if point.bits is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
         return ""
     return f"the word breaks what is always written: {fixed_text(point)}"

@@ -1,4 +1,4 @@
-"""What decoding knows of points: their addresses, their texts, and the numbers that frames have brought so far."""
+"""The state of decoding: the addresses of points, their texts, and the numbers of frames so far."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -20,7 +20,7 @@ from fieldscribe.wording import label, title_text
 
 
 class FoundBlocks:
-    """What the replies of a unit have shown of a chain of blocks; `starts` and `lasts` have the bases known by it."""
+    """What the replies of a unit show of a chain of blocks; `starts` and `lasts` have the bases that follow."""
 
     def __init__(self, device: Device, found: Found) -> None:
         self._found = found
@@ -57,7 +57,7 @@ class FoundBlocks:
         return self.starts != before
 
     def _blocks(self, seen: dict[int, int]) -> dict[int, tuple[int, int]]:
-        """Return the first and the last address of each block whose head is known, by its id; of two, the first."""
+        """Return the first and the last address of each block with a known head; the first block of an id counts."""
         blocks: dict[int, tuple[int, int]] = {}
         at = self._first
         while at is not None:
@@ -77,7 +77,7 @@ PARAMETER = "parameter"
 """The space of parameters."""
 
 _MOST_ITEMS = 64
-"""How many items of one point are cached: a stream may last for days."""
+"""The number of cached items for one point: a stream may last for days."""
 
 
 Where = tuple[str, int, int]
@@ -87,7 +87,7 @@ PointPlace = tuple[Point, Place]
 
 
 class Directory:
-    """The points of a device by address: those that are read there, and those that are written there."""
+    """The points of a device by address, for reading and for writing."""
 
     def __init__(self, device: Device) -> None:
         self._at: dict[Where, list[PointPlace]] = {}
@@ -111,7 +111,7 @@ class Directory:
         named = ((point.telegram or "", point) for point in device.points if point.addresses)
         self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
         self.plans: dict[tuple[Where, int], Any] = {}
-        """How items of whole spans and pieces are made, by what they span; those who make them keep it here."""
+        """The plans for items of whole spans and pieces, filled by `address_items` and `telegram_items`."""
         self._derived: dict[str, list[Point]] = {}
         for point in device.points:
             for name in point.changes_with:
@@ -124,7 +124,7 @@ class Directory:
     def at(self, where: str, address: int, index: int = 0) -> list[Point]:
         """Return the points that have a word at this address."""
         place = where, address, index
-        if place not in self._points and place in self._at:  # as many as the device has
+        if place not in self._points and place in self._at:  # some, if the device decides the number
             self._points[place] = list({point.item: point for point, _ in self._at[place]}.values())
         return self._points.get(place, [])
 
@@ -133,7 +133,7 @@ class Directory:
         return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
     def neighbours(self, point: Point, address: int) -> list[Point]:
-        """Return the points that begin at an address of the space or the telegram of a point."""
+        """Return the points that begin at an address in the space or telegram of a point."""
         return [other for other, _ in self.starting_at(point.telegram or point.space, address)]
 
     def first(self, telegram: str, name: str) -> int | None:
@@ -141,17 +141,17 @@ class Directory:
         return self._firsts.get((telegram, name))
 
     def derived(self, name: str) -> list[Point]:
-        """Return the points whose values the device computes again when the named point is written."""
+        """Return the points whose values change when the named point is written."""
         return self._derived.get(name, [])
 
     def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
-        """Yield the settings that raw numbers give to rules, without points whose variants have several places."""
+        """Yield the settings of these raw numbers for rules, without points whose variants have different places."""
         for point, raw in raws:
             if self.teaches(point):
                 yield point.name, setting_of(point, raw)
 
     def teaches(self, point: Point) -> bool:
-        """Return True if the raw number of a point is a setting that some rule needs."""
+        """Return True if a rule needs the raw number of this point."""
         return point.name in self._settings
 
 
@@ -161,7 +161,7 @@ class PointFormatter:
     def __init__(
         self, device: Device, point: Point, base: Base, *, written: bool, doubting: Directory | None = None
     ) -> None:
-        """`doubting` makes each item say whether its number is in range; it has the points for other readings."""
+        """With `doubting`, items say if their number is out of range; it returns the points for other readings."""
         self._device, self._point, self.base, self._written = device, point, base, written
         self._doubts = None
         if doubting is not None and point.text is None and point.generated:
@@ -182,7 +182,7 @@ class PointFormatter:
         return self._cached_item(raw, *[settings.get(name) for name in self.needs])
 
     def lacks(self, settings: Settings) -> bool:
-        """Return True if the scale needs numbers of other points that are not among these."""
+        """Return True if the scale needs numbers of other points that are missing here."""
         return self._meanings.lacks(settings)
 
     def value(self, raw: int, settings: Settings) -> str:
@@ -211,7 +211,7 @@ class PointFormatter:
 
 @dataclass(slots=True)
 class DecodeState:
-    """What the frames of one unit have brought: numbers for rules, words of parameters, and incomplete points."""
+    """What is known from the frames of one unit: numbers for rules, words of parameters, and incomplete points."""
 
     device: Device
     directory: Directory
@@ -219,21 +219,21 @@ class DecodeState:
     """The formatters that all units of the device share, each made once."""
     given: Mapping[str, int | Fraction]
     settings: dict[str, int | Fraction]
-    """The numbers for rules: those that the user gave, else those of frames."""
+    """The numbers for rules: those of the user, else those of frames."""
     doubting: bool = False
     """True if items say whether their numbers are in range."""
     words: dict[int, int] = field(default_factory=dict)
     incomplete: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
-    """By item, the points whose meaning needs settings that are not known yet, with their raw numbers."""
+    """The points whose meaning needs unknown settings, by item, with their raw numbers."""
     version: int = 0
-    """It grows with each change of what later frames rely on."""
+    """A number that grows with each change of the state on which later frames depend."""
     changed: set[str] = field(default_factory=set)
     """The settings that have changed since the incomplete points were last tried."""
     blocks: FoundBlocks | None = None
     """The blocks that a master searches for, if the device has such."""
 
     def locate(self, span: AddressSpan, described: Device) -> None:
-        """Move the points of blocks to where these are, as far as the words that the unit reported show it."""
+        """Move the points of blocks to their addresses, as far as the words that the unit reported show them."""
         if self.blocks is not None and self.blocks.take(span.space, span.address, span.words or ()):
             self.device = moved(described, self.blocks.starts, self.blocks.lasts)
             self.directory, self.formatters = Directory(self.device), {}
@@ -243,14 +243,14 @@ class DecodeState:
         """Keep the numbers of points that the device reported."""
         for name, setting in self.directory.settings(raws):
             before = self.settings.get(name)
-            # a special code equals the plain number, and is no quantity
+            # a special code equals the plain number, and is not a quantity
             if name not in self.given and (before != setting or type(before) is not type(setting)):
                 self.settings[name] = setting
                 self.changed.add(name)
                 self.version += 1
 
     def forget(self, address: int) -> None:
-        """Forget the numbers that the device derives from a parameter: the parameter was written."""
+        """Forget the numbers that depend on a parameter that was written."""
         self.version += 1
         for written in {point.name for point in self.directory.at(PARAMETER, address)}:
             for point in self.directory.derived(written):
@@ -285,7 +285,7 @@ def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
-    """Return the points; variants with the same meaning (with `limits`, also the same limits) become one point."""
+    """Return the points, with one of all variants that have the same meaning (with `limits`, also the same limits)."""
     by_name: dict[str, list[Point]] = {}
     for point in points:
         by_name.setdefault(point.name, []).append(point)

@@ -1,4 +1,4 @@
-"""Decodes frames one after the other: each with what the frames before it have brought, and with warnings."""
+"""Decodes frames in order: each with the state of the frames before it, and with warnings."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -27,10 +27,10 @@ _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     decoded_frame.Piece: piece_items,
     Item: lambda _state, item: (item,),
 }
-"""Each kind of content of a frame, and the function that makes items of it."""
+"""The function that builds items for each kind of content of a frame."""
 
 _MOST_KEPT = 1024
-"""How many results are kept for frames that come again."""
+"""The number of results that are kept for repeated frames."""
 _LOGGED = re.compile(
     r".{0,200}?\bunit \d+(?:"
     r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8})[:h] )?\[?(?P<data>[0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?"
@@ -62,7 +62,7 @@ class StreamDecoder:
         *,
         doubting: bool = False,
     ) -> None:
-        """`doubting` makes items say whether their numbers are in range, and which other readings are."""
+        """With `doubting`, items say if their number is out of range, and which other readings are in range."""
         given, directory = dict(settings), Directory(device)
         formatters: dict[Any, PointFormatter] = {}
         self._frame_decoder, self._device = frame_decoder, device
@@ -72,7 +72,7 @@ class StreamDecoder:
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
         self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int, FrameResult]] = {}
-        """Results by the identity of what they were made of, each with the state at that time and its version."""
+        """Results by the identity of their input, each with the state at that time and its version."""
 
         @lru_cache(decoded_frame.MOST_STATES)
         def state_of_unit(_unit: int | None) -> DecodeState:
@@ -88,7 +88,7 @@ class StreamDecoder:
         return [self.decode(frame, expecting=True) for frame in self._frame_decoder.frames([options.request])]
 
     def pasted(self, texts: Sequence[str]) -> list[FrameResult]:
-        """Decode the frames in the texts. Raises UnclearError for a text that is no frame."""
+        """Decode the frames in the texts. Raises UnclearError for a text that is not a frame."""
         frames = [frame for text in texts if (frame := logged_frame(text) if "unit " in text else text) is not None]
         return [self.decode(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
 
@@ -124,7 +124,7 @@ class StreamDecoder:
     def _warnings(self, decoded: decoded_frame.DecodedFrame, directory: Directory) -> Iterator[str]:
         """Yield what may be a mistake in a frame: its framing, an address from 1, a misprint of the manual."""
         framing = decoded.result.framing
-        if self._framings and framing not in self._framings:  # once is enough: a gateway changes all
+        if self._framings and framing not in self._framings:  # once is enough: a gateway changes all frames
             known = " and ".join(self._framings)
             yield f"the manual knows only {known.upper()} frames; {framing.upper()} takes a gateway"
             self._framings = ()
@@ -137,7 +137,7 @@ class StreamDecoder:
 
 
 def logged_frame(text: str) -> str | None:
-    """Return the frame in a line that our packages log; None for a failure, any other text as it is."""
+    """Return the frame in a line that our packages log; None for a failure; any other text unchanged."""
     match = _LOGGED.fullmatch(text.strip())
     if match is None:
         return text
@@ -145,7 +145,7 @@ def logged_frame(text: str) -> str | None:
 
 
 def _off_by_one(directory: Directory, span: decoded_frame.AddressSpan) -> Iterator[str]:
-    """Return a note if a point starts one below the address, and none at it: probably a Modicon number (from 1)."""
+    """Return a note if a point starts one below the address and none at it: probably a Modicon number (from 1)."""
     if span.address == 0 or directory.starting_at(span.space, span.address):
         return
     for point, place in directory.starting_at(span.space, span.address - 1):

@@ -60,7 +60,7 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings, *
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
-    """Return the frames that write a raw number, before them those that select the point by others.
+    """Return the frames that write a raw number, after those that select the point.
 
     Raises RefusedError, UnclearError.
     """
@@ -87,7 +87,7 @@ def family_part(device: Device, name: str) -> Any:
 
 
 def require_writable(point: Point) -> None:
-    """Raises RefusedError for a point that is only read."""
+    """Raise RefusedError for a point that is only read."""
     if not point.writable:
         raise RefusedError("read_only", f"{label(point)} is {wording.access_text(point.access)}")
 

@@ -1,4 +1,4 @@
-"""Explains what is no point: commands, errata, messages, codes, units, and addresses that the manual closes."""
+"""Explains everything but points: commands, errata, messages, codes, units, and gaps between addresses."""
 
 from collections.abc import Iterator, Mapping
 
@@ -20,7 +20,7 @@ _ROLES = {"address": "address", "raw": "value"}
 
 
 def explain_other_items(device: Device, what: str) -> list[tuple[list[str], Explanation]]:
-    """Return the readings and the explanation of each item with this name, or kind and number: `task:1`, `can:321`."""
+    """Return reading and explanation of each item with this name, or kind and number: `task:1`, `can:321`."""
     prefix, colon, rest = what.strip().partition(":")
     forced = prefix.strip().lower() if colon else ""
     text = (rest if colon else prefix).strip()
@@ -32,7 +32,7 @@ def explain_other_items(device: Device, what: str) -> list[tuple[list[str], Expl
 
 
 OtherItem = tuple[str, str, list[Row]]
-"""How the text was read, a heading, and rows; an empty row is left out."""
+"""The reading of the text, a heading, and rows; empty rows are left out."""
 
 
 def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
@@ -56,7 +56,7 @@ def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
 
 
 def _reading_of(device: Device, command: Command, text: str, forced: str) -> str:
-    """Return how the text names a command: by its name, its address, or a number that people use for that."""
+    """Return how the text names a command: by its name, its address, or a usual number for that."""
     if forced in ("", "name") and text.lower() == command.name:
         return f"command {command.name}"
     numbers = {"wire": command.address, **family(device.family).numbers(command.space, command.address)}
@@ -151,7 +151,7 @@ def _messages(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
 
 
 def _identifier(text: str) -> int | None:
-    """Return an identifier, hexadecimal as in the tools for the bus: `321`, `0x321`, `321h`."""
+    """Return an identifier, hexadecimal as in the tools of the bus: `321`, `0x321`, `321h`."""
     digits = text.lower().removeprefix("0x").removesuffix("h")
     plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
     return int(digits, 16) if plain else None
@@ -186,7 +186,7 @@ def _role_text(kind: str, number: int) -> str:
 
 
 def _units(device: Device, symbol: str) -> Iterator[OtherItem]:
-    """Return the unit with this symbol, as the device uses it; else the shipped unit."""
+    """Return the unit with this symbol: that of the device, else the shipped one."""
     used = {point.unit.symbol: point.unit for point in device.points if point.unit.symbol}
     unit = used.get(symbol) or shipped_unit(symbol)
     if unit is None:

@@ -24,12 +24,12 @@ _ROWS = {
     "range_in_units": "Range",
     "default_in_units": "Default",
 }
-"""The row that shows a printed fact, where its label differs from its key."""
+"""The row of a printed fact, if its label differs from its key."""
 
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """What is known of one point: a heading and rows of label and text, cleaned of control characters."""
+    """The explanation of a point: a heading and rows of label and text, without control characters."""
 
     heading: str
     rows: tuple[Row, ...]
@@ -40,7 +40,7 @@ class Explanation:
 
 
 def explain_point(device: Device, point: Point, *, as_documented: bool = False, raw: int | None = None) -> Explanation:
-    """Return all facts of a point; with `as_documented` as the manual prints them, without its errata.
+    """Return all facts of a point; with `as_documented`, as the manual prints them, without errata.
 
     Rows about the raw number, if there is one, come first.
     """
@@ -68,7 +68,7 @@ def _rows_of_number(device: Device, point: Point, raw: int | None) -> Iterator[R
 
 
 def _rows(device: Device, point: Point, errata: list[Erratum], printed: list[Erratum]) -> Iterator[Row]:
-    """Return the rows of the facts in the table, some as `printed` errata have them; texts may be empty."""
+    """Return the rows of the facts in the table, those of `printed` errata as printed; texts may be empty."""
     context = Context(device)
     rows: list[Row] = []
     for fact in POINT:
@@ -100,7 +100,7 @@ def write_text(device: Device, point: Point) -> str:
 
 
 def sample_raw(point: Point) -> int | None:
-    """Return a raw number for an example that may be written and moves a machine least; None if there is no sure one.
+    """Return a raw number for an example that certainly may be written, and moves a machine least; None without one.
 
     It is the default, else the allowed number nearest to zero.
     """
@@ -122,7 +122,7 @@ def sample_raw(point: Point) -> int | None:
 
 
 def _sample_text(point: Point, raw: int) -> str:
-    """Return the number as an example: its meaning, and the raw number."""
+    """Return the example: its meaning, and the raw number."""
     if point.info.floating:
         number = float_of(raw, point.info.bits)
         text = f"{number:g}" if point.display is None else rounded(*number.as_integer_ratio(), point.display)

@@ -29,7 +29,7 @@ _LOOK_ALIKE = str.maketrans("oil", "011")
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A point that the text names, how the text was read, and which word of the point it names (empty for all)."""
+    """A point that a text names, the reading of the text, and the word of the point that it names (empty for all)."""
 
     reading: str
     point: Point
@@ -37,11 +37,12 @@ class Match:
 
 
 def find(device: Device, what: str) -> list[Match]:
-    """Return every point that `what` can mean, each with its reading.
+    """Return every point that `what` may mean, each with its reading.
 
     `what` is a code, a name, or a number (`0x1028`, `1028h`, `H'1028`, `4136`) read as wire address and in each
     numbering of the device; `[1]` after it chooses one element of an array. A prefix forces one reading: `code:`,
-    `name:`, `wire:`, or a numbering such as `modicon:`. What nothing else has is read in the numberings of the family.
+    `name:`, `wire:`, or a numbering such as `modicon:`. A number that matches nothing is read in the numberings of the
+    family.
     """
     forced, text = _split(device, what.strip())
     element = _ELEMENT.fullmatch(text[:_LONGEST])
@@ -65,7 +66,7 @@ def find(device: Device, what: str) -> list[Match]:
 
 
 def advice(device: Device, what: str) -> str:
-    """Return what to try instead of a text without a match; may be empty."""
+    """Return advice for a text without a match; may be empty."""
     forced, text = _split(device, what.strip())
     if forced not in (None, "wire") and number_of(text) is not None:
         return ""
@@ -78,7 +79,7 @@ def advice(device: Device, what: str) -> str:
 
 
 def near(device: Device, what: str) -> list[str]:
-    """Return, for a text without a match, similar names and codes; for a number, the points next to it."""
+    """Return similar names and codes for a text without a match; for a number, the points next to it."""
     text = _split(device, what.strip())[1][:_LONGEST].lower()
     number = number_of(text)
     if number is not None:
@@ -118,14 +119,14 @@ def _neighbours(device: Device, number: int) -> list[str]:
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:
-    """Return the prefix, if any, and the text after it."""
+    """Return the prefix (perhaps empty) and the text after it."""
     prefix, colon, rest = what.partition(":")
     prefix = prefix.strip().lower()
     return (prefix, rest.strip()) if colon and prefix in prefixes(device) else (None, what)
 
 
 def prefixes(device: Device) -> list[str]:
-    """Return what may stand before a colon to force one reading."""
+    """Return the prefixes that force one reading, before a colon."""
     return ["wire", "code", "name", *(key.lower() for key in _numberings(device))]
 
 
@@ -151,7 +152,7 @@ def _by_name(device: Device, name: str) -> Iterator[Match]:
 
 def _by_wire_address(device: Device, number: int) -> Iterator[Match]:
     for point in device.points:
-        if point.place.bit is not None:  # its words are in no frame
+        if point.place.bit is not None:  # no frame carries its words
             continue
         place = next((place for place in point.places if number in place.addresses), None)
         if place is None:
@@ -183,7 +184,7 @@ def _by_reference(device: Device, key: str, text: str, number: int | None) -> It
 
 
 def _by_computed_number(device: Device, forced: str | None, number: int) -> Iterator[Match]:
-    """Return points by a number that the manual does not print, but people (and our pages) use for the address."""
+    """Return points by a number that the manual does not print but people (and our pages) use for the address."""
     numbers = family(device.family).numbers
     for point in device.points:
         for place in point.places:
@@ -195,7 +196,7 @@ def _by_computed_number(device: Device, forced: str | None, number: int) -> Iter
 
 
 def _word(point: Point, place: Place, address: int) -> str:
-    """Return which word of the point has an address; empty where the manual leaves the order open."""
+    """Return the word of the point at an address; empty if the manual leaves the order open."""
     return "" if point.untyped is not None else word_text(place.addresses, address, text=point.text is not None)
 
 
@@ -204,7 +205,7 @@ def _purpose(point: Point, place: Place) -> str:
 
 
 def _words_per_frame(device: Device) -> dict[str, int]:
-    """Return, for each telegram in several frames, how many words one frame carries."""
+    """Return the number of words in one frame, for each telegram of several frames."""
     parts = [message for message in device.messages if any(role.kind == "multiplexer" for role in message.roles)]
     words = {message.name: message.words for message in parts}
     return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}

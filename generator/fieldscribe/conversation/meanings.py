@@ -1,7 +1,7 @@
 """Turns a raw number of a point into words: its value with the unit, a name, flags, a text, digits.
 
-A number that lies outside its range has other readings: a fixed list, and of it those that lie in range. Nothing is
-ranked or inferred: the words swapped, the other sign, and the points one address up and down.
+A number outside its range has other readings: the words swapped, the other sign, and the points one address up and
+down. Those that lie in range are listed; nothing is ranked or inferred.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from fieldscribe.wording import label
 from fieldscribe.wording.exact import exact, number_text, rounded
 
 _MOST_NUMBERS = 64
-"""For how many numbers of a flag its texts are cached."""
+"""The number of cached texts of a flag."""
 
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """The meaning of a raw number: text, the exact value of a quantity, and what is missing or unusual.
+    """The meaning of a raw number: its text, the exact value of a quantity, and what is missing or unusual.
 
     `flags` explains the bits of a word; the text is then empty.
     """
@@ -60,7 +60,7 @@ class Meanings:
         self._fixed = self._rule_of() if self._exact and not self._arguments else (1, 0, 1)
 
     def of(self, raw: int, settings: Settings) -> Meaning:
-        """Return the meaning of a raw number, where other points hold these settings."""
+        """Return the meaning of a raw number under these settings of other points."""
         special = self._point.special(raw) if self._specials else None
         if special is not None:
             remark = ", no value" if special.no_value else ""
@@ -73,7 +73,7 @@ class Meanings:
         return meaning.text if meaning.flags is None else meaning.flags.sentence(raw)
 
     def lacks(self, settings: Settings) -> bool:
-        """Return True if the scale needs points that are not among these settings."""
+        """Return True if the scale needs points without a setting here."""
         try:
             codec.rule_in_force(self._point, settings)
         except CodecError as error:
@@ -90,7 +90,7 @@ class Meanings:
         return sign * multiply, -sign * offset.numerator * ratio.denominator, sign * divide
 
     def _exact_quantity(self, raw: int, settings: Settings) -> Meaning | None:
-        """Return what `_quantity` returns where that is a short decimal; else None."""
+        """Return the result of `_quantity` if that is a short decimal; else None."""
         try:
             names = self._arguments
             multiply, add, divide = self._rule(*[settings.get(name) for name in names]) if names else self._fixed
@@ -165,7 +165,7 @@ class FlagTexts:
         self._named = sum(mask_of(flag.width) << flag.low for flag in point.flags)
         self._bits = [lru_cache(_MOST_NUMBERS)(partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
         self._texts = [lru_cache(_MOST_NUMBERS)(partial(_flag_text, flag)) for flag in point.flags]
-        self._apart = lru_cache(_MOST_NUMBERS)(self._apart_of)
+        self._apart = lru_cache(_MOST_NUMBERS)(self._split_flags)
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
@@ -179,10 +179,10 @@ class FlagTexts:
         return line("; ".join(parts))
 
     def true(self, raw: int) -> str:
-        """Return those flags alone that apply."""
+        """Return only the flags that apply."""
         return line(", ".join(self._apart(raw)[0]) or "none set")
 
-    def _apart_of(self, raw: int) -> tuple[list[str], list[str]]:
+    def _split_flags(self, raw: int) -> tuple[list[str], list[str]]:
         """Return the flags that apply to a number, with those of several bits, and the flags that do not."""
         true: list[str] = []
         false: list[str] = []
@@ -224,7 +224,7 @@ def _entry(flag: Flag, number: int) -> Entry | None:
 
 
 def _entry_text(entry: Entry) -> str:
-    """Return what a number of a flag means: its English title, after its name if that is not a default one."""
+    """Return the meaning of a number of a flag: its English title, after its name unless that is a default name."""
     return entry.title["en"] if entry.name in ("zero", "one") else f"{entry.name} ({entry.title['en']})"
 
 
@@ -290,7 +290,7 @@ Neighbours = Callable[[int], Iterable[Point]]
 
 
 class Doubts:
-    """What speaks against the numbers of a point: made once, since its limits and its neighbours stay."""
+    """Finds doubts about the numbers of a point; its limits and neighbours are looked up once."""
 
     def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
         self._device, self._point, self._fits = device, point, _range_test(point)
@@ -308,9 +308,9 @@ class Doubts:
         self._others = [(text, reader_of(one), _range_test(one), Meanings(device, one)) for text, one in others]
 
     def of(self, raw: int, settings: Settings, meaning: str) -> tuple[str, ...]:
-        """Return that a number lies outside the range, then the other readings; nothing if it lies in range.
+        """Return a text that a number is out of range, then the other readings; nothing if it is in range.
 
-        `meaning` is what the number means.
+        `meaning` is its meaning.
         """
         if self._fits(raw, settings):
             return ()
@@ -330,7 +330,7 @@ class Doubts:
                 yield line(f"{text} it is {meaning.text}")
 
     def _readings(self, raw: int, words: tuple[int, ...], settings: Settings) -> Iterator[tuple[str, int, Meanings]]:
-        """Yield each other reading that lies in range: in words, its raw number, and what that means."""
+        """Yield each other reading in range: in words, its raw number, and its meaning."""
         if self._is_limited and self._swaps and self._fits(number := self._read(words[::-1]), settings):
             yield "with its words swapped", number, self._meanings
         if self._is_limited and self._is_signed:
@@ -349,7 +349,7 @@ def _is_limited(point: Point) -> bool:
 
 
 def _range_test(point: Point) -> Callable[[int, Settings], bool]:
-    """Return the function that `in_range` is for this point."""
+    """Return a function that does for this point what `in_range` does."""
     spans = [(span.low, span.high) for span in point.allowed.intervals]
     ends = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
     special = point.specials or point.fixed or point.digits or point.info.floating

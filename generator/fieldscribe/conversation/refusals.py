@@ -1,4 +1,4 @@
-"""Says in words why a value cannot be written, or a raw number cannot be read."""
+"""Explains why a value cannot be written, or a raw number cannot be read."""
 
 from collections.abc import Iterable
 from fractions import Fraction
@@ -21,9 +21,9 @@ _MOST_NAMES = 30
 def refusal(
     device: Device, point: Point, value: Fraction | None, raw: int, why: tuple[CodecError, Settings]
 ) -> RefusedError:
-    """Return the codec's error in words. `value` is what the user gave, or None for a raw number.
+    """Return the error of the codec in words. `value` is the user's value, None for a raw number.
 
-    `why` is the error, and the numbers of other points that led to it.
+    `why` is the error, with the numbers of other points that led to it.
     """
     error, settings = why
     if error.status in ("out_of_range", "unknown_value"):
@@ -35,7 +35,7 @@ def refusal(
 
 
 def written_remarks(device: Device, point: Point, raw: int, settings: Settings) -> tuple[str, str]:
-    """Return why the device refuses a raw number in a frame, and why it was not checked; both may be empty."""
+    """Return why the device refuses a raw number in a frame, and why it could not be checked; both may be empty."""
     if not point.writable:
         return f"it is {wording.access_text(point.access)}", ""
     try:
@@ -50,7 +50,7 @@ def written_remarks(device: Device, point: Point, raw: int, settings: Settings) 
 
 
 def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Return that a raw number lies outside the range of its point; empty if it does not, or limits are not known."""
+    """Return a text if a raw number is out of the range of its point; empty if it is not, or limits are unknown."""
     try:
         codec.check(point, raw, settings)
     except CodecError as error:
@@ -60,7 +60,7 @@ def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> s
 
 
 def range_of(device: Device, point: Point, settings: Settings, *, raw_alone: bool = False) -> str:
-    """Return what a point takes: in its unit, or as raw numbers, with the limits of other points filled in."""
+    """Return the range of a point in its unit, or as raw numbers, with limits from other points filled in."""
     if point.limit_arguments and (now := _range_now(point, settings)):
         return now
     raws = wording.raw_range_text(point)
@@ -71,7 +71,7 @@ def range_of(device: Device, point: Point, settings: Settings, *, raw_alone: boo
 
 
 def in_range(point: Point, raw: int, settings: Settings) -> bool:
-    """Return False if a raw number lies outside the range of its point; True also where limits are not known."""
+    """Return False if a raw number is out of the range of its point; True if limits are unknown."""
     try:
         codec.check(point, raw, settings)
     except CodecError as error:
@@ -119,7 +119,7 @@ def amount(number: Fraction) -> str:
 
 
 def is_short(text: str) -> bool:
-    """Return True if the text of an exact number is short enough to be read."""
+    """Return True if the text of an exact number is short enough to read."""
     return "/" not in text and ("." not in text or len(text.lstrip("-")) <= _MOST_DIGITS)
 
 
@@ -134,7 +134,7 @@ def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str 
 
 
 def _special_code(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
-    """Return the refusal of a special code: it was given as a quantity, or it can only be read."""
+    """Return the refusal of a special code, which was given as a quantity or can only be read."""
     title = f"`{special.name}` ({wording.title_text(special.title)})"
     if value is None:
         code = wording.code_text(raw, point.width, hexadecimal=special.hexadecimal)
@@ -175,7 +175,7 @@ def _entries(enum: Enum) -> str:
 
 
 def _range_now(point: Point, settings: Settings) -> str:
-    """Return the range with the limits from other points filled in; empty if one of them is not known."""
+    """Return the range with limits from other points filled in; empty if one of them is unknown."""
     try:
         spans = [window for window in codec.windows(point, settings) if not window.missing]
         parts = [_span(point, window.low, window.high, settings) for window in spans if window.low <= window.high]

@@ -18,7 +18,7 @@ from fieldscribe.wording import label
 
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
-    """Return the device with only the points of the chosen variants, each given as `axis=value`, and only their values.
+    """Return the device with only the points and values of the chosen variants, each given as `axis=value`.
 
     Points that a condition then excludes are kept, so that a question about them can name the condition (`absence`).
     """
@@ -43,7 +43,7 @@ def absence(device: Device, point: Point) -> str:
 
 
 def present(device: Device, points: Iterable[Point]) -> list[Point]:
-    """Return the points that the chosen variants have or may have; all points if there is none."""
+    """Return the points that the chosen variants have or may have; all points if there are none."""
     candidates = list(points)
     return [point for point in candidates if not absent(point.when, device.variants)] or candidates
 
@@ -88,16 +88,16 @@ def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearErr
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:
-    """Return the points by the names that rules and limits use; those of the last device are kept."""
+    """Return the points by their names in rules and limits; the result for the last device is kept."""
     points, by_name = _named[0]
     if points is not device.points:
         by_name = {point.name: point for point in device.points}
-        _named[0] = device.points, by_name  # both at once, for other threads
+        _named[0] = device.points, by_name  # both at once, because of other threads
     return by_name
 
 
 _named: list[tuple[Sequence[Point], Mapping[str, Point]]] = [((), {})]
-"""The points of the last device, and the same by name."""
+"""The points of the last device, and its points by name."""
 
 
 def same_meaning(first: Point, second: Point) -> bool:
@@ -136,7 +136,7 @@ _LAST = 65535
 
 
 def at_bases(device: Device, pairs: Sequence[str]) -> tuple[Device, list[str]]:
-    """Return the device with the points whose base is known at their addresses, and the pairs about other things.
+    """Return the device with the points of known bases at their addresses, and the pairs about other things.
 
     A pair is `slot=3`, a given number, or `models_103=40070`, the address of a block. Raises UnclearError.
     """
@@ -175,13 +175,13 @@ def moved(device: Device, starts: Mapping[str, int], lasts: Mapping[str, int]) -
 
 
 def base_options(bases: Iterable[Base]) -> str:
-    """Return the options that say where these bases are."""
+    """Return the options that give these bases."""
     names = dict.fromkeys(name for base in bases for name in base.wanted)
     return " ".join(f"--with {name}=NUMBER" for name in names)
 
 
 def _of_steps(command: SteppedCommand, starts: Mapping[str, int]) -> SteppedCommand:
-    """Return the command with the steps whose base is known at their addresses."""
+    """Return the command with the steps of known bases at their addresses."""
     moved = [
         replace(step, address=starts[step.base] + step.address, base=None)
         if step.base and step.base in starts

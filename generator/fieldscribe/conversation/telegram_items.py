@@ -1,4 +1,4 @@
-"""Items of telegrams: process data and their masks, and telegrams that come in several frames."""
+"""Items of telegrams: process data with masks, and telegrams in several frames."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -30,7 +30,7 @@ def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
                 continue
             raw = raw_of(point, words)
             item = state.value(point, base, raw, written=written)
-            # a master without anything to write sends words of zero
+            # a master with nothing to write sends zeros
             yield item if raw or not item.findings else replace(item, findings=())
 
 
@@ -65,7 +65,7 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
 
 
 class _Part(NamedTuple):
-    """A point in the frames of a telegram: `offsets` of its words if one frame brings all of them, else none."""
+    """A point in the frames of a telegram: the `offsets` of its words if one frame has all of them, else none."""
 
     point: Point
     formatter: PointFormatter
@@ -75,7 +75,7 @@ class _Part(NamedTuple):
 
 
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
-    """Return the items of a frame of a telegram, and of earlier points whose missing settings it brings."""
+    """Return the items of a frame of a telegram, and of earlier points whose missing settings it has."""
     telegram, settings = piece.telegram.name, state.settings
     parts = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
     parts = parts or _planned(state, piece)
@@ -113,7 +113,7 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
 
 
 def _planned(state: DecodeState, piece: Piece) -> list[tuple[int, _Part | None]]:
-    """Return and keep what a frame of a telegram brings, by place: the same for each such frame, None for no point."""
+    """Return the contents of a frame of a telegram by place (None: no point), which all such frames share."""
     telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
     parts: list[tuple[int, _Part | None]] = []
     for place in positions:
@@ -131,7 +131,7 @@ def _planned(state: DecodeState, piece: Piece) -> list[tuple[int, _Part | None]]
 
 
 def _raw(part: _Part, piece: Piece) -> int | None:
-    """Return the raw number; None while words of other frames are not known."""
+    """Return the raw number; None while words of other frames are missing."""
     if part.offsets:
         words = piece.words
         return part.read([words[offset] for offset in part.offsets])
@@ -140,7 +140,7 @@ def _raw(part: _Part, piece: Piece) -> int | None:
 
 
 def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> str:
-    """Return where missing points come in the telegram; empty if they do not."""
+    """Return the places of missing points in the telegram; empty if it has none of them."""
     if not piece.pieces.per_frame:
         return ""
     firsts = [state.directory.first(piece.telegram.name, name) for name in missing]
@@ -149,7 +149,7 @@ def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> 
 
 
 def _incomplete_text(state: DecodeState, piece: Piece, point: Point, formatter: PointFormatter) -> str:
-    """Return what is known of a number whose words come in several frames and may not belong together."""
+    """Return a text about a number whose words are in several frames and may not belong together."""
     per_frame = piece.pieces.per_frame
     words = [(at, *piece.pieces.words((at,))) for at in point.addresses]
     if any(status != "ok" for _, status, _ in words):
@@ -164,7 +164,7 @@ def _incomplete_text(state: DecodeState, piece: Piece, point: Point, formatter: 
 
 
 def _completed_items(state: DecodeState) -> Iterator[Item]:
-    """Return points of earlier frames whose missing settings came with this frame."""
+    """Return points of earlier frames whose missing settings this frame has."""
     for name, (formatter, raw) in list(state.incomplete.items()):
         if not state.changed.isdisjoint(formatter.needs) and not formatter.lacks(state.settings):
             del state.incomplete[name]

@@ -1,4 +1,4 @@
-"""Reads the values that users type: a number with or without its unit, a name, on or off, flags, digits, a text."""
+"""Reads values that users type: a number with or without its unit, a name, on or off, flags, digits, a text."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -101,7 +101,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]
 
 
 def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
-    """Return the raw number that another point holds. Only its bits limit it: it may hold what must not be written."""
+    """Return the raw number of another point. Only its bits limit it: it may hold what must not be written."""
     if point.text is not None:
         raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
     typed = read_value(point, text, as_raw=as_raw)
@@ -152,7 +152,7 @@ def _factor(point: Point, typed: str) -> Fraction | None:
 
 
 def _is_unit(point: Point, typed: str) -> bool:
-    """Return True for another spelling of the point's unit. Case may differ, but not in a prefix: mW is not MW."""
+    """Return True for another spelling of the point's unit. Case may differ except in a prefix: mW is not MW."""
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
     typed, symbol = (
@@ -235,7 +235,7 @@ def _flag(point: Point, part: str) -> tuple[Flag, int]:
 
 
 def _unknown(message: str, typed: str, names: list[str], known: Iterable[str]) -> UnclearError:
-    """Return the error for an unknown name, with near names or else all that are known."""
+    """Return the error for an unknown name, with similar names or else all known ones."""
     near = did_you_mean(get_close_matches(typed, names, 3))
     return UnclearError(message, near or f"it has {', '.join(list(known)[:_MOST_NAMES])}")
 

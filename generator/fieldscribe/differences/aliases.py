@@ -1,4 +1,4 @@
-"""Keeps old names as deprecated aliases: writes `was: [old_name]` to renamed points, where a person would."""
+"""Keeps old names as deprecated aliases: writes `was: [old_name]` into the rows of renamed points."""
 
 import os
 import re
@@ -26,7 +26,7 @@ class Edited(NamedTuple):
 
 
 class _Alias(NamedTuple):
-    """An old name for a row of the description, and the points that come from the row, each with its old name."""
+    """An old name for a row of the description, and the points of the row, each with its old name."""
 
     row: Map
     old: str
@@ -51,7 +51,7 @@ def _advice(item: str, old: str) -> str:
 
 
 def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias], list[tuple[str, str]]]:
-    """The old names by row, and the points whose old names cannot be written to their row."""
+    """Return the old names by row, and the points whose old names cannot be written into their row."""
     aliases: dict[tuple[int, str], _Alias] = {}
     by_hand = []
     for difference in comparison.differences:
@@ -72,12 +72,12 @@ def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias]
 
 
 def _plain(item: str, written: PointFacts) -> str:
-    """The name of a point in generated code without its variant."""
+    """Return the name of a point in generated code without its variant."""
     return item if written.variant is None else item.removesuffix(f"_{written.variant.value.lower()}")
 
 
 def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], list[str]]:
-    """The aliases that work in a copy of the description, and messages about the others."""
+    """Return the aliases that work in a copy of the description, and messages about the others."""
     left, messages = aliases, list[str]()
     while left:
         lost, finding = _lost(described, left)
@@ -91,7 +91,7 @@ def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], 
 
 
 def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, str]], str]:
-    """The points that do not get their old names in a copy, and the first finding that the aliases cause."""
+    """Return the points that do not get their old names in a copy, and the first finding that the aliases cause."""
     sources = _sources(described)
     texts = {file: file.text for file in sources} | dict(_texts(aliases))
     with TemporaryDirectory(prefix="fieldscribe-") as copy:
@@ -109,12 +109,12 @@ def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, 
 
 
 def _sources(described: Described) -> list[SourceFile]:
-    """The files of a description, that with the head first."""
+    """Return the files of a description, the one with the head first."""
     return list({id(node.file): node.file for node in described.analysis.scope.files}.values())
 
 
 def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:
-    """The texts of the files with these aliases."""
+    """Return the texts of the files with these aliases."""
     rows: dict[int, tuple[Map, list[str]]] = {}
     for alias in aliases:
         rows.setdefault(id(alias.row), (alias.row, []))[1].append(alias.old)
@@ -133,7 +133,7 @@ def _inserted(text: str, places: list[tuple[int, str]]) -> str:
 
 
 def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
-    """The offset and the text of `was`; None if the row has no place for it."""
+    """Return the offset and the text of `was`; None if the row has no place for it."""
     was = row.get("was")
     if isinstance(was, Seq):
         return _into_list(row, was, old_names)
@@ -141,7 +141,7 @@ def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
 
 
 def _behind_name(row: Map, key: str) -> tuple[int, str] | None:
-    """The key on the line below the name, or after the name in braces."""
+    """Return the key on the line below the name, or after the name in braces."""
     text, column = row.file.text, row.key_span("name").column
     name = _SCALAR.match(text, row.file.offset(row.span("name").at))
     if name is None:
@@ -155,7 +155,7 @@ def _behind_name(row: Map, key: str) -> tuple[int, str] | None:
 
 
 def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
-    """More old names in an existing list."""
+    """Return the edit that adds old names to an existing list."""
     text, start = row.file.text, was.start
     if text[start] == "[":
         return start + 1, f"{', '.join(old_names)}{', ' if was else ''}"
@@ -165,5 +165,5 @@ def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
 
 
 def _ending(text: str) -> str:
-    """The line ending of a text."""
+    """Return the line ending of a text."""
     return "\r\n" if "\r\n" in text else "\n"

@@ -15,7 +15,7 @@ CLASSES = {
     COMPATIBLE: "is compatible",
     DOCS: "changes the documentation",
 }
-"""The classes, the gravest first, and what a difference of the class does."""
+"""The classes, the gravest first, with the effect of such a difference."""
 
 _STEPS = {WIRE: "major", API: "major", BEHAVIOUR: "minor", COMPATIBLE: "minor", DOCS: "patch"}
 STEPS = ("patch", "minor", "major")
@@ -31,7 +31,7 @@ def step_for(classes: Iterable[str]) -> str | None:
 def next_version(version: str, step: str) -> str | None:
     """Return the lowest version that takes this step; None if the version is not like `1.2.3`.
 
-    Below 1.0 the middle number counts what breaks, as in Cargo and npm, and the last one everything else.
+    Below 1.0, breaking changes raise the middle number, as in Cargo and npm, and all others the last one.
     """
     numbers = _numbers(version)
     if numbers is None:
@@ -63,14 +63,14 @@ Names = tuple[tuple[str, str], ...]
 
 
 class Comparison:
-    """One device on both sides; None where a side does not have it."""
+    """One device on both sides; None for a side without it."""
 
     def __init__(self, device: str, old: Side | None, new: Side | None) -> None:
         self.device, self.old, self.new = device, old, new
 
     @cached_property
     def differences(self) -> list[Difference]:
-        """The differences, without things that only seem to be gone because one side could not resolve them."""
+        """The differences, without things that only seem gone because one side could not resolve them."""
         if self.old is None or self.new is None:
             names = [None if side is None else self.device for side in (self.old, self.new)]
             thing = Thing("device", *names)
@@ -97,7 +97,7 @@ class Comparison:
         return {language: list(dict.fromkeys((*old, *new))) for language, (old, new) in sides.items()}
 
     def symbols_of_sides(self, difference: Difference) -> Mapping[str, tuple[list[str], list[str]]]:
-        """Return the names in generated code by language on each side; an exported model does not know them."""
+        """Return the names in generated code by language on each side; an exported model has none."""
         symbols: dict[str, tuple[list[str], list[str]]] = {}
         for number, side in enumerate((self.old, self.new)):
             names = _names(difference, old=number == 0)
@@ -113,7 +113,7 @@ class Comparison:
         return any(self.nameless(difference) for difference in self.differences)
 
     def nameless(self, difference: Difference) -> list[str]:
-        """Return the sides whose names in code are not known: exported models, unless the other side has the same."""
+        """Return the sides whose names in code are unknown: exported models, unless the other side has them."""
         if difference.weight == DOCS or not difference.things:
             return []
         names = {"old": _names(difference, old=True), "new": _names(difference, old=False)}
@@ -123,7 +123,7 @@ class Comparison:
         return [which for which in exported if names[which] is not None and names[which] not in known]
 
     def _place(self, side: Side, difference: Difference, *, old: bool) -> str | None:
-        """The place of a fact; for a part that this side does not have, the place of the thing around it."""
+        """Return the place of a fact; for a part that this side lacks, the place of the thing around it."""
         names = _names(difference, old=old)
         if names is None:
             names = _names(difference._replace(things=difference.things[:-1]), old=old)
@@ -131,7 +131,7 @@ class Comparison:
         return side.place(names, difference.fact)
 
     def _is_lost(self, difference: Difference) -> bool:
-        """Return True if a thing only seems to come or go because a side has errors."""
+        """Return True if a thing only seems added or removed because a side has errors."""
         thing = difference.things[0] if difference.things else None
         if difference.fact or thing is None or None not in thing[1:]:
             return False
@@ -143,7 +143,7 @@ class Comparison:
 
 
 def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
-    """Return the devices of both sides, in the order of the new side, those that are gone last."""
+    """Return the devices of both sides, in the order of the new side, removed ones last."""
     ids = dict.fromkeys([*new, *old])
     return [Comparison(device, old.get(device), new.get(device)) for device in ids]
 
@@ -168,7 +168,7 @@ def fact_of(difference: Difference) -> str:
 
 
 def as_data(comparisons: list[Comparison]) -> dict[str, Any]:
-    """Everything for JSON."""
+    """Return everything for JSON."""
     changes = [_change(comparison, difference) for comparison in comparisons for difference in comparison.differences]
     return {"changes": changes, "step": step_for(_classes(comparisons))}
 
@@ -193,6 +193,6 @@ def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:
 
 
 def _names(difference: Difference, *, old: bool) -> Names | None:
-    """The thing by its names on one side; None if this side does not have it."""
+    """Return the thing by its names on one side; None if this side does not have it."""
     names = [(thing.kind, thing.old if old else thing.new) for thing in difference.things]
     return None if any(name is None for _, name in names) else tuple((kind, name or "") for kind, name in names)

@@ -1,4 +1,4 @@
-"""Two exported models in, their differences out: each with its class, the thing and the fact, old and new."""
+"""Compares two exported models: returns their differences, each with class, thing and fact, old and new."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ _RAW = re.compile(r"\b([a-z0-9_]+)(?=\.raw\b)")
 
 
 class Thing(NamedTuple):
-    """A thing or a part of one: its kind, and its name on both sides; None where a side does not have it."""
+    """A thing or a part of one: its kind, and its name on both sides; None for a side without it."""
 
     kind: str
     old: str | None
@@ -20,14 +20,14 @@ class Thing(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The name, the new one where there are two."""
+        """The name, the new one if there are two."""
         return self.new or self.old or ""
 
 
 class Difference(NamedTuple):
-    """A fact that differs: its class, the things that it is a fact of (outermost first), and its values.
+    """A fact that differs: its class, the things that have it (outermost first), and its values.
 
-    The fact is empty where the innermost thing itself came, went or got another name.
+    The fact is empty if the innermost thing itself was added, removed or renamed.
     """
 
     weight: str
@@ -38,12 +38,12 @@ class Difference(NamedTuple):
 
     @property
     def is_rename(self) -> bool:
-        """Return True if the innermost thing has another name now."""
+        """Return True if the innermost thing was renamed."""
         return not self.fact and None not in self.things[-1][1:]
 
 
 Entries: TypeAlias = "Mapping[str, View | Parts]"
-"""What is compared of a thing, by label."""
+"""The views of a thing, by label."""
 
 
 def differences(old: Exported, new: Exported) -> list[Difference]:
@@ -65,7 +65,7 @@ class _Comparison:
         self._unmatched = {kind: match.unmatched for kind, match in matches.items()}
 
     def compare(self, entries: Entries, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:
-        """Add what differs in a thing that both sides have."""
+        """Add the differences of a thing that both sides have."""
         differing: set[str] = set()
         for label, entry in sorted(entries.items(), key=_follows_others):
             before = len(self.found)
@@ -84,7 +84,7 @@ class _Comparison:
         self.found.append(Difference(_class(view.weight, before, after), things, view.label, before, after))
 
     def _names_the_same(self, kind: str, before: Any, after: Any) -> bool:
-        """Return True if only names of renamed things differ, and in lists the names of things that came or went."""
+        """Return True if only names of renamed things differ, and in lists the names of added or removed things."""
         before, unmatched = renamed(before, self._new_names.get(kind, {})), self._unmatched.get(kind, frozenset())
         if isinstance(before, list) and isinstance(after, list) and unmatched:
             before, after = (
@@ -94,7 +94,7 @@ class _Comparison:
         return bool(before == after)
 
     def _compare_parts(self, parts: Parts, old: Exported, new: Exported, things: tuple[Thing, ...]) -> bool:
-        """Add what differs in parts; return True if all of them came or went, which is one difference."""
+        """Add the differences of parts; return True if all of them were added or removed, which is one difference."""
         pairs, removed, added = _matched(parts, old, new)
         if parts.whole and not pairs and bool(removed) != bool(added):
             names = [[part["name"] for part in side] or None for side in (removed, added)]
@@ -112,7 +112,7 @@ class _Comparison:
         return False
 
     def _compare_pair(self, parts: Parts, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:
-        """Add what differs in a part that both sides have, its name first."""
+        """Add the differences of a part that both sides have, its name first."""
         name = old["name"]
         inner = (*things, Thing(parts.kind, name, new["name"]))
         if name != new["name"]:
@@ -133,7 +133,7 @@ def _follows_others(entry: tuple[str, View | Parts]) -> bool:
 
 
 def _following(old: Exported, new: Exported) -> Exported:
-    """What follows from another name and is no difference: old names, the name of its enum, a title in its words."""
+    """Return what follows from a new name and is not a difference: old names, the name of its enum, a derived title."""
     following: dict[str, Any] = {}
     enums = old.get("enum_name"), new.get("enum_name")
     if enums[0] in new.get("enum_was", ()) or enums == (old["name"], new["name"]):
@@ -148,14 +148,14 @@ def _following(old: Exported, new: Exported) -> Exported:
 
 
 def _changed_words(old: list[str], new: list[str]) -> tuple[str, str]:
-    """The words in which two names differ, as in titles: of `ramp_set_2` and `slope_set_2` Ramp and Slope."""
+    """Return the words in which two names differ, as in titles: Ramp and Slope for `ramp_set_2` and `slope_set_2`."""
     while len(old) > 1 and len(new) > 1 and old[-1] == new[-1]:
         old, new = old[:-1], new[:-1]
     return " ".join(old).capitalize(), " ".join(new).capitalize()
 
 
 class _Matched(NamedTuple):
-    """The parts of both sides: the pairs that are the same, those that went, and those that came."""
+    """The parts of both sides: matched pairs, removed and added parts."""
 
     pairs: list[tuple[Exported, Exported]]
     removed: list[Exported]
@@ -163,17 +163,17 @@ class _Matched(NamedTuple):
 
     @property
     def new_names(self) -> dict[str, str]:
-        """The new names by old name."""
+        """The new names, by old name."""
         return {old["name"]: new["name"] for old, new in self.pairs if old["name"] != new["name"]}
 
     @property
     def unmatched(self) -> frozenset[str]:
-        """The names of those that went or came."""
+        """The names of removed and added parts."""
         return frozenset(part["name"] for part in (*self.removed, *self.added))
 
 
 def _matched(parts: Parts, old: Exported, new: Exported) -> _Matched:
-    """Match parts by name, then by the facts that identify them without it."""
+    """Return the parts matched by name, then by the facts that identify them otherwise."""
     before = {part["name"]: part for part in parts.listed(old)}
     after = {part["name"]: part for part in parts.listed(new)}
     gone = [part for name, part in before.items() if name not in after]
@@ -192,7 +192,7 @@ def _matched(parts: Parts, old: Exported, new: Exported) -> _Matched:
 
 
 def _unique(views: Sequence[View | Parts], parts: list[Exported]) -> dict[str, Exported]:
-    """The parts by the facts that identify them, if no other has the same; without an address nothing does."""
+    """Return the parts by their identifying facts, if these are unique; a point without an address has none."""
     known: dict[str, list[Exported]] = {}
     for part in parts:
         if part.get("addresses") != []:

@@ -1,4 +1,4 @@
-"""A description as one side of a comparison: its model, the places of its facts, and its names in generated code."""
+"""A description as one side of a comparison: its model, the places of its facts, its names in generated code."""
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache, cached_property
@@ -17,7 +17,7 @@ from fieldscribe.targets import TARGETS, knows, target
 from fieldscribe.targets.identifiers import Owner
 
 _OF_ENUM = ("", "enum", "open", "name of the enum")
-"""The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
+"""The facts of a point that belong to its enum, which is added, removed and renamed with it."""
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _DECLARED = {"document": "documents", "variant": "variants", "given": "given", "found": "found"}
@@ -34,7 +34,7 @@ class Described:
         self.points: Mapping[str, Point] = {point.item: point for point in self.device.points}
 
     def written(self, item: str) -> PointFacts:
-        """Return the point as the text has it."""
+        """Return the point as the description states it."""
         return self.analysis.symbols.by_item(item)
 
     @cached_property
@@ -43,7 +43,7 @@ class Described:
 
     @cached_property
     def lost(self) -> frozenset[tuple[str, str]] | None:
-        """Kinds and names of what the text has and did not resolve; None where even that is not known."""
+        """Kinds and names of things in the text that were not resolved; None if even that is unknown."""
         if not self.analysis.scope.complete:
             return None
         drafts = self.analysis.symbols.by_items.keys()
@@ -55,7 +55,7 @@ class Described:
         )
 
     def identifiers(self, names: tuple[tuple[str, str], ...], fact: str) -> dict[str, list[str]]:
-        """Return the names in generated code, by language, of what a difference is about."""
+        """Return the names in generated code of the thing that differs, by language."""
         owners = tuple(self._owners_of(names, fact))
         return {
             language: [name for owner in owners for name in of_owner.get(owner, ())]
@@ -69,7 +69,7 @@ class Described:
         return {name: names for name, names in listed.items() if names}
 
     def _owners_of(self, names: tuple[tuple[str, str], ...], fact: str) -> Iterator[Owner]:
-        """Yield the things that a difference is about, as targets know them; for facts of an enum also the enum."""
+        """Yield the things that differ as owners of names; for facts of an enum also the enum."""
         owner = self.owner(names)
         if owner is None:
             return
@@ -80,7 +80,7 @@ class Described:
         yield from owners if fact else reversed(owners)
 
     def owner(self, names: tuple[tuple[str, str], ...]) -> Owner | None:
-        """Return a thing as targets know it; None for the device as a whole."""
+        """Return a thing as the owner of names; None for the device as a whole."""
         owner: Owner | None = None
         for kind, name in names:
             if kind == "entry":
@@ -124,7 +124,7 @@ class Described:
         return analysis.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())
 
     def _of_key(self, kind: str, name: str, fact: str) -> Span | None:
-        """The place of what is declared by a key."""
+        """Return the place of a declaration by its key."""
         scope = self.analysis.scope
         if kind == "group":
             return next(
@@ -159,7 +159,7 @@ def _said(node: Map, fact: str) -> Span | None:
 
 
 def _found(place: Callable[[], Span | None]) -> Span | None:
-    """The place that the function finds; None for what only one of the sides has."""
+    """Return the place that the function finds; None for a thing that only the other side has."""
     try:
         return place()
     except (KeyError, IndexError, StopIteration):
@@ -167,7 +167,7 @@ def _found(place: Callable[[], Span | None]) -> Span | None:
 
 
 def _names(name: str, plain: Device) -> Mapping[Owner, Mapping[str, None]]:
-    """All names in a language by owner, each once, in the order of the listing."""
+    """Return all names in a language by owner, each once, in the order of the listing."""
     by_owner: dict[Owner, dict[str, None]] = {}
     for _, owner, names, _ in target(name).identifiers(plain):
         by_owner.setdefault(owner, {}).update(dict.fromkeys(names))
@@ -175,7 +175,7 @@ def _names(name: str, plain: Device) -> Mapping[Owner, Mapping[str, None]]:
 
 
 def _yaml_keys(label: str) -> tuple[str, ...]:
-    """The keys of a description that state the fact, or the parts of that kind, with this label."""
+    """Return the keys of a description that state the fact or the parts with this label."""
     return _all_yaml_keys().get(label) or (label,)
 
 

@@ -1,4 +1,4 @@
-"""Differences for people: as text, and as the changelog of a release in Markdown."""
+"""Renders differences: as text, and as the changelog of a release in Markdown."""
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
@@ -27,17 +27,17 @@ class _Group(NamedTuple):
 
     @property
     def subjects(self) -> list[str]:
-        """The points, or the one other thing."""
+        """The points, or the single other thing."""
         return [subject for difference in self.all if (subject := subject_of(difference)) is not None]
 
     @property
     def moved(self) -> str:
-        """How many things moved to other lines of the manual; empty if that is not the difference."""
+        """The number of things that moved to other lines of the manual, as text; empty for other differences."""
         return f"{len(self.all)} things" if len(self.all) > 1 and _is_moved(self.first) else ""
 
 
 def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
-    """Styled lines: the devices that differ, the gravest class first."""
+    """Return styled lines: the devices that differ, the gravest class first."""
     for comparison in comparisons:
         if not comparison.differences:
             continue
@@ -55,7 +55,7 @@ def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
 
 
 def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
-    """Lines of a changelog."""
+    """Return the lines of a changelog."""
     for comparison in comparisons:
         if not comparison.differences:
             continue
@@ -70,7 +70,7 @@ def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
 
 
 def _by_class(found: list[Difference]) -> Iterator[tuple[str, list[_Group]]]:
-    """The differences of each class; the same difference of several points is one group."""
+    """Return the differences of each class; the same difference of several points is one group."""
     groups: dict[str, dict[object, _Group]] = {weight: {} for weight in CLASSES}
     for difference in found:
         whole = len(difference.things) == 1 and not difference.fact
@@ -115,12 +115,12 @@ def _item(comparison: Comparison, group: _Group) -> str:
 
 
 def _code(name: str) -> str:
-    """A name as code; one with unusual characters, from a foreign file, as text."""
+    """Return a name as code; one with unusual characters, from a foreign file, as text."""
     return f"`{name}`" if all(char.isalnum() or char in "_:." for char in name) else markdown(name)
 
 
 def _subject(group: _Group, quoted: Callable[[str], str] = str) -> str:
-    """The points or the thing as they are quoted; empty for the device as a whole."""
+    """Return the points or the thing as quoted names; empty for the device as a whole."""
     subjects = group.subjects
     if not subjects:
         return ""
@@ -133,7 +133,7 @@ def _subject(group: _Group, quoted: Callable[[str], str] = str) -> str:
 
 
 def _sentence(difference: Difference, arrow: str = "->") -> str:
-    """What happened, as it follows the subject in a sentence."""
+    """Return what happened, as the rest of a sentence after the subject."""
     thing = difference.things[-1] if difference.things else None
     inner = " ".join(f"{part.kind} {part.name}" for part in difference.things[1:])
     what = f": {inner}" if inner else ""
@@ -159,7 +159,7 @@ def _versions(comparison: Comparison) -> str:
 
 
 def _next(comparison: Comparison) -> str:
-    """The version that has the changes: that of the new side if its step is large enough, else the next one."""
+    """Return the version of the changes: that of the new side if its step is large enough, else the next one."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None or is_taken(old.version, new.version, step):
         side = new or old
@@ -168,7 +168,7 @@ def _next(comparison: Comparison) -> str:
 
 
 def _advice(comparison: Comparison, arrow: str = "->") -> str:
-    """Which step the version must take, and whether it takes it."""
+    """Return the step that the version must take, and whether it does."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None:
         return f"{'a new device' if old is None else 'the device is gone'}"
@@ -184,7 +184,7 @@ def _advice(comparison: Comparison, arrow: str = "->") -> str:
 def _symbols(
     comparison: Comparison, difference: Difference, quoted: Callable[[str], str] = str
 ) -> Iterator[tuple[str, str]]:
-    """The first names in each language; of a renamed thing its old and its new ones."""
+    """Return the first names in each language; for a renamed thing, its old and its new ones."""
     for language, sides in comparison.symbols_of_sides(difference).items():
         if difference.is_rename and all(sides):
             yield language, " -> ".join(_few(names, quoted) for names in sides)
@@ -193,7 +193,7 @@ def _symbols(
 
 
 def _nameless(comparison: Comparison) -> str:
-    """Why names in code are missing, and what has them."""
+    """Return why names in code are missing, and how to see them."""
     files = [side.name_of(side.file) for side in (comparison.old, comparison.new) if side and side.described is None]
     is_one = f"{' and '.join(files)} {'is' if len(files) == 1 else 'are each'} an exported model"
     return f"names in code are missing where {is_one}: compare descriptions, or GIT-REVISION:PATH, to see them"
@@ -259,7 +259,7 @@ def _scale(cases: Any) -> str:
 
 
 def _case(case: Mapping[str, Any]) -> str:
-    """One rule: `raw = value * 10 / 3 * factor + 5`."""
+    """Return one rule: `raw = value * 10 / 3 * factor + 5`."""
     rule = "raw = value"
     rule += "" if case["num"] == "1" else f" * {case['num']}"
     rule += "" if case["den"] == "1" else f" / {case['den']}"
@@ -285,7 +285,7 @@ def _condition(condition: Any) -> str:
 
 
 def _settings(serial: Mapping[str, Mapping[str, str]]) -> str:
-    """Settings of a line: each text with the code that chooses it, if it has another."""
+    """Return settings of a line: each text with its code, if that differs."""
     texts = {
         setting: ", ".join(text if code == text else f"{code} {text}" for code, text in codes.items())
         for setting, codes in serial.items()

@@ -54,7 +54,7 @@ class Side:
         return str(self.exported["version"])
 
     def place(self, names: tuple[tuple[str, str], ...], fact: str) -> str | None:
-        """Return the place of a fact as `file:line`; of an exported model the file alone."""
+        """Return the place of a fact as `file:line`; for an exported model only the file."""
         if self.described is None:
             return self.name_of(self.file)
         span: Span | None = self.described.span(names, fact)
@@ -63,7 +63,7 @@ class Side:
 
 @contextmanager
 def opened(argument: str, report: Report) -> Iterator[dict[str, Side]]:
-    """Give the devices of one side by id; its files exist as long as this is open. Raises UnclearError."""
+    """Yield the devices of one side by id; its files exist as long as the context is open. Raises UnclearError."""
     revision, colon, inside = argument.partition(":")
     if Path(argument).exists() or not colon:
         yield _sides(Path(argument), report, str)
@@ -80,7 +80,7 @@ def opened(argument: str, report: Report) -> Iterator[dict[str, Side]]:
 
 
 def _renaming(copy: str, name: str) -> Callable[[str], str]:
-    """Return what names files of the copy as in git: `HEAD~1:descriptions/hitachi_l200/bus.yaml`."""
+    """Return a function that names files of the copy as in git: `HEAD~1:descriptions/hitachi_l200/bus.yaml`."""
     return lambda file: name + f"{file}/".removeprefix(copy).rstrip("/") if f"{file}/".startswith(copy) else file
 
 
@@ -100,7 +100,7 @@ def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[st
 
 
 def _model(path: Path, name: str) -> Exported:
-    """Read an exported model; only its first keys are checked. Raises UnclearError."""
+    """Return an exported model; only its first keys are checked. Raises UnclearError."""
     try:
         model = json.loads(read_regular(path, _MOST_MODEL_BYTES).data)
     except (ValueError, RecursionError) as error:
@@ -129,7 +129,7 @@ class _Blob(NamedTuple):
 
 
 def copied(revision: str, path: str, folder: Path) -> Path:
-    """Copy what git has at `path` in that revision below `folder`; return the copy of the path. Raises UnclearError.
+    """Copy `path` of a git revision into `folder`; return the path of the copy. Raises UnclearError.
 
     The work tree is not touched. A file comes with the files beside it: they may be its parts.
     """
@@ -162,7 +162,7 @@ def _commit(revision: str) -> str:
 
 
 def _object(commit: str, revision: str, path: str) -> tuple[str, str]:
-    """Return the id of the object at a path, and whether it is a `tree` or a `blob`."""
+    """Return the id of the object at a path, and its type: `tree` or `blob`."""
     known = _git("rev-parse", "--verify", "--quiet", "--end-of-options", f"{commit}:{path.rstrip('/')}")
     text = (known or b"").decode("ascii", "replace").strip()
     kind = (_git("cat-file", "-t", text) or b"").decode("ascii", "replace").strip() if text.isalnum() else ""
@@ -173,7 +173,7 @@ def _object(commit: str, revision: str, path: str) -> tuple[str, str]:
 
 
 def _blobs(tree: str) -> Iterator[_Blob]:
-    """Yield the regular files of a tree as deep as descriptions are; no links, no submodules, no strange names."""
+    """Yield the regular files of a tree to the depth of descriptions; no links, no submodules, no strange names."""
     listed = _git("ls-tree", "--full-tree", "-r", "-z", "-l", tree) or b""
     for entry in listed.split(b"\0")[:_MOST_FILES]:
         facts, _, name = entry.partition(b"\t")
@@ -208,7 +208,7 @@ def _contents(ids: list[str]) -> Iterator[bytes]:
 
 
 def _git(*words: str, stdin: bytes = b"") -> bytes | None:
-    """Return what git prints; None if it fails. It asks nobody, fetches nothing, and runs nothing of the repository."""
+    """Return the output of git; None if it fails. Git neither prompts, nor fetches, nor runs code of the repository."""
     quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_NO_LAZY_FETCH": "1", "GIT_OPTIONAL_LOCKS": "0", "LC_ALL": "C"}
     command = ["git", "--no-replace-objects", "--no-pager", *words]
     try:
