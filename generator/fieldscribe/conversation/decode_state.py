@@ -57,7 +57,7 @@ class FoundBlocks:
         return self.starts != before
 
     def _blocks(self, seen: dict[int, int]) -> dict[int, tuple[int, int]]:
-        """Return the first and the last address of each block with a known head; the first block of an id counts."""
+        """Return the first and the last address of each block with a known head; the first of an id counts."""
         blocks: dict[int, tuple[int, int]] = {}
         at = self._first
         while at is not None:
