@@ -1,4 +1,4 @@
-"""Reads over a socket whose other end bad_answers some replies: none may be lost, and no memory may grow.
+"""Reads over a socket whose other end spoils some replies: none may be lost, and no memory may grow.
 
 PYTHONPATH=tests .venv/bin/python tests/fuzz/soak.py [--requests 100000] [--faults 0.05] [--seed 1]
 """

@@ -110,12 +110,12 @@ def soak(requests: int, share: float, seed: int, timeout: float = TIMEOUT) -> Ou
     ends, findings = Counter[tuple[str, str]](), list[str]()
     slow, start = 0, resident()
     half = start
-    bad_answers = [*faults(share, timeout)]
+    spoils = [*faults(share, timeout)]
 
     def note(entry: str) -> None:
         struck.append((time.monotonic(), entry))
 
-    with Beats() as beats, simulated("hitachi_l200", on="tcp", seed=seed, trace=note, faults=bad_answers) as drive:
+    with Beats() as beats, simulated("hitachi_l200", on="tcp", seed=seed, trace=note, faults=spoils) as drive:
         right = {name: drive.values[name] for name in POINTS}
         for client in clients(drive, timeout):
             for number in range(requests):

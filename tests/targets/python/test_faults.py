@@ -95,7 +95,7 @@ WHOLE: dict[str, tuple[Fault, dict[str, str]]] = {
 
 
 class Ends:
-    """The other end of all lines: it numbers its replies, and bad_answers the next one."""
+    """The other end of all lines: it numbers its replies, and spoils the next one."""
 
     fault: Fault | None = None
     noise = False

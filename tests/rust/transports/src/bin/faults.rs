@@ -41,7 +41,7 @@ enum Answer {
     TooMuch,
 }
 
-/// The other end of a line: it numbers its replies, and bad_answers the next one.
+/// The other end of a line: it numbers its replies, and spoils the next one.
 #[derive(Default)]
 struct End {
     number: u8,
