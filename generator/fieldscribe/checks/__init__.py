@@ -29,6 +29,7 @@ CHECKS = (
     "points_are_written_together",
     "groups_use_what_they_say",
     "enums_fit_their_range",
+    "computed_limits_fit",
     "fixed_bits_can_be_written",
     "defaults_are_allowed",
     "references_exist",
