@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import io
+import json
 import struct
 from collections.abc import Iterator
 from random import Random
 
 import pytest
 from fieldscribe.listening.captures import chunks_of
-from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, Chunk, Packet
+from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, ByteCutter, Chunk, Packet
 from fieldscribe.listening.packets import Packets, PacketWriter, is_packet_file, read_packets
 from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
@@ -100,11 +101,90 @@ def test_a_connection_gives_each_byte_once(segments: list[bytes], expected: byte
     assert heard(*segments) == expected
 
 
+def in_ip6(data: bytes) -> bytes:
+    """The segment of an Ethernet frame in a packet of IPv6 between two addresses."""
+    ends = bytes.fromhex("fe80000000000000000000000000000a 20010db800000000000000000000000b")
+    tcp = data[34:]
+    return bytes(12) + b"\x86\xdd" + struct.pack(">IHBB", 6 << 28, len(tcp), 6, 64) + ends + tcp
+
+
+def test_connections_are_told_apart() -> None:
+    """By both ends and both ports, of either protocol; what comes back belongs to the client, too."""
+    other = (first := segment(7, b"abcd"))[:36] + b"\x01\xf7" + first[38:]
+    packets = Packets(frozenset({502, 503}))
+    frames = segment(1, b"12"), other, segment(3, b"34"), segment(500, b"ok", back=True), in_ip6(segment(9, b"xy"))
+    chunks = [chunk for data in frames for chunk in packets.chunks(Packet(0.0, 1, data))]
+    assert [(chunk.data, chunk.place, chunk.sent, chunk.fresh) for chunk in chunks] == [
+        (b"12", "10.0.0.1:4000", True, True),
+        (b"abcd", "10.0.0.1:4000", True, True),
+        (b"34", "10.0.0.1:4000", True, False),
+        (b"ok", "10.0.0.1:4000", False, True),
+        (b"xy", "[fe80:0:0:0:0:0:0:a]:4000", True, True),
+    ]
+
+
+def counted_size(data: bytes, is_first: bool) -> int:
+    """Frames of this test begin with their size, up to 8."""
+    del is_first
+    return 0 if not 1 < data[0] < 9 else data[0] if len(data) >= data[0] else -1
+
+
+@pytest.mark.parametrize(
+    ("chunks", "expected"),
+    [
+        ([(0.0, "0301", False), (0.1, "02", False)], ["030102"]),
+        ([(0.0, "0301", False), (0.11, "02", False)], ["!0301", "!02"]),
+        ([(0.0, "0301", False), (-0.01, "02", False)], ["!0301", "!02"]),
+        ([(0.0, "0301", False), (0.01, "02", True)], ["!0301", "!02"]),
+        ([(0.0, "0301", False), (0.01, "", False), (0.02, "02", False)], ["!0301", "!02"]),
+        ([(None, "0301", False), (None, "02", False)], ["030102"]),
+        ([(0.0, "ff0301", False), (0.05, "02", False)], ["!ff", "030102"]),
+        ([(0.0, "08010301", False), (0.05, "02", False)], ["!0801", "030102"]),
+        ([(0.0, "0402030102", False)], ["04020301", "!02"]),
+        ([(0.0, "ff" * 20, False)], ["!" + "ff" * 8]),
+    ],
+    ids=str,
+)
+def test_a_frame_ends_by_its_size_or_in_a_silence(
+    chunks: list[tuple[float | None, str, bool]], expected: list[str]
+) -> None:
+    """What is no frame (`!`) ends where nothing comes for a while, and where bytes are lost."""
+    cutter = ByteCutter(counted_size, 8, "rtu", 0)
+    given = [Chunk(time, BYTES, bytes.fromhex(data), fresh=fresh) for time, data, fresh in chunks]
+    cuts = [*(cut for chunk in given for cut in cutter.take(chunk)), *cutter.rest()]
+    assert [f"{'!' * cut.damaged}{cut.data.hex()}" for cut in cuts] == expected
+    assert all(cut.framing == "rtu" for cut in cuts)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ({"time": 1.5, "delay": 0.25, "request": "01 03", "answer": "01 83"}, ["1.500000 01 03", "1.750000 01 83"]),
+        ({"time": 2, "delay": 0, "request": "01 05", "answer": ""}, ["2.000000 01 05"]),
+        ({"time": "soon", "request": "01"}, ['{"time": "soon", "request": "01"}']),
+        ("01 03 00", ["01 03 00"]),
+    ],
+    ids=str,
+)
+def test_a_trace_has_requests_and_answers_with_their_times(line: object, expected: list[str]) -> None:
+    frames: list[str] = []
+    text = line if isinstance(line, str) else json.dumps(line)
+
+    def chunk_of(frame: str) -> Chunk:
+        frames.append(frame)
+        return Chunk(None, BYTES, b"")
+
+    found = chunks_of(io.BufferedReader(io.BytesIO(text.encode())), frozenset(), chunk_of)
+    assert len(list(found)) == len(expected)
+    assert frames == expected
+
+
 def test_messages_and_bytes_of_lines() -> None:
     packets = Packets(frozenset())
     message = bytes.fromhex("80000321 03000000 010203")
     assert list(packets.chunks(Packet(1.0, 227, message))) == [Chunk(1.0, MESSAGE, b"\1\2\3", identifier=0x321)]
-    assert next(packets.chunks(Packet(1.0, 113, bytes(14) + b"\0\x0c" + message))).identifier == 0x321
+    for protocol in (b"\0\x0c", b"\0\x0d"):
+        assert next(packets.chunks(Packet(1.0, 113, bytes(14) + protocol + message))).identifier == 0x321
     assert list(packets.chunks(Packet(1.0, 227, message[:9]))) == []
     assert list(packets.chunks(Packet(1.0, 147, b"\1"))) == [Chunk(1.0, BYTES, b"\1")]
 

@@ -179,6 +179,17 @@ def test_a_manifest_cannot_vouch_for_what_is_outside_its_targets_folder(tmp_path
     assert "src/main.c" in written(tmp_path)
 
 
+@pytest.mark.parametrize("is_ours", [True, False])
+def test_what_a_layout_names_no_more_goes_if_its_head_is_of_the_device(tmp_path: Path, is_ours: bool) -> None:
+    """As after an update that puts files elsewhere; a manifest alone cannot vouch for it."""
+    text = (HEAD if is_ours else HEAD.replace(b"drive", b"other")) + b"old\n"
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c/older_place.h").write_bytes(text)
+    manifest(tmp_path, "drive", {"c": {"c/older_place.h": sha256(text).hexdigest()}})
+    generate(tmp_path, "drive", FILES)
+    assert ("c/older_place.h" in written(tmp_path)) != is_ours
+
+
 def test_what_is_made_no_more_but_was_edited_stays_and_is_named(tmp_path: Path) -> None:
     generate(tmp_path, "drive", FILES)
     (tmp_path / "docs/drive.csv").write_text("my own table")

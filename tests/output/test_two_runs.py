@@ -171,6 +171,21 @@ def test_what_is_no_lock_is_refused_and_left(tmp_path: Path, put: Callable[[Path
     assert os.path.lexists(tmp_path / NAME)
 
 
+def test_a_lock_that_was_removed_before_it_was_held_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The other run ends between opening and locking: what it removed guards nothing, so the lock is made anew."""
+    held, left = lock._flock, [True]
+
+    def flock(handle: int) -> bool:
+        if left.pop() if left else False:
+            (tmp_path / NAME).unlink()
+        return held(handle)
+
+    monkeypatch.setattr(lock, "_flock", flock)
+    with only_run(tmp_path, nobody, 1.0):
+        assert (tmp_path / NAME).exists()
+    assert not left
+
+
 def test_a_lock_that_another_run_made_meanwhile_is_left_to_it(tmp_path: Path) -> None:
     """Somebody removed the folder during a run, so another one has begun there: its lock is not ours to remove."""
     with only_run(tmp_path / "made", nobody, 1.0):
