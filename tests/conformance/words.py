@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Mapping
 from typing import Any
 
@@ -70,6 +71,36 @@ def notation(package: Package, vector: Vector) -> bool:
     return bool(decoded and status == "ok" and raw in (None, _raw(point, vector)))
 
 
+_FIELDS = ("year", "month", "day", "hour", "minute", "second", "microsecond")
+
+
+def date_decode(package: Package, vector: Vector) -> bool:
+    """Words to a date and time."""
+    point = package.point(vector)
+    status, value = package.outcome(point.decode, _raw(point, vector))
+    if status != "ok":
+        return bool(status == vector["status"])
+    numbers = [getattr(value, name, 0) for name in _FIELDS]
+    return bool(status == vector["status"] and [*numbers[:6], numbers[6] // 1000] == vector["numbers"])
+
+
+def date_encode(package: Package, vector: Vector) -> bool:
+    """A date and time to words; one that Python has no object of is out of range anyway."""
+    point, (*numbers, millisecond) = package.point(vector), vector["numbers"]
+    facts = dict(zip(_FIELDS, (*numbers, 1000 * millisecond), strict=True))
+    parts = {"date": _FIELDS[:3], "time": _FIELDS[3:]}.get(type(_form(point)).made, _FIELDS)
+    try:
+        value = getattr(datetime, type(_form(point)).made)(**{name: facts[name] for name in parts})
+    except ValueError:
+        return bool(vector["status"] == "out_of_range")
+    status, raw = package.outcome(point.encode, value)
+    return bool(status == vector["status"] and (status != "ok" or raw == _raw(point, vector)))
+
+
+def _form(point: Any) -> Any:
+    return point._form
+
+
 def digits(package: Package, vector: Vector) -> bool:
     """A word to its digits."""
     status, found = package.outcome(package.point(vector).decode, vector["raw"])
@@ -91,6 +122,8 @@ CHECKS: Mapping[str, Check] = {
     "text_encode": text_encode,
     "unicode_decode": unicode_decode,
     "unicode_encode": unicode_encode,
+    "date_decode": date_decode,
+    "date_encode": date_encode,
     "notation": notation,
     "digits": digits,
     "digits_encode": digits_encode,

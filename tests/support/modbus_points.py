@@ -102,6 +102,8 @@ class Talk:
 def samples(point: Point, held: int, talk: Talk) -> list[int]:
     """Return raw numbers that a point may take, as far as its limits; the one that it holds is the last."""
     if point.text is not None:
+        if point.text.parts:
+            return [held]
         return [held ^ 1] if point.text.is_bytes else [texts.pattern_of_text(point.text, "AB")]
     step = max((step for _, step in point.steps), default=1)
     found = [held ^ 1, held + step, held - step]

@@ -6,6 +6,7 @@ stands beside these packages knows no bus. The names of Modbus are here too.
 """
 
 from .commands import Command
+from .dates import DateParts, DateTimeParts, TimeParts
 from .descriptors import ByVariant, ReadOnly, ReadWrite, WriteOnly, renamed
 from .device import AnyAsyncDevice, AnyDevice
 from .errors import (
@@ -123,6 +124,8 @@ __all__ = [
     "CodecError",
     "Codes",
     "Command",
+    "DateParts",
+    "DateTimeParts",
     "Device",
     "Digits",
     "Documented",
@@ -170,6 +173,7 @@ __all__ = [
     "TelegramError",
     "Text",
     "Time",
+    "TimeParts",
     "Transport",
     "Type",
     "UnknownValueError",

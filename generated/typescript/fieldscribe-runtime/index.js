@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 /** What generated packages share: points with their codecs, places, commands and errors. */
 export * from "./commands.js";
+export * from "./dates.js";
 export * from "./errors.js";
 export * from "./forms.js";
 export * from "./numbers.js";

@@ -11,6 +11,24 @@ export type UnknownNumber = number & { readonly [unknownNumber]: true };
 
 
 
+/** A date as a device keeps it, with the names of `Temporal.PlainDate`. */
+export interface DateParts {
+  readonly year: number;
+  readonly month: number;
+  readonly day: number;
+}
+
+/** A time as a device keeps it, with the names of `Temporal.PlainTime`. */
+export interface TimeParts {
+  readonly hour: number;
+  readonly minute: number;
+  readonly second: number;
+  readonly millisecond: number;
+}
+
+/** What is written as a time: what is left out is 0. */
+export type GivenTime = Pick<TimeParts, "hour"> & Partial<TimeParts>;
+
 /** What a type says of a point beside its values; what is left out is usual. */
 export interface PointFacts {
   /** Raw numbers, where they are no `number`. */

@@ -5,7 +5,9 @@ from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from ipaddress import AddressValueError, IPv4Address, IPv6Address
 
+from fieldscribe.arithmetic.dates import date_of_words, words_of_date
 from fieldscribe.arithmetic.exact import half_away
+from fieldscribe.arithmetic.words import joined, words_in
 from fieldscribe.model import Text
 
 _SEPARATORS = re.compile(r"[:\s-]")
@@ -76,8 +78,13 @@ _CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-be"}
 
 
 def text_of(layout: Text, pattern: int) -> str:
-    """Return the text of all words, given as one number, without its padding. Raises UnicodeDecodeError."""
+    """Return the text of all words, given as one number, without its padding. Raises ValueError for what is none.
+
+    A date and time is a text, too: `2026-11-29T12:00:00`.
+    """
     data, size = _swapped(layout, pattern.to_bytes(2 * layout.words, "big")), _size(layout)
+    if layout.parts:
+        return date_of_words(layout, words_in(data))
     codes = (data if layout.per_word * size > 1 else data[1::2])[: layout.characters * size]
     if layout.is_bytes:
         return notated(layout.encoding, codes)
@@ -95,14 +102,17 @@ def fits(layout: Text, text: str) -> bool:
     if layout.is_bytes:
         return bytes_of(layout.encoding, text, layout.characters) is not None
     try:
-        return length_of(layout, text) <= layout.characters
-    except UnicodeEncodeError:
+        return bool(words_of_date(layout, text)) if layout.parts else length_of(layout, text) <= layout.characters
+    except ValueError:
         return False
 
 
 def pattern_of_text(layout: Text, text: str) -> int:
     """Return all words of a text that fits, padded, as one number."""
     size = _size(layout)
+    if layout.parts:
+        data = joined(words_of_date(layout, text)).to_bytes(2 * layout.words, "big")
+        return int.from_bytes(_swapped(layout, data), "big")
     codes = bytes_of(layout.encoding, text, layout.characters) if layout.is_bytes else None
     codes = text.rstrip(_BLANK).encode(_codec(layout)) if codes is None else codes
     codes += layout.padding.to_bytes(size, "big") * (layout.per_word * layout.words - len(codes) // size)

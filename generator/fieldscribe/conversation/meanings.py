@@ -151,9 +151,9 @@ def _naming(point: Point) -> Callable[[int], Meaning] | None:
 def _text_meaning(layout: Text, raw: int) -> Meaning:
     try:
         text = text_of(layout, raw)
-    except UnicodeDecodeError:
+    except ValueError:
         return Meaning(f"not known: the words are no {layout.encoding}")
-    return Meaning(text if layout.is_bytes else quoted_text(text), text)
+    return Meaning(text if layout.is_bytes or layout.parts else quoted_text(text), text)
 
 
 class FlagTexts:

@@ -244,9 +244,12 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     """Return the words of a typed text as one number, the first characters in the highest bits. Raises RefusedError."""
     layout = point.text
     assert layout is not None
-    if layout.is_bytes:
+    if layout.is_bytes or layout.parts:
         if not fits(layout, typed):
-            message = f"`{shortened(typed)}` is not {wording.characters_text(layout)}"
+            what = (
+                f"no {layout.encoding} of {label(point)}" if layout.parts else f"not {wording.characters_text(layout)}"
+            )
+            message = f"`{shortened(typed)}` is {what}"
             raise RefusedError("out_of_range", message)
         return pattern_of_text(layout, typed)
     spans = _CHARACTERS[layout.encoding]

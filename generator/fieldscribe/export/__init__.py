@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 from fieldscribe.facts import devices
-from fieldscribe.facts.points import DIGITS, ENTRY, FLAG, FLAG_VALUE, LAYOUT, POINT, SPECIAL
+from fieldscribe.facts.points import DATE_PART, DIGITS, ENTRY, FLAG, FLAG_VALUE, LAYOUT, POINT, SPECIAL
 from fieldscribe.facts.schema import DEFINITIONS, record
 from fieldscribe.facts.steps import STEP, STEPPED_COMMAND
 from fieldscribe.facts.table import Context, FactTable, exported
@@ -48,6 +48,7 @@ def schema_text() -> str:
         "flag_value": ("One number of a flag with a name.", FLAG_VALUE),
         "digits": ("The decimal digits of a word.", DIGITS),
         "layout": ("How the characters of a text stand in words.", LAYOUT),
+        "date_part": ("A part of a date or time, in some bits of a word.", DATE_PART),
         "identification": ("What a point holds in the device or in one of its variants.", devices.IDENTIFICATION),
         "given": ("A number that a client is given when it opens the device.", devices.GIVEN),
         "found": (

@@ -40,6 +40,11 @@ def source_value(thing: Any, _: Context) -> dict[str, object] | None:
     return {"document": source.document, "section": source.section, "page": source.page, "line": source.line}
 
 
+def coding_of(point: Point) -> str:
+    """Return how the bits hold the raw number, or the parts of a date; empty if as usual."""
+    return "bcd" if point.text is not None and point.text.bcd else point.coding
+
+
 def default_raw(point: Point, _: Context) -> int | str | None:
     """Return the default as a raw number (f32, f64: as a value); null if its raw number depends on other points."""
     if point.info.floating:

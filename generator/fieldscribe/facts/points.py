@@ -102,11 +102,24 @@ DIGITS: FactTable = (
     ).of(lambda digits, _: values.entries_of(digits.enum)),
 )
 
+DATE_PART: FactTable = (
+    Fact("name", "What it is: `year`, ..., `millisecond`, `weekday`.", STRING),
+    Fact("word", "Which word of the point has it, the first of which is 0.", COUNT),
+    Fact("high", "Its highest bit there.", COUNT).of(lambda part, _: part.bits[0]),
+    Fact("low", "Its lowest bit there.", COUNT).of(lambda part, _: part.bits[1]),
+    Fact("zero", "The year that a 0 means; of a weekday the number of Sunday.", COUNT).of(lambda part, _: part.base),
+)
 LAYOUT: FactTable = (
     Fact("characters", "How many there are.", COUNT),
     Fact("per_word", "How many a word holds; a single one is in its low byte.", COUNT),
     Fact("padding", "The byte that pads the text; a 0 ends it.", COUNT),
     Fact("low_first", "True if the bytes of each word are swapped.", BOOLEAN),
+    Fact(
+        "parts",
+        "The parts of a date and time; null of what is none.",
+        null_or(list_of(ref("date_part"))),
+        table=DATE_PART,
+    ).of(lambda layout, _: layout.parts or None),
 )
 
 _REFERENCES = (
@@ -178,10 +191,10 @@ POINT: FactTable = (
         null_or(one_of("bcd", "sign and magnitude")),
         WIRE,
     )
-    .of(lambda point, _: point.coding or None, shared="shape")
+    .of(lambda point, _: values.coding_of(point) or None, shared="shape")
     .says(
         "Coding",
-        text=lambda point, _: "decimal digits of 4 bits (BCD)" if point.coding == "bcd" else point.coding,
+        text=lambda point, _: "decimal digits of 4 bits (BCD)" if values.coding_of(point) == "bcd" else point.coding,
         remark="{}",
     ),
     Fact("base", "The base of its addresses, by name; null: they count from 0.", TEXT_OR_NULL)
@@ -419,8 +432,10 @@ POINT: FactTable = (
         WIRE,
         table=LAYOUT,
         follows=("type",),
-        yaml=("characters", "per_word", "padding", "bytes"),
-    ).of(lambda point, _: None if point.text is None or point.text.is_plain else point.text, shared="shape"),
+        yaml=("characters", "per_word", "padding", "bytes", "parts"),
+    )
+    .of(lambda point, _: None if point.text is None or point.text.is_plain else point.text, shared="shape")
+    .says("Parts", text=lambda point, _: wording.parts_text(point.text) if point.text is not None else "", remark="{}"),
     Fact(
         "persistence",
         "Whether a written value is kept: `no`, `yes`, the command that keeps it, or `choice` (the function that "

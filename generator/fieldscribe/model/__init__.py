@@ -30,6 +30,7 @@ from fieldscribe.model.numbers import (
     NOTATIONS,
     TYPE_PATTERN,
     TYPES,
+    DatePart,
     Digits,
     Entry,
     Enum,

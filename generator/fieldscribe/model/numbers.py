@@ -99,11 +99,30 @@ class Special:
 
 
 @dataclass(frozen=True, slots=True)
+class DatePart:
+    """A part of a date or time: the bits (low bit 0) of a word of the point, the first of which is 0.
+
+    `base` is the year that a 0 means; of a weekday it is the number of Sunday.
+    """
+
+    name: str
+    word: int
+    bits: tuple[int, int]
+    base: int = 0
+
+    @property
+    def width(self) -> int:
+        """Return how many bits it has."""
+        return self.bits[0] - self.bits[1] + 1
+
+
+@dataclass(frozen=True, slots=True)
 class Text:
     """The layout of a text in words, the first character in the first word.
 
     A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. `padding` fills the
-    rest: a blank, or a 0, which ends the text. Plain bytes have their notation as `encoding`, and no rest.
+    rest: a blank, or a 0, which ends the text. Plain bytes have their notation as `encoding`, and no rest. A `date`, a
+    `time`, or a `date and time` has `parts`, which are decimal digits of four bits each if `bcd`.
     """
 
     characters: int
@@ -111,6 +130,8 @@ class Text:
     per_word: int = 2
     padding: int = 0x20
     low_first: bool = False
+    parts: tuple[DatePart, ...] = ()
+    bcd: bool = False
 
     @property
     def words(self) -> int:

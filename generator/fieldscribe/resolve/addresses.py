@@ -234,7 +234,7 @@ class Places:
             first = self._address(facts, raw, key)
             words = tuple(range(first, first + layout.words))
         if len(words) != layout.words:
-            what, count = ("byte", "length") if layout.is_bytes else ("character", "characters")
+            what, count = ("byte", "length") if layout.is_bytes or layout.parts else ("character", "characters")
             message = f"{len(words)} words hold {layout.per_word * len(words)} {what}s, not {layout.characters}"
             stand = f"two {what}s stand" if layout.per_word > 1 else f"one {what} stands"
             hint = f"{stand} in a word: correct `{key}` or `{count}`"

@@ -142,7 +142,7 @@ def _identifications(
         point = points[facts.item]
         if facts.failed:
             continue
-        plain = not point.info.floating and not (point.text is not None and point.text.is_bytes)
+        plain = not point.info.floating and not (point.text is not None and (point.text.is_bytes or point.text.parts))
         if point.variant is not None or not point.readable or not point.generated or not plain:
             message = f"`{point.name}` cannot identify a device"
             hint = "name a point that every variant has and that can be read: a whole number or a text"

@@ -159,12 +159,12 @@ class PointFacts:
     @property
     def text(self) -> bool:
         """Return True if the type is `text` or `bytes`, which share a representation."""
-        return self.get("type") in ("text", "bytes")
+        return self.bytes or self.get("type") == "text"
 
     @property
     def bytes(self) -> bool:
-        """Return True if the type is `bytes`."""
-        return bool(self.get("type") == "bytes")
+        """Return True if the type is `bytes`, or the point has parts of a date and time, which are held as these."""
+        return bool(self.get("type") == "bytes" or self.get("parts"))
 
     @property
     def untyped(self) -> str | None:

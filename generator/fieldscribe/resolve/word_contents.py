@@ -13,6 +13,7 @@ from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOTATIONS, Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Shape, Text
 from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
+from fieldscribe.resolve.dates import is_date, layout_of_date
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import integer, number, pattern
@@ -134,7 +135,11 @@ class Taken:
 def text_of(scope: Scope, facts: PointFacts) -> Text | None:
     """Return the layout of a text; None for another type, or after a finding."""
     if facts.bytes:
-        return checked_bytes(scope, facts, layout_of(scope, facts))
+        layout = checked_bytes(scope, facts, layout_of(scope, facts))
+        if layout.parts and not is_date(scope, facts, layout):
+            facts.failed.add("parts")
+            return None
+        return layout
     if not facts.text:
         for key in _OF_TEXTS:
             inherited = facts.layer(key) is facts.group
@@ -166,13 +171,15 @@ def layout_of(scope: Scope, facts: PointFacts) -> Text:
 
     Without `characters` it has none.
     """
-    kind = str(facts.get("type"))
+    kind = "bytes" if facts.bytes else str(facts.get("type"))
     holders = [holder.get("types", {}).get(kind, {}) for holder in (facts.group, scope.header)]
     found = {key: value for holder in reversed(holders) for key, value in holder.items()}
     found |= {key: facts.get(key) for key in ("bytes", *_OF_TEXTS) if facts.get(key) is not None}
     order = None if scope.bus is None else scope.bus.get("bytes")
     swapped = found.get("bytes") or (order.get(kind) if isinstance(order, Map) else order)
     padding, low_first = int(found.get("padding", "20h")[:2], 16), swapped == "low first"
+    if facts.get("parts"):
+        return layout_of_date(facts, per_word=int(found.get("per_word", 2)), low_first=low_first)
     if facts.bytes:
         return layout_of_bytes(facts, low_first=low_first)
     encoding = str(found.get("encoding", _DEFAULT_ENCODING))

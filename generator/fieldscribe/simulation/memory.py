@@ -30,6 +30,9 @@ _NUMBERS = 100
 _WIDE = 20_000
 """The width of a range that is no more than what the bits can hold."""
 
+_FIRST_DATES = {"date": "2000-01-01", "time": "00:00", "date and time": "2000-01-01"}
+"""What a date or time is at the start."""
+
 
 def starting_raw(layout: Layout, point: Point, settings: Settings, random: Random) -> int:
     """Return the raw number that a point holds at the start, with the settings that it depends on."""
@@ -39,7 +42,8 @@ def starting_raw(layout: Layout, point: Point, settings: Settings, random: Rando
     if point.default_raw is not None:
         return point.default_raw
     if point.text is not None:
-        return 0 if point.text.is_bytes else pattern_of_text(point.text, point.name[: point.text.characters])
+        first = _FIRST_DATES.get(point.text.encoding, point.name[: point.text.characters])
+        return 0 if point.text.is_bytes else pattern_of_text(point.text, first)
     try:
         if point.default is not None:
             return codec.encode(point, point.default, settings)
@@ -292,7 +296,7 @@ def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
     if point.text is not None:
         try:
             return text_of(point.text, raw)
-        except UnicodeDecodeError:
+        except ValueError:
             return raw
     if point.enum is not None:
         return next((entry.name for entry in point.enum.entries if entry.raw == raw), raw)

@@ -11,6 +11,7 @@ from typing import Any
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.model import Base, Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Text, Titles
 from fieldscribe.text import counted, line
+from fieldscribe.wording.dates import parts_text as parts_text
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
 from fieldscribe.wording.rules import clause_text as clause_text
@@ -87,7 +88,7 @@ def order_text(point: Point) -> str:
 
 
 def _parts(layout: Text) -> str:
-    return "bytes" if layout.is_bytes else "characters"
+    return "words" if layout.parts else "bytes" if layout.is_bytes else "characters"
 
 
 def with_unit(text: str, point: Point) -> str:
@@ -107,7 +108,7 @@ def type_text(point: Point) -> str:
     if point.untyped is not None:
         return point.untyped or "not settled by the manual"
     if point.text is not None:
-        return f"{'' if point.text.is_bytes else 'text, '}{characters_text(point.text)}"
+        return f"{'' if point.text.is_bytes or point.text.parts else 'text, '}{characters_text(point.text)}"
     if point.place.bit is not None:
         return f"{point.shape.wire_type[0]}{point.width}"
     if point.digits is not None:
@@ -117,6 +118,8 @@ def type_text(point: Point) -> str:
 
 def characters_text(layout: Text) -> str:
     """Return what a text holds: `16 characters, ascii`, and how they stand in words if that is not usual."""
+    if layout.parts:
+        return f"{layout.encoding}, {counted(layout.words, 'word')}{', low byte first' * layout.low_first}"
     usual_what = "byte" if layout.is_bytes else "character"
     what = {"utf-8": "byte", "utf-16": "word"}.get(layout.encoding, usual_what)
     usual, single = (

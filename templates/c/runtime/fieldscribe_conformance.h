@@ -754,6 +754,36 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_words(v, "words", words, macro##_WORDS);                                  \
     }
 
+#define FIELDSCRIBE_DATE_DECODE(function, macro)                                                 \
+    if (fieldscribe_asks(v, "date_decode")) {                                                    \
+        uint16_t words[macro##_WORDS];                                                           \
+        const size_t count = fieldscribe_numbers(v, "words", words, macro##_WORDS);              \
+        fieldscribe_date_time time = {0U, 0U, 0U, 0U, 0U, 0U, 0U};                               \
+        const int status = (int)function##_decode(words, &time);                                 \
+        const uint16_t numbers[7] = {                                                            \
+            time.year, time.month, time.day, time.hour, time.minute, time.second, time.millisecond}; \
+        fieldscribe_agree(v, count == macro##_WORDS);                                            \
+        fieldscribe_is_status(v, status);                                                        \
+        fieldscribe_is_words(v, "numbers", numbers, status == 0 ? 7U : 0U);                      \
+    }
+
+#define FIELDSCRIBE_DATE_ENCODE(function, macro)                                                 \
+    if (fieldscribe_asks(v, "date_encode")) {                                                    \
+        uint16_t n[7] = {0U};                                                                    \
+        uint16_t words[macro##_WORDS + 1U];                                                      \
+        const size_t count = fieldscribe_numbers(v, "numbers", n, 7U);                           \
+        const fieldscribe_date_time time = {                                                     \
+            n[0], (uint8_t)n[1], (uint8_t)n[2], (uint8_t)n[3], (uint8_t)n[4], (uint8_t)n[5], n[6]}; \
+        int status;                                                                              \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        status = (int)function##_encode(&time, words);                                           \
+        fieldscribe_agree(v, count == 7U);                                                       \
+        fieldscribe_is_status(v, status);                                                        \
+        fieldscribe_untouched(v, words + (status == 0 ? macro##_WORDS : 0U),                     \
+            status == 0 ? sizeof words[0] : sizeof words);                                       \
+        fieldscribe_is_words(v, "words", words, status == 0 ? macro##_WORDS : 0U);               \
+    }
+
 #define FIELDSCRIBE_DIGITS(function, digit_type, macro)                                          \
     if (fieldscribe_asks(v, "digits")) {                                                         \
         digit_type digits[macro##_DIGITS + 1U];                                                  \

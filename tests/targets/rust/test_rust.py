@@ -419,7 +419,7 @@ def probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
     read, write = f"<{name} as Readable>", f"<{name} as Writable>"
     counted = is_counted(subject)
     if subject.point.readable:
-        if subject.point.text is not None and not subject.point.text.is_bytes:
+        if subject.point.text is not None and not (subject.point.text.is_bytes or subject.point.text.parts):
             yield "is(held: &runtime::HeldWords, text: &str) -> bool", f"runtime::is_text::<{name}>(held, text).is_ok()"
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"

@@ -252,6 +252,7 @@ fn errors() {
     assert_eq!(chain(&FAILED), FAILURE);
     let nameless = [
         Error::BadText,
+        Error::BadDate,
         Error::ZeroFactor,
         Error::NoCase,
         Error::Overflow,

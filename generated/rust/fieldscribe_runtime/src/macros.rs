@@ -136,6 +136,7 @@ macro_rules! point {
     (@data floating $value:ty) => { $crate::data::Form::Floating };
     (@data text $value:ty) => { $crate::data::Form::Text };
     (@data packed $value:ty) => { $crate::data::Form::Text };
+    (@data dated $value:ty) => { $crate::data::Form::Text };
     (@data unicode $value:ty) => { $crate::data::Form::Text };
     (@data $form:ident $value:ty) => { $crate::data::Form::Plain };
 
@@ -281,6 +282,17 @@ macro_rules! point {
 
         impl $crate::form::unicode::Unicode for $name {
             const BITS: u32 = $bits;
+        }
+    };
+    (@form dated $name:ident $kind:ident $reach:tt (
+        $bcd:literal, $low_first:literal, [$($field:ident $word:literal $low:literal $mask:literal $base:literal),+]
+    )) => {
+        impl $crate::form::dated::Dated for $name {
+            const FORM: $crate::date_time::DateForm = $crate::date_time::DateForm::new(
+                $bcd,
+                $low_first,
+                &[$($crate::date_time::DatePart($crate::date_time::DateField::$field, $word, $low, $mask, $base)),+],
+            );
         }
     };
     (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};

@@ -158,6 +158,8 @@ class Row:
             facts |= {"bits": "7..0"} | ({} if facts["access"] == "r" else {"fixed": "{15..8: 0}"})
         if kind != "u16":
             facts["type"] = kind
+        if self.item.get("type") == "unixtime" and kind[0] in "us":
+            facts["notation"] = "time since 1970-01-01"
         if words == "little_endian" and self.words > 1:
             facts["words"] = "low first"
 

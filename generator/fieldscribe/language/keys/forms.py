@@ -75,6 +75,18 @@ NOTATION = Form(
     "a notation",
     f"write one of {', '.join(NOTATIONS)}; or the date from which seconds count: time since 1970-01-01",
 )
+DATE_PART = Form(
+    "^(year( from [0-9]{1,4})?|month|day|weekday from (sunday|monday) [01]|hour|minute|second|millisecond)$",
+    "a part of a date",
+    "write year, month, day, hour, minute, second or millisecond; `year from 1980` says what 0 means, `weekday from "
+    "monday 1` where the numbers of weekdays begin",
+    "<part>",
+)
+PART_PLACE = Form(
+    "^(word [1-9][0-9]{0,2}|bits? [0-9]{1,2}(\\.\\.[0-9]{1,2})?( of word [1-9][0-9]{0,2})?)$",
+    "the place of a part",
+    "write `bits 15..8`, `bits 6..0 of word 2` or `word 3`; the words of the point count from 1",
+)
 WORD_ORDER = Form("^(high|low) first$", "an order", "write `high first` or `low first`")
 _TIME = "[1-9][0-9]{0,5} (ms|s|min)"
 TIME = Form(f"^{_TIME}$", "a time", "write a number and a unit: 500 ms, 2 s, 10 min")

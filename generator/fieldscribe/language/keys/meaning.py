@@ -58,6 +58,19 @@ KEYS = (
         Text(form=forms.NOTATION),
     ),
     Key(
+        "parts",
+        FACTS,
+        "The parts of a date and time: a list of them in reading order, a byte each, or a word with `per_word: 1`; or "
+        "the place of each. A year says what its 0 means (2000 if it has at most 8 bits), a weekday where it begins.",
+    ).takes(
+        [
+            ["year", "month", "day", "hour", "minute", "second"],
+            {"year from 1980": "bits 15..9", "month": "bits 8..5", "day": "bits 4..0", "hour": "word 2"},
+        ],
+        Items(ValueShape("A part.", ["year"], Text(form=forms.DATE_PART)), 1),
+        by(forms.DATE_PART, ValueShape("Its place.", ["bits 6..0 of word 2"], Text(form=forms.PART_PLACE)), 1),
+    ),
+    Key(
         "bit_numbers",
         _GROUPED,
         "How the manual numbers the bits of a word in `bits`, `flags` and `fixed`: from 0 or 1 at the lowest, which is "

@@ -8,7 +8,7 @@ from typing import Literal
 from fieldscribe.model import Device
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.frames import frames_of
-from fieldscribe.targets.c.header import header, header_context
+from fieldscribe.targets.c.header import has_dates, header, header_context
 from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.point_templates import generated_points
@@ -65,6 +65,7 @@ def outputs(
 def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -> Iterator[tuple[str, str]]:
     """Yield the source files beside them: path below the output folder, and path below the templates."""
     names = ["fieldscribe.h"]
+    names += ["fieldscribe_dates.h"] * has_dates(device)
     names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
     names += [f"fieldscribe_{device.family}_steps.h"] * bool(device.stepped_commands)
     names += [f"fieldscribe_{device.family}.h"] * (frames != "constants")

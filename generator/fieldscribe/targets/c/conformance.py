@@ -155,6 +155,10 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
 
 
 def _text_cases(view: PointView) -> Iterator[str]:
+    if view.point.text is not None and view.point.text.parts:
+        yield from [f"DATE_DECODE({view.function}, {view.macro})"] * view.point.readable
+        yield from [f"DATE_ENCODE({view.function}, {view.macro})"] * view.point.writable
+        return
     if view.point.text is not None and view.point.text.is_bytes:
         yield from [f"BYTES_DECODE({view.function}, {view.macro})"] * view.point.readable
         yield from [f"BYTES_ENCODE({view.function}, {view.macro})"] * view.point.writable

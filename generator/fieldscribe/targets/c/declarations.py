@@ -126,11 +126,11 @@ def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iter
 
 def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Define]:
     """Yield the macros of the contents: the number of characters or digits, or the limits of the raw number."""
-    if point.text is not None:
+    if point.text is not None and not point.text.parts:
         yield f"{macro}_{'BYTES' if point.text.is_bytes else 'CHARACTERS'}", unsigned(point.text.characters)
     elif point.digits is not None:
         yield f"{macro}_DIGITS", unsigned(point.digits.count)
-    elif point.writable and not point.info.floating:
+    elif point.writable and not point.info.floating and point.text is None:
         yield f"{macro}_RAW_MIN", fields.low_signed
         yield f"{macro}_RAW_MAX", fields.high_signed
     if point.epoch:

@@ -116,7 +116,7 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
     """
     name, ending = view.function, ""
     if point.text is not None and (
-        point.text.is_unicode or list(point.place.addresses) != sorted(point.place.addresses)
+        point.text.is_unicode or point.text.parts or list(point.place.addresses) != sorted(point.place.addresses)
     ):
         return
     for item in (view.fields.item, *point.old_items):

@@ -45,9 +45,15 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
         "statuses": STATUSES,
+        "dates": has_dates(device),
         "doubts": [filled(c_comment(text).split(" "), " ", "   ") for text in wording.open_texts(device.doubts)],
         "double": any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
     }
+
+
+def has_dates(device: Device) -> bool:
+    """Return True if code has a date or time in parts."""
+    return any(point.generated and point.text is not None and point.text.parts for point in device.points)
 
 
 def line_defines(device: Device, scope: HeaderScope) -> list[tuple[str, str, str]]:

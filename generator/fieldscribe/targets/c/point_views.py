@@ -15,6 +15,7 @@ from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
 from fieldscribe.targets.c.views import EnumView, PointFields, PointView, RuleView
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
+    date_rows,
     digits_functions,
     has_words,
     text_functions,
@@ -103,6 +104,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
     symbols += [("_to_words", plain), ("_from_words", plain)] * has_words(point)
     symbols += [("_extract", plain), ("_insert", plain)] * (point.bits is not None)
     symbols += [("_addresses", "OBJECT")] * (view.shape == "text" or point.place.is_scattered)
+    symbols += [("_parts", "OBJECT")] * (point.text is not None and bool(point.text.parts))
     symbols += [(f"_{flag.name}", plain) for flag in point.flags if flag.width > 1]
     symbols += [(tail, plain) for tail in FUNCTIONS] * (view.special is not None)
     return [(view.function + tail, sort) for tail, sort in symbols]
@@ -113,6 +115,8 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[tuple[str, 
     if point.text is not None or point.place.is_scattered:
         rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield f"uint16_t {name}_addresses[{point.words}]", tuple(rows)
+        if point.text is not None and point.text.parts:
+            yield f"fieldscribe_date_part {name}_parts[]", tuple(filled(date_rows(point.text), ", ", "    "))
     elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
         yield f"fieldscribe_range {table}[]", tuple(rows)

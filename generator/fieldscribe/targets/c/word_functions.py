@@ -8,6 +8,7 @@ from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type
 from fieldscribe.targets.c.views import SpecialView
+from fieldscribe.text import upper
 
 
 def text_functions(point: Point, name: str) -> Iterator[Function]:
@@ -16,6 +17,9 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
     layout, words = point.text, f"uint16_t words[{point.words}]"
     if layout.is_unicode:
         yield from _unicode_functions(point, layout, name, words)
+        return
+    if layout.parts:
+        yield from _date_functions(point, layout, name, words)
         return
     if layout.is_bytes:
         yield from _bytes_functions(point, layout, name, words)
@@ -44,6 +48,25 @@ def _bytes_functions(point: Point, layout: Text, name: str, words: str) -> Itera
     if point.readable:
         body = f"fieldscribe_bytes_of_words(words, {form}, bytes);"
         yield function(f"{INLINE} void", f"{name}_decode", (f"const {words}", held), body)
+
+
+def _date_functions(point: Point, layout: Text, name: str, words: str) -> Iterator[Function]:
+    """Yield the conversions of a date and time."""
+    facts = f"{len(layout.parts)}U, {'true' if layout.bcd else 'false'}, {'true' if layout.low_first else 'false'}"
+    form = f"const fieldscribe_date_form form = {{{name}_parts, {facts}}};"
+    if point.writable:
+        body = f"return fieldscribe_words_of_date(time, &form, words, {point.words}U);"
+        yield function(STATUS, f"{name}_encode", ("const fieldscribe_date_time *time", words), form, body)
+    if point.readable:
+        body = "return fieldscribe_date_of_words(words, &form, time);"
+        yield function(STATUS, f"{name}_decode", (f"const {words}", "fieldscribe_date_time *time"), form, body)
+
+
+def date_rows(layout: Text) -> Iterator[str]:
+    """Yield the parts of a date and time as rows of a table."""
+    for part in layout.parts:
+        mask = hexadecimal(mask_of(part.width))
+        yield f"{{FIELDSCRIBE_DATE_{upper(part.name)}, {part.word}U, {part.bits[1]}U, {mask}, {part.base}U}}"
 
 
 def _unicode_functions(point: Point, layout: Text, name: str, words: str) -> Iterator[Function]:

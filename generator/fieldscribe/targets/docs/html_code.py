@@ -19,6 +19,7 @@ from fieldscribe.targets.vectors import text_of
 
 _RUNTIME = "typescript/runtime"
 _RUNNER = "fieldscribe-conformance/vectors"
+_DATES = "fieldscribe-runtime/dates.js"
 _MOST_TESTED = 1000
 """With more points a page carries no vectors."""
 _IMPORT = re.compile(r'^(?:import|export \*)[^;]*?from "([^"]+)";\n', re.MULTILINE)
@@ -48,7 +49,8 @@ def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
     texts = dict(scripts(plain, render))
     tested = text_of(plain) if len(plain.points) <= _MOST_TESTED else ""
     imported = {found for text in texts.values() for found in _IMPORT.findall(text)} | ({_RUNNER} if tested else set())
-    runtime = _runtime(tuple(sorted(imported)))
+    dated = any(point.text is not None and point.text.parts for point in plain.points)
+    runtime = _runtime(tuple(sorted(imported)), left_out="" if dated else _DATES)
     script = _SCRIPT.format(
         runtime=_EXPORT.sub("", runtime),
         device=_EXPORT.sub("", _joined("index.js", texts.__getitem__, set())),
@@ -59,9 +61,9 @@ def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
 
 
 @cache
-def _runtime(imported: tuple[str, ...]) -> str:
-    """Return the modules of the runtime that a device imports."""
-    root, seen = templates_dir() / _RUNTIME, set[str]()
+def _runtime(imported: tuple[str, ...], left_out: str) -> str:
+    """Return the modules of the runtime that a device imports, without the one that it does not use."""
+    root, seen = templates_dir() / _RUNTIME, {left_out}
 
     def text(path: str) -> str:
         return (root / path).read_text("utf-8")

@@ -10,6 +10,7 @@ from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, PointName, Scope, call
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
+_DATES = {"date": "DateParts", "time": "TimeParts", "date and time": "DateTimeParts"}
 _FORMS = {"enum": "Named", "float": "Floating"}
 """The classes of the runtime for forms of points that are not named after the form."""
 
@@ -53,11 +54,12 @@ def _code_number(raw: int, special: Special) -> int:
 def _plain_form(point: Point, named: str, scope: Scope) -> Node:
     """Return the form of values that are no special codes."""
     name = "bytes" if point.text is not None and point.text.is_bytes else point.form
-    kind = scope.runtime(_FORMS.get(name, name.capitalize()))
+    name = _DATES.get(point.text.encoding, name) if point.text is not None else name
+    kind = scope.runtime(_FORMS.get(name, name[0].upper() + name[1:]))
     if point.form == "bit":
         return call(kind, *([_wire(point, scope)] if point.swapped else ()))
     if point.text is not None:
-        return _text(point.text, kind)
+        return _date(point.text, kind) if point.text.parts else _text(point.text, kind)
     positional, keywords = [_wire(point, scope)], dict[str, Node]()
     if named:
         if scope.enums:
@@ -87,6 +89,15 @@ def _text(layout: Text, kind: str) -> Node:
     if layout.low_first:
         keywords["low_first"] = True
     return call(kind, *positional, **keywords)
+
+
+def _date(layout: Text, kind: str) -> Node:
+    """Return a date and time: its parts with their words and bits, and what a 0 of them means."""
+    parts: tuple[Node, ...] = tuple(
+        (part.name, part.word, *part.bits, *[part.base] * bool(part.base)) for part in layout.parts
+    )
+    keywords: dict[str, Node] = {"bcd": layout.bcd, "low_first": layout.low_first}
+    return call(kind, layout.words, parts, **{name: fact for name, fact in keywords.items() if fact})
 
 
 def _wire(point: Point, scope: Scope) -> Node:

@@ -40,6 +40,8 @@ _SOMETIMES = (
         "text_encode",
         "unicode_decode",
         "unicode_encode",
+        "date_decode",
+        "date_encode",
         "bytes_decode",
         "bytes_encode",
     ),

@@ -85,12 +85,16 @@ def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list
 
 
 def _kind_of(text: Text) -> str:
+    if text.parts:
+        return "date"
     return "bytes" if text.is_bytes else "unicode" if text.is_unicode else "text"
 
 
 def _layout(subject: CratePoint) -> Tokens:
     """Return the sizes of a text or of digits; empty for a number."""
     text, digits = subject.point.text, subject.point.digits
+    if text is not None and text.parts:
+        return bracketed(("size", str(subject.point.words)))
     if text is not None:
         return bracketed(("sizes", str(text.most_bytes), str(subject.point.words)))
     return () if digits is None else bracketed(("digits", str(digits.count), subject.carried))

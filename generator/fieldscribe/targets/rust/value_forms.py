@@ -5,7 +5,7 @@ from functools import lru_cache
 from itertools import groupby, takewhile
 
 from fieldscribe.arithmetic.exact import count_line
-from fieldscribe.arithmetic.words import fits
+from fieldscribe.arithmetic.words import fits, mask_of
 from fieldscribe.lowered import Lowered, Operand, Rule
 from fieldscribe.model import Limit, Linear, Point, ScaleCase, Text
 from fieldscribe.resources import Render
@@ -26,7 +26,7 @@ def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, 
     if subject.point.form == "scaled" and subject.point.fixed_scale is None:
         return _ruled(subject, scope, kind)
     form, facts = _form(subject)
-    kind += "_or_error" if form in ("wide", "unicode") else ""
+    kind += "_or_error" if form in ("wide", "unicode", "dated") else ""
     return (f"=> {kind} {_value_type(subject, enum)} as {form}({facts});",)
 
 
@@ -68,14 +68,32 @@ def _form(subject: CratePoint) -> tuple[str, str]:
         return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
     if subject.enum is not None:
         return "named", subject.carried
-    if point.text is not None and point.text.is_unicode:
-        return "unicode", f"{16 if point.text.encoding == 'utf-16' else 8}, {_layout(point.text)}"
-    if point.text is not None and (point.text.is_bytes or not point.text.is_plain):
-        return "packed", _layout(point.text)
+    if point.text is not None:
+        return _form_of_text(point.text)
     return {"float": "floating", "text": "text", "flags": "flags"}.get(point.form, "plain"), ""
 
 
+def _date_form(text: Text) -> str:
+    """Return the parts of a date and time: word, lowest bit, mask, and what a 0 means."""
+    parts = [
+        f"{part.name.capitalize()} {part.word} {part.bits[1]} 0x{mask_of(part.width):04X} {part.base}"
+        for part in text.parts
+    ]
+    flags = ("true" if flag else "false" for flag in (text.bcd, text.low_first))
+    return f"{', '.join(flags)}, [{', '.join(parts)}]"
+
+
+def _form_of_text(text: Text) -> tuple[str, str]:
+    if text.parts:
+        return "dated", _date_form(text)
+    if text.is_unicode:
+        return "unicode", f"{16 if text.encoding == 'utf-16' else 8}, {_layout(text)}"
+    return ("packed", _layout(text)) if text.is_bytes or not text.is_plain else ("text", "")
+
+
 def _text_type(text: Text) -> str:
+    if text.parts:
+        return "runtime::DateTime"
     if text.is_bytes:
         return f"[u8; {text.characters}]"
     return f"runtime::{'Utf8' if text.is_unicode else 'Text'}<{text.most_bytes}>"

@@ -73,6 +73,10 @@ def _values(point: Point, numbers: str) -> tuple[str, str]:
         "integer": ("bigint", "bigint | number") if big else ("number", "number"),
         "text": ("string", "string"),
     }
+    if point.text is not None and point.text.parts:
+        date, time = f"{_RUNTIME}.DateParts", f"{_RUNTIME}.TimeParts"
+        held = {"date": (date,), "time": (time,)}.get(point.text.encoding, (date, time))
+        return " & ".join(held), " & ".join(held).replace(time, f"{_RUNTIME}.GivenTime")
     return ("Date", "Date | number") if point.epoch else forms.get(point.form, ("number", "number"))
 
 
@@ -98,6 +102,7 @@ def _union(names: dict[str, None], scope: Scope) -> str:
     return " | ".join(js_string(camel(name)) for name in names)
 
 
+_RUNTIME = "fieldscribe_runtime"
 _KEEP = "`keep: true`"
 """The argument with which a program keeps a value over power-off."""
 

@@ -6,6 +6,7 @@ from typing import NamedTuple, Protocol
 from fieldscribe.arithmetic.words import joined
 from fieldscribe.model import Code, Point
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.dates import typical_date
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
 from fieldscribe.targets.vectors.lines import Lines, script_text
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits_of, code_of, outer_bounds
@@ -174,8 +175,9 @@ def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
 def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -> int | None:
     """Return a typical raw number to write: two thirds up the range, odd if possible; None if it has no limits."""
     shape = encoding.shape
-    if shape.text is not None:
-        return joined(words_of_text(shape.text, bytes(0x41 + place % 26 for place in range(shape.text.characters))))
+    if (text := shape.text) is not None:
+        characters = bytes(0x41 + place % 26 for place in range(text.characters))
+        return joined(typical_date(text) if text.parts else words_of_text(text, characters))
     if shape.digits is not None:
         known = sorted(entry.raw for entry in shape.digits.enum.entries if entry.raw < 10)
         digits = [known[place % len(known)] for place in range(shape.digits.count)]

@@ -59,6 +59,8 @@ KINDS = {
     "unicode_encode": "text:bytes? status:word words:ints?",
     "bytes_decode": "only:c.rust words:ints bytes:bytes",
     "bytes_encode": "only:c.rust bytes:bytes words:ints",
+    "date_decode": "words:ints status:word numbers:ints?",
+    "date_encode": "numbers:ints status:word words:ints?",
     "notation": "only:python.typescript words:ints text:text",
     "digits": "raw:int status:word digits:ints? special:word?",
     "digits_encode": "digits:ints status:word raw:int?",

@@ -7,6 +7,7 @@ from operator import mul
 from fieldscribe.arithmetic.texts import notated
 from fieldscribe.model import Digits, Shape, Text
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.dates import dates
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import (
     INT64,
@@ -28,6 +29,9 @@ def text(lines: Lines, shape: Shape) -> None:
     if shape.text is None:
         return
     layout, size = shape.text, shape.text.characters
+    if layout.parts:
+        dates(lines, shape, layout)
+        return
     if layout.is_bytes:
         _bytes(lines, shape, layout)
         return

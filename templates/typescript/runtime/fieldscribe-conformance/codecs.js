@@ -258,6 +258,24 @@ function encodesUnicode(device, vector) {
   return status === vector.status && (status !== "ok" || isList(point.toWords(raw), vector.words));
 }
 
+const DATE_FIELDS = ["year", "month", "day", "hour", "minute", "second", "millisecond"];
+
+/** @type {CodecCheck} */
+function decodesDate(device, vector) {
+  const point = pointNamed(device, vector.point);
+  const [status, date] = outcome(() => point.decode(rawOfOrdered(point, vector.words)));
+  if (status !== "ok") return status === vector.status;
+  return status === vector.status && isList(DATE_FIELDS.map((name) => date[name] ?? 0), vector.numbers);
+}
+
+/** @type {CodecCheck} */
+function encodesDate(device, vector) {
+  const point = pointNamed(device, vector.point);
+  const date = Object.fromEntries(DATE_FIELDS.map((name, at) => [name, vector.numbers[at]]));
+  const [status, raw] = outcome(() => point.encode(date));
+  return status === vector.status && (status !== "ok" || isNumber(raw, rawOfOrdered(point, vector.words)));
+}
+
 /** Bytes as people write them, and back. @type {CodecCheck} */
 function isNotation(device, vector) {
   const point = pointNamed(device, vector.point);
@@ -391,6 +409,8 @@ export const CODEC_CHECKS = {
   text_encode: encodesText,
   unicode_decode: decodesUnicode,
   unicode_encode: encodesUnicode,
+  date_decode: decodesDate,
+  date_encode: encodesDate,
   notation: isNotation,
   digits: isDigits,
   digits_encode: encodesDigits,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What points of one form have in common: a module for each, with the functions that [`point!`](crate::point) calls.
 
+pub mod dated;
 pub mod digits;
 pub mod flags;
 pub mod floating;

@@ -32,9 +32,9 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented,
-    Encodable, Error, Flags, Held, Identification, Point, PointInfo, Points, Raw, Readable,
-    Reading, Refused, Space, Text, Utf8, Whole, Writable,
+    AnyValue, BitGroup, Code, Coded, CountReadable, CountWritable, DateTime, Decoded, Displayed,
+    Documented, Encodable, Error, Flags, Held, Identification, Point, PointInfo, Points, Raw,
+    Readable, Reading, Refused, Space, Text, Utf8, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -85,6 +85,9 @@ macro_rules! table {
     };
     ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
         $crate::$run::<device::points::$point, $characters, $words>($vector)
+    };
+    ($run:ident $point:ident (size $words:literal) $vector:ident) => {
+        $crate::$run::<device::points::$point, $words>($vector)
     };
     ($run:ident $point:ident (digits $count:literal $number:ident) $vector:ident) => {
         $crate::$run::<device::points::$point, _, $number, $count>($vector)
@@ -1020,6 +1023,51 @@ where
 {
     let text = String::from_utf8(vector.bytes("text")).map_err(|_| "no UTF-8")?;
     let (status, words) = match Utf8::new(&text).and_then(P::encode) {
+        Ok(raw) => ("ok", raw.into_words().to_vec()),
+        Err(error) => (error.name(), Vec::new()),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.numbers("words"), words)
+}
+
+/// The numbers of a date and time, in the order of the vectors.
+fn date_numbers(date: DateTime) -> Vec<u16> {
+    let numbers = [date.month, date.day, date.hour, date.minute, date.second].map(u16::from);
+    [&[date.year], numbers.as_slice(), &[date.millisecond]].concat()
+}
+
+/// Words to a date and time.
+pub fn date_decode<P, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Readable<Raw = [u16; W], Value = DateTime, Factors = ()>,
+{
+    let mut raw = [0; W];
+    raw.copy_from_slice(&vector.numbers::<u16>("words"));
+    let (status, numbers) = match P::decode(raw).into_result() {
+        Ok(date) => ("ok", date_numbers(date)),
+        Err(error) => (error.name(), Vec::new()),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.numbers("numbers"), numbers)
+}
+
+/// A date and time to words.
+pub fn date_encode<P, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Encodable<Raw = [u16; W], Value = DateTime, With = ()> + Whole,
+{
+    let numbers = vector.numbers::<u16>("numbers");
+    let short = |place: usize| u8::try_from(numbers[place]).unwrap_or(u8::MAX);
+    let date = DateTime {
+        year: numbers[0],
+        month: short(1),
+        day: short(2),
+        hour: short(3),
+        minute: short(4),
+        second: short(5),
+        millisecond: numbers[6],
+    };
+    let (status, words) = match P::encode(date) {
         Ok(raw) => ("ok", raw.into_words().to_vec()),
         Err(error) => (error.name(), Vec::new()),
     };

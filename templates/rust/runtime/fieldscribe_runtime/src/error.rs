@@ -46,6 +46,8 @@ pub enum Error {
     UnknownValue(Outside<i64>),
     /// The text is too long, or has a character that is none of its encoding.
     BadText(Option<&'static str>),
+    /// There is no such date or time, or the point has no room for it.
+    BadDate(Option<&'static str>),
     /// A factor that is read at run time is zero, or no quantity.
     ZeroFactor(Option<&'static str>),
     /// No case of the scale holds.
@@ -68,7 +70,7 @@ pub enum Error {
         /// The name of the point that needs it.
         point: Option<&'static str>,
     },
-    /// The words do not hold what they should: a text that is no UTF-8 or UTF-16.
+    /// The words do not hold what they should: a text that is no UTF-8 or UTF-16, a 31st of February.
     Malformed(Option<&'static str>),
     /// There are more or fewer words than the point has.
     WrongLength(Option<&'static str>),
@@ -146,7 +148,7 @@ impl Error {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::OutOfRange(_) | Self::BadText(_) => "out_of_range",
+            Self::OutOfRange(_) | Self::BadText(_) | Self::BadDate(_) => "out_of_range",
             Self::NotANumber(_) | Self::UnknownName { .. } => "not_a_number",
             Self::UnknownValue(_) => "unknown_value",
             Self::ZeroFactor(_) => "zero_factor",
@@ -188,6 +190,7 @@ impl Error {
             | Self::Special { point, .. }
             | Self::Access(point, _) => Some(point),
             Self::BadText(point)
+            | Self::BadDate(point)
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
             | Self::Overflow(point)
@@ -213,6 +216,7 @@ impl Error {
     pub(crate) fn named(mut self, name: &'static str) -> Self {
         match &mut self {
             Self::BadText(point)
+            | Self::BadDate(point)
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
             | Self::Overflow(point)
@@ -295,6 +299,7 @@ impl fmt::Display for Error {
             Self::BadText(_) => {
                 "the text is too long, or has a character that is none of its encoding"
             }
+            Self::BadDate(_) => "there is no such date or time, or the point has no room for it",
             Self::ZeroFactor(_) => "a factor is zero or no quantity",
             Self::NoCase(_) => "no case of the scale holds",
             Self::Overflow(_) => "the result does not fit its type",

@@ -1,0 +1,141 @@
+"""Vectors of dates and times in parts: ends of months and years, leap years, what is no date, and what has no room."""
+
+from collections.abc import Iterator, Sequence
+
+from fieldscribe.model import DatePart, Shape, Text
+from fieldscribe.targets.vectors.lines import Lines
+
+_FIELDS = ("year", "month", "day", "hour", "minute", "second", "millisecond")
+_MOST_OF_TIME = (23, 59, 59, 999)
+_ZEROS = (0,) * len(_FIELDS)
+_DATES = (
+    *((2000, 2, 29, 0, 0, 0, 0), (2024, 2, 29, 23, 59, 59, 999), (2023, 12, 31, 12, 30, 45, 250)),
+    *((2099, 10, 10, 10, 10, 10, 10), (1999, 9, 9, 9, 9, 9, 9), (1, 1, 1, 0, 0, 0, 1), (9999, 12, 31, 19, 19, 19, 0)),
+    *((1980, 4, 30, 20, 0, 58, 999), (2255, 1, 31, 1, 2, 3, 4), (2107, 11, 30, 8, 7, 6, 5), (2010, 8, 28, 0, 59, 0, 0)),
+    *((2000 + number, 3, 1 + number, 5, 5, 5, 500) for number in range(7)),
+)
+_NONE = (
+    *((2023, 2, 29, 0, 0, 0, 0), (1900, 2, 29, 0, 0, 0, 0), (2100, 2, 29, 0, 0, 0, 0), (2024, 2, 30, 0, 0, 0, 0)),
+    *((2024, 4, 31, 0, 0, 0, 0), (2024, 13, 1, 0, 0, 0, 0), (2024, 0, 1, 0, 0, 0, 0), (2024, 1, 0, 0, 0, 0, 0)),
+    *((2024, 1, 32, 0, 0, 0, 0), (2024, 1, 1, 24, 0, 0, 0), (2024, 1, 1, 0, 60, 0, 0), (2024, 1, 1, 0, 0, 60, 0)),
+    *((2024, 1, 1, 0, 0, 0, 1000), (0, 1, 1, 0, 0, 0, 0), (10000, 1, 1, 0, 0, 0, 0), _ZEROS),
+)
+"""What is no date and time, each for one reason."""
+
+
+def dates(lines: Lines, shape: Shape, layout: Text) -> None:
+    """Add vectors of a date or time: each way, and what may not be."""
+    for numbers in (*_DATES, *_NONE):
+        held = _held(layout, numbers)
+        words = _words(layout, held)
+        if shape.readable and words is not None:
+            read = _decoded(layout, held)
+            for received in (words, _beside(layout, words)):
+                lines.add("date_decode", received, "malformed" if read is None else "ok", read)
+        if shape.writable:
+            good = words is not None and _is_real(layout, numbers)
+            lines.add("date_encode", numbers, "ok" if good else "out_of_range", words if good else None)
+    for word in (0, 0xFFFF, 0x9999, 0x0A0A, 0xAAAA) if shape.readable else ():
+        read = _read(layout, word)
+        lines.add("date_decode", [word] * layout.words, "malformed" if read is None else "ok", read)
+
+
+def typical_date(layout: Text) -> list[int]:
+    """Return the words of a date and time that its parts hold."""
+    return next(words for numbers in _DATES if (words := _words(layout, _held(layout, numbers))) is not None)
+
+
+def _held(layout: Text, numbers: Sequence[int]) -> dict[str, int]:
+    """Return the number of each part, without what it counts from."""
+    named = dict(zip(_FIELDS, numbers, strict=True))
+    if not _has(layout, "second"):
+        named["millisecond"] += 1000 * named["second"]
+    named["weekday"] = _days_before(*numbers[:3])
+    return {
+        part.name: _weekday(named["weekday"], part.base) if part.name == "weekday" else named[part.name] - part.base
+        for part in layout.parts
+    }
+
+
+def _weekday(days: int, sunday: int) -> int:
+    """Return the number of the weekday so many days after 0001-01-01, a Monday, where Sunday has a number."""
+    return {0: (days + 1) % 7, 1: (days + 1) % 7 + 1, 6: days % 7, 7: days % 7 + 1}[sunday]
+
+
+def _days_before(year: int, month: int, day: int) -> int:
+    past = year - 1
+    months = sum(_days_in(year, number) for number in range(1, min(month, 13)))
+    return 365 * past + past // 4 - past // 100 + past // 400 + months + day - 1
+
+
+def _days_in(year: int, month: int) -> int:
+    leap = year % 4 == 0 and (year % 100 != 0 or year % 400 == 0)
+    return 28 + leap if month == 2 else 30 if month in (4, 6, 9, 11) else 31
+
+
+def _has(layout: Text, name: str) -> bool:
+    return any(part.name == name for part in layout.parts)
+
+
+def _words(layout: Text, held: dict[str, int]) -> list[int] | None:
+    """Return the words of numbers; None if a part has no room for its own."""
+    words = [0] * layout.words
+    for part in layout.parts:
+        number, width = held[part.name], part.bits[0] - part.bits[1] + 1
+        digits = "".join(f"{int(digit):04b}" for digit in str(max(number, 0)))
+        bits = int(digits, 2) if layout.bcd else number
+        if not 0 <= bits < 1 << width or number < 0:
+            return None
+        words[part.word] |= bits << part.bits[1]
+    return _swapped(layout, words)
+
+
+def _swapped(layout: Text, words: Sequence[int]) -> list[int]:
+    return [word % 256 * 256 + word // 256 for word in words] if layout.low_first else [*words]
+
+
+def _beside(layout: Text, words: Sequence[int]) -> list[int]:
+    """Return the words with ones in all bits that are of no part, or of the weekday."""
+    beside = [0xFFFF] * layout.words
+    for part in layout.parts:
+        if part.name != "weekday":
+            beside[part.word] &= ~_mask(part)
+    return [word | other for word, other in zip(words, _swapped(layout, beside), strict=True)]
+
+
+def _mask(part: DatePart) -> int:
+    return sum(1 << bit for bit in range(part.bits[1], part.bits[0] + 1))
+
+
+def _read(layout: Text, word: int) -> list[int] | None:
+    """Return the date and time if all words are the same, whose two bytes are too."""
+    held = {}
+    for part in layout.parts:
+        bits = f"{word:016b}"[15 - part.bits[0] : 16 - part.bits[1]]
+        digits = [int(bits[place : place + 4], 2) for place in range(0, len(bits), 4)]
+        if layout.bcd and max(digits) > 9 and part.name != "weekday":
+            return None
+        held[part.name] = int("".join(map(str, digits))) if layout.bcd else int(bits, 2)
+    return _decoded(layout, held)
+
+
+def _decoded(layout: Text, held: dict[str, int]) -> list[int] | None:
+    """Return the seven numbers of a date and time; None if there is no such one."""
+    base = {part.name: part.base for part in layout.parts}
+    numbers = [held[name] + base[name] if name in held else 0 for name in _FIELDS]
+    if not _has(layout, "second"):
+        numbers[5:] = divmod(numbers[6], 1000)
+    return numbers if _is_real(layout, numbers) else None
+
+
+def _is_real(layout: Text, numbers: Sequence[int]) -> bool:
+    return all(_faults(layout, numbers))
+
+
+def _faults(layout: Text, numbers: Sequence[int]) -> Iterator[bool]:
+    """Yield whether a date is one, and a time."""
+    year, month, day = numbers[:3]
+    if _has(layout, "day"):
+        yield 1 <= year <= 9999 and 1 <= month <= 12 and 1 <= day <= _days_in(year, month)
+    if _has(layout, "hour"):
+        yield all(number <= most for number, most in zip(numbers[3:], _MOST_OF_TIME, strict=True))
