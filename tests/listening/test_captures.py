@@ -181,8 +181,10 @@ def test_a_trace_has_requests_and_answers_with_their_times(line: object, expecte
 
 @pytest.mark.parametrize("text", ["title\n01 03\nend\n", "01 03\n" + "no frame\n" * 1100])
 def test_a_log_may_have_lines_without_a_frame(text: str) -> None:
-    stream = io.BufferedReader(io.BytesIO(text.encode()))
-    found = chunks_of(stream, frozenset(), lambda line: Chunk(None, BYTES, b"\1") if line == "01 03" else None)
+    def chunk_of(line: str) -> Chunk | None:
+        return Chunk(None, BYTES, b"\1") if line == "01 03" else None
+
+    found = chunks_of(io.BufferedReader(io.BytesIO(text.encode())), frozenset(), chunk_of)
     assert len(list(found)) == 1
 
 

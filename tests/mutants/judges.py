@@ -265,7 +265,7 @@ class OfRust(Judge):
 
 SESSIONS = "sessions"
 """What judges the runtime of TypeScript beside the vectors: the tests that ask devices, or write what people do."""
-_ASKING = "notations", "bases", "selections", "sessions", "lines"
+_ASKING = "codecs", "notations", "bases", "selections", "sessions", "lines"
 
 
 class OfTypeScript(Judge):
