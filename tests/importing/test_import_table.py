@@ -155,6 +155,7 @@ def test_columns_are_named_by_heading_or_number(tmp_path: Path, capsys: pytest.C
         f"fieldscribe: {path}: no table has a column `Wo`\n  hint: there are `what`, `where`, `so`, `Unit`, `Notes`\n"
     )
     assert main(["import", "table", path, "--column", "address=6"]) == 1
+    assert "no table has a column `6`" in capsys.readouterr().err
 
 
 def test_a_second_table_goes_on_with_the_columns_of_the_first(

@@ -75,6 +75,7 @@ def rows(**facts: Any) -> dict[str, Any]:
         ({"scale": "much"}, "# ? not carried: scale: much"),
         ({"min": 1, "format": "float"}, "# ? not carried: range: 1..None"),
         ({"enum": ["a", 1]}, "# ? not carried: enum: ['a', 1]"),
+        ({"enum": [10, 25], "scale": 10}, "# ? not carried: enum: [10, 25]"),
         ({"on_value": 5}, "# ? not carried: on_value: 5, off_value: None"),
         ({"address": 70000}, "# ? at: 70000? "),
     ],
