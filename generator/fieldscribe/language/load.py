@@ -42,6 +42,8 @@ def scalar(text: str) -> int | Decimal | bool | str | None:
     """
     if text[:1] not in _NUMBER_STARTS:
         return WORDS.get(text, text)
+    if text.isdecimal() and text.isascii():  # most numbers are, and a pattern takes longer
+        return int(text) if len(text) <= MOST_DIGITS else text
     if text[-1] not in _NUMBER_ENDS:
         return text
     number = _NUMBER.fullmatch(text)
