@@ -31,6 +31,7 @@ from fieldscribe.resources import templates_dir
 from fieldscribe.targets import TARGETS, target
 from support.described import loaded, made
 from support.files import copy_compiler
+from support.models import FREQUENCY_SOURCE, point, sample_device
 from support.places import TESTS
 from support.quick import full_but
 
@@ -180,6 +181,22 @@ def test_texts_for_people_count_among_all_facts() -> None:
     ]
     assert facts_digest(replace(device, version="9.9.9")) == facts_digest(device)
     assert len({all_facts(other) for other in (device, *edited)}) == len(edited) + 1
+
+
+@pytest.mark.parametrize(
+    "facts",
+    [{"name": "third"}, {"closed": False}, {"entries": FREQUENCY_SOURCE.entries[:2]}, {"name": "first"}],
+    ids=str,
+)
+def test_what_tells_an_enum_from_one_of_the_same_shape_counts(facts: dict[str, Any]) -> None:
+    """Shapes that differ in the name of their enum are worked out once; each still has its name, and other facts."""
+    first = point("first", 1, enum=replace(FREQUENCY_SOURCE, name="first"))
+    shape = replace(first.shape, enum=replace(FREQUENCY_SOURCE, name="second"))
+    second = point("second", 2)
+    device = sample_device((first, replace(second, shape=shape)))
+    changed_shape = replace(shape, enum=replace(FREQUENCY_SOURCE, **{"name": "second", **facts}))
+    other = replace(device, points=(first, replace(second, shape=changed_shape)))
+    assert digest(other) != digest(device)
 
 
 NEW_KEY = """    Fact(
