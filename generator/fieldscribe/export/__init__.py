@@ -16,7 +16,7 @@ from fieldscribe.model import Device
 
 
 class ExportError(ValueError):
-    """A form cannot express the device without changing its meaning."""
+    """The device cannot be exported in this form without changing its meaning."""
 
 
 def export_model(device: Device) -> dict[str, Any]:
@@ -25,7 +25,7 @@ def export_model(device: Device) -> dict[str, Any]:
 
 
 def export_form(form: str, device: Device, unit: int | None) -> bytes:
-    """Return the device in a form that only some families have. Raises ExportError."""
+    """Return the device in a form of export that only some families have. Raises ExportError."""
     own_family = family(device.family)
     if form not in own_family.exports:
         takers = " and ".join(family.name for family in families() if form in family.exports)

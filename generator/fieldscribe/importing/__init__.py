@@ -1,8 +1,8 @@
 """Drafts a description from the tables of a file: `import table`.
 
 The tables come from `readers`, their columns from `headings`, points from `draft_points`, YAML from `draft_text`.
-What is not certain is no fact of the draft but a question in it, and the compiler has the last word: `compilable`
-replaces each fact that it rejects by a question.
+Whatever is uncertain becomes a question in the draft, not a fact. The compiler decides last: `compilable` turns each
+fact that it rejects into a question.
 """
 
 import re
@@ -22,7 +22,7 @@ from fieldscribe.importing.readers import Table, UnreadableError
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 
 _OVERLAPS = ("address-taken", "bits-overlap")
-"""Errors about points with the same words."""
+"""Errors about points with equal names."""
 
 
 class Draft(NamedTuple):
@@ -51,7 +51,7 @@ def draft(tables: Iterable[Table], options: Options) -> Draft:
 
 
 def _family_of(tables: Iterable[Columns], options: Options) -> Family:
-    """Return the family that the user names, or the first that has the most of the spaces."""
+    """Return the family that the user names, or the first with the most of these spaces."""
     if options.family:
         return family_of_name(options.family)
     spaces = {options.space or _space_of(columns) or "holding" for columns in tables}
@@ -112,12 +112,12 @@ def _may_be_reference(point: DraftPoint) -> bool:
 
 
 def _space_of(columns: Columns) -> str | None:
-    """Return the space that the heading of the addresses, the title or the heading of the table names."""
+    """Return the space named by the heading of the addresses, or by the title or the heading of the table."""
     return next(filter(None, map(space_in, (columns.heading("address"), columns.title, columns.table.heading))), None)
 
 
 def _ask_about_doubles(points: Iterable[DraftPoint]) -> None:
-    """Leave the address of a point open if a point above has the same."""
+    """Turn the address of a point into a question if a point above has the same address."""
     first: dict[tuple[str, int | None, str | None], DraftPoint] = {}
     for point in points:
         above = first.setdefault((point.space, point.wire, point.facts.get("bits")), point)
@@ -126,7 +126,7 @@ def _ask_about_doubles(points: Iterable[DraftPoint]) -> None:
 
 
 def _give_names(groups: Iterable[DraftGroup]) -> None:
-    """Give every group and every point a name of its own."""
+    """Give every group and every point a unique name."""
     of_groups, of_points = Names(), Names()
     for group in groups:
         group.name = of_groups.give(snake(group.title, "points"), group.space)
@@ -152,9 +152,9 @@ def compilable(groups: Sequence[DraftGroup], head: Head, *, with_head: bool) -> 
 
 
 def _withdraw_rejected(lines: Sequence[Line]) -> bool:
-    """Compile the lines, and turn what is wrong into questions. Return True if anything was.
+    """Compile the lines, and turn rejected facts into questions. Return True if there were any.
 
-    Raises ValueError for an error that no point can mend.
+    Raises ValueError for an error that no question can mend.
     """
     report = Report()
     with TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 """Reads single cells: their plain text, and the address, type, access, range, step, unit or labels that they print.
 
-A function returns None (or nothing) for a cell that it does not understand as a whole: nothing is guessed.
+A function returns None (or an empty result) for a cell that it does not understand completely: nothing is guessed.
 """
 
 import html
@@ -38,7 +38,7 @@ _UNIT_WORDS = {
     "tage": "d", "days": "d", "grad": "°", "prozent": "%", "percent": "%", "hz": "Hz", "khz": "kHz",
     "volt": "V", "ampere": "A", "amps": "A", "watt": "W", "u/min": "rpm", "1/min": "1/min",
 }  # fmt: skip
-"""Units as people write them, in both languages."""
+"""Other spellings of units, in both languages."""
 
 _ACCESS_WORDS = {
     "r": "r, ro, r/o, read, read only, readonly, lesen, nur lesen, l, get",
@@ -118,7 +118,7 @@ class Address(NamedTuple):
 
 
 def addresses_in(cell: str, *, is_hex: bool) -> list[Address] | None:
-    """Return the numbers of a cell that holds addresses only; None for any other cell.
+    """Return the numbers of a cell that holds only addresses; None for any other cell.
 
     `10h`, `0x10` and `H'10` are hexadecimal; a number without such a mark is so if `is_hex`.
     """
@@ -134,7 +134,7 @@ def addresses_in(cell: str, *, is_hex: bool) -> list[Address] | None:
 
 
 def looks_hex(cell: str) -> bool:
-    """Return True for hexadecimal digits, letters among them, that carry no mark."""
+    """Return True for hexadecimal digits with letters and without a mark."""
     return re.fullmatch(r"(?=.*[A-Fa-f])(?=.*[0-9])[0-9A-Fa-f]{2,8}", cell.strip()) is not None
 
 
@@ -165,7 +165,7 @@ def bits_in(cell: str) -> str | None:
 
 
 def is_reserved(title: str) -> bool:
-    """Return True if a title says that the maker keeps the address to itself."""
+    """Return True if a title says that the maker reserves the address."""
     return _RESERVED.fullmatch(title) is not None
 
 
@@ -205,7 +205,7 @@ def unit_in(text: str) -> str:
 class Range(NamedTuple):
     """A printed range as a description writes it, and its unit.
 
-    `in_units` means that the numbers are values in the unit, for a unit or decimals show it; otherwise they may be raw.
+    `in_units`: the numbers are values in the unit, because a unit or decimals show it; otherwise they may be raw.
     """
 
     text: str

@@ -1,7 +1,7 @@
-"""Drafts a description from a CAN database (DBC), as cantools reads it: messages, signals, and what is not carried.
+"""Drafts a description from a CAN database (DBC), as cantools reads it: messages, signals, and a count of what is lost.
 
-A signal whose name several messages have gets the message's name in front. The name in the database stays as the code
-where no other signal has it.
+A signal whose name occurs in several messages gets the name of the message in front. A unique name in the database
+becomes the code.
 """
 
 import re
@@ -25,13 +25,13 @@ _CODE = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 
 class _Given:
-    """Gives names that differ by more than underscores: languages without these would have them twice."""
+    """Gives names that differ in more than underscores: in languages without underscores others would clash."""
 
     def __init__(self) -> None:
         self._taken: set[str] = set()
 
     def give(self, name: str) -> str:
-        """Return the name, with a number after it if it is taken."""
+        """Return the name, followed by a number if it is taken."""
         candidates = chain((name,), (f"{name}_n{number}" for number in count(2)))
         given = next(each for each in candidates if each.replace("_", "") not in self._taken)
         self._taken.add(given.replace("_", ""))
@@ -39,9 +39,9 @@ class _Given:
 
 
 class DbcDraft:
-    """The draft of a database: its groups of points, the lines of its head, and what is not carried, counted.
+    """The draft of a database: its groups of points, the lines of its head, and counts of what is not carried.
 
-    Of a node, its own messages are those that the device sends; without one, all are.
+    With a node, the device sends the messages of that node; without one, it sends all.
     """
 
     def __init__(self, database: Any, text: str, node: str | None = None) -> None:
@@ -169,7 +169,7 @@ class DbcDraft:
     def _limits(
         self, point: DraftPoint, signal: Any, factor: Fraction, offset: Fraction, names: Mapping[int, str]
     ) -> None:
-        """Draft the range in raw numbers; one that leaves out names or numbers with names is not carried."""
+        """Draft the range in raw numbers; a range without some named numbers is not carried."""
         if signal.minimum is None or signal.maximum is None or signal.is_float or not factor:
             return
         ends = [(Fraction(_decimal(end)) - offset) / factor for end in (signal.minimum, signal.maximum)]
@@ -186,7 +186,7 @@ class DbcDraft:
 
 
 def _views(signals: list[Any], by_name: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
-    """Yield signals that share bits with others in a frame, each with one that it is a view of."""
+    """Yield signals that share bits with others in a frame, each with the one that it is a view of."""
     seen: list[tuple[Any, frozenset[int]]] = []
     for signal in signals:
         low_first = signal.byte_order == "little_endian"
@@ -217,7 +217,7 @@ def _lines(text: str) -> dict[tuple[int, str], int]:
 
 
 def _name(text: str) -> str:
-    """Return a name of the database in snake_case: `EngSpeed_RPM` is eng_speed_rpm."""
+    """Return a name of the database in snake_case: `EngSpeed_RPM` becomes eng_speed_rpm."""
     parted = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", text)
     words = "_".join(re.findall(r"[a-z0-9]+", parted.lower()))
     return words if words[:1].isalpha() else snake(f"signal {words}", "signal")
@@ -244,7 +244,7 @@ def _fits(signal: Any, raw: int) -> bool:
 
 
 def _selection(signal: Any, by_name: Mapping[str, Any]) -> Iterator[tuple[str, list[int]]]:
-    """Yield the multiplexers that select a signal, each with its numbers: the one that selects it comes first."""
+    """Yield the multiplexers that select a signal, each with its numbers, the direct one first."""
     seen: set[str] = set()
     while signal.multiplexer_signal in by_name and signal.multiplexer_ids and signal.name not in seen:
         seen.add(signal.name)
@@ -253,7 +253,7 @@ def _selection(signal: Any, by_name: Mapping[str, Any]) -> Iterator[tuple[str, l
 
 
 def _when(signal: Any, by_name: Mapping[str, Any], names: Mapping[str, str]) -> str:
-    """Return which numbers of which multiplexers select a signal; empty if it always comes."""
+    """Return the condition of multiplexer numbers that selects a signal; empty if it is always present."""
     several = [(names[name], ids) for name, ids in _selection(signal, by_name)]
     return " and ".join(
         f"{name} == {ids[0]}" if len(ids) == 1 else f"{name} in ({', '.join(map(str, ids))})"

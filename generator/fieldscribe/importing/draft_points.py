@@ -1,4 +1,4 @@
-"""Turns the rows of a table into draft points: YAML facts for what the cells print, questions for the rest."""
+"""Turns the rows of a table into draft points: YAML facts for clear cells, questions for the rest."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -20,11 +20,11 @@ _LONGEST_TITLE, _LONGEST_CODE = 120, 40
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What the user says.
+    """The options of the user.
 
     `columns` has the headings or numbers of columns by role, `tables` and `lines` choose tables by number and place.
     `base` is the number printed for wire address 0; None stands for Modicon references. `is_hex` says that addresses
-    without a mark are hexadecimal, `address_part` which number counts where a cell prints several. `ranges` says
+    without a mark are hexadecimal, `address_part` which number counts if a cell prints several. `ranges` says
     whether ranges are `raw` or in `units`.
     """
 
@@ -41,9 +41,9 @@ class Options:
 
 
 def points_of(columns: Columns, space: str, options: Options) -> tuple[list[DraftPoint], list[str]]:
-    """Return the points of a table, and comments for the rows above the first point that are none.
+    """Return the points of a table, and comments for rows above the first point that are not points.
 
-    A further row without address, code and name is a bit of the point above, or a question there.
+    A later row without address, code and name is a bit of the point above, or a question there.
     """
     points: list[DraftPoint] = []
     comments: list[str] = []
@@ -69,7 +69,7 @@ def points_of(columns: Columns, space: str, options: Options) -> tuple[list[Draf
 
 
 def _by_role(row: Row, columns: Columns) -> dict[str, str]:
-    """Return the cells that hold something, by role; those of several descriptions are joined."""
+    """Return the non-empty cells by role; several descriptions are joined."""
     cells: dict[str, str] = {}
     for role, places in columns.places.items():
         filled = [row.cells[place] for place in places if place < len(row.cells) and phrase(row.cells[place])]
@@ -141,9 +141,9 @@ class _RowReader:
             point.reference = address.value - wire, printed
 
     def _on_wire(self, text: str, place: int) -> list[tuple[Address, str | None, int] | None]:
-        """Return the addresses of a cell with the space and the wire address that each means; None for what is unclear.
+        """Return the addresses of a cell, each with its space and wire address; None for unclear ones.
 
-        A Modicon reference means both, any other number no space.
+        A Modicon reference gives both, any other number no space.
         """
         found = read.addresses_in(text, is_hex=self._options.is_hex or self._columns.is_hex(place)) or []
         if self._options.address_part is not None:
@@ -165,7 +165,7 @@ def _of_reference(address: Address) -> tuple[Address, str, int] | None:
 
 
 def _set(point: DraftPoint, role: str, value: str | None, cells: Mapping[str, str]) -> None:
-    """Set a fact to what its cell means; ask if the meaning is unknown."""
+    """Set a fact from its cell; ask if the cell is unclear."""
     if value:
         point.facts[role] = value
     elif role in cells:

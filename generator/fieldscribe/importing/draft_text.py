@@ -1,6 +1,6 @@
-"""Writes a draft as YAML: the head of a device, its groups and points, and `# ?` wherever a person must decide.
+"""Writes a draft as YAML: the head of a device, its groups and points, and `# ?` for each decision of a person.
 
-Whatever a cell holds stays a text, or stays inside its comment.
+The contents of a cell stay inside a text or a comment.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _KEYS = (
 
 
 class Document(NamedTuple):
-    """A file that the draft was made from; where its points cite lines, the audit compares them."""
+    """A file from which the draft was made; if points cite its lines, the audit compares them."""
 
     file: str
     sha256: str
@@ -42,7 +42,7 @@ class Document(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """What the draft says of the device, and of the files that it was made from; the language is that of its titles.
+    """The head of the draft: facts of the device and of the source files; the language is that of the titles.
 
     `facts` are further lines of the head, `kind` is what the files hold.
     """
@@ -84,12 +84,12 @@ class DraftPoint:
     titles: Mapping[str, str] = field(default_factory=dict)
     """Its titles in other languages than that of the draft."""
     remarks: list[str] = field(default_factory=list)
-    """What a reader should know, and need not settle."""
+    """Remarks that need no decision."""
     views: bool = False
-    """Whether it may have the words of other points."""
+    """True if it may share the words of other points."""
 
     def share(self, other: DraftPoint, key: str, reason: str) -> None:
-        """Become a view of another point that stands at the same address, or it of this one; else leave `key` open."""
+        """Become a view of another point at the same address, or let it become one of this; else leave `key` open."""
         viewed = self.facts.get("view_of"), other.facts.get("view_of")
         if not self.views or None not in viewed:
             self.withdraw(key, reason)
@@ -99,7 +99,7 @@ class DraftPoint:
             other.facts["view_of"] = self.name
 
     def withdraw(self, key: str, reason: str) -> None:
-        """Replace a fact that does not compile by a question; where there is none to replace, all facts.
+        """Replace a fact that does not compile by a question; if it cannot be told which, replace all facts.
 
         Raises ValueError if nothing is left to replace.
         """
@@ -150,7 +150,7 @@ class DraftGroup:
 
 @dataclass(slots=True)
 class DraftBlock:
-    """Lines of the head that become a question if the compiler rejects them, and what a person must settle there."""
+    """Lines of the head that become a question if the compiler rejects them, and further questions."""
 
     lines: list[str]
     questions: list[str] = field(default_factory=list)
@@ -164,7 +164,7 @@ class DraftBlock:
 
 
 class Line(NamedTuple):
-    """A line of the draft, with what it belongs to, and by which key."""
+    """A line of the draft, with its owner and its key."""
 
     text: str
     owner: DraftPoint | DraftGroup | DraftBlock | None = None
@@ -203,13 +203,13 @@ def snake(title: str, otherwise: str, *, articles: bool = False) -> str:
 
 
 class Names:
-    """Gives names that are unique."""
+    """Gives unique names."""
 
     def __init__(self) -> None:
         self._taken: set[str] = set()
 
     def give(self, name: str, *suffixes: str) -> str:
-        """Return the name; if it is taken, with the first suffix that makes it free or else a number after it."""
+        """Return the name; if it is taken, with the first suffix that makes it unique, or else a number."""
         candidates = chain((name,), (f"{name}_{one}" for one in suffixes if one), (f"{name}_{n}" for n in count(2)))
         given = next(candidate for candidate in candidates if candidate not in self._taken)
         self._taken.add(given)

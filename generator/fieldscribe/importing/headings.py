@@ -14,9 +14,9 @@ ROLES = (
     *("code", "name", "address", "space", "bits", "type", "length", "access", "range", "least", "greatest", "step"),
     *("unit", "default", "formula", "description", IGNORED),
 )
-"""What a column can hold."""
+"""The roles of columns."""
 _JOINED = ("address", "description", IGNORED)
-"""Roles of which every column is read."""
+"""Roles that several columns may have."""
 
 _ADDRESS_BEFORE = (
     r"modbus|modicon|register|reg|start|can|bus|wire|protocol|data|mb|plc|holding|input|parameter|coil|discrete|object|io"
@@ -75,7 +75,7 @@ _HEADINGS = {
         r"wertebedeutung"
     ),
 }
-"""For each role the usual headings, English and German; the first role that fits wins."""
+"""The usual headings of each role, English and German; the first role that fits wins."""
 
 _PATTERNS = {role: re.compile(words) for role, words in _HEADINGS.items()}
 _LONGEST_HEADING, _MOST_HEADING_ROWS = 60, 4
@@ -104,7 +104,7 @@ class Columns:
 
     @property
     def hold_points(self) -> bool:
-        """Return True if the rows can be points: columns say which point it is, and what it is."""
+        """Return True if the rows can be points: columns identify a point and describe it."""
         return bool(
             self.places.keys() & {"address", "code"}
             and self.places.keys() & {"name", "description", "range", "unit", "type", "access"}
@@ -112,7 +112,7 @@ class Columns:
 
     @property
     def unread(self) -> list[str]:
-        """Return the columns that hold something and have no role, or a role that another column has already."""
+        """Return the non-empty columns without a role, or with a role that another column has already."""
         read = {place for role, places in self.places.items() for place in (places if role in _JOINED else places[:1])}
         filled = {
             place for row in self.table.rows[self.first :] for place, cell in enumerate(row.cells) if cell.strip()
@@ -134,7 +134,7 @@ def role_of(heading: str) -> str | None:
 
 
 def columns_of(table: Table, wanted: Wanted, above: Columns | None) -> Columns:
-    """Return the columns of a table; a table without headings has those of the table `above` if it is as wide.
+    """Return the columns of a table; a table without headings has those of the table `above` if that is equally wide.
 
     `wanted` holds for each role the headings or column numbers that the user named.
     """
@@ -180,14 +180,14 @@ def _headings(table: Table, named: Iterable[str]) -> tuple[str, tuple[str, ...],
 
 
 def _goes_on(row: Row) -> bool:
-    """Return True for a second row of headings, below one that spans several columns."""
+    """Return True for a second row of headings, below headings that span several columns."""
     filled = [one_line(cell) for cell in row.filled]
     has_digits = any(char.isdigit() for cell in filled for char in cell)
     return not has_digits and len(filled) > 1 and sum(map(bool, map(role_of, filled))) * 2 >= len(filled)
 
 
 def _places(name: str, headings: Sequence[str]) -> list[int]:
-    """Return the columns with this heading; a number that is no heading counts from 1."""
+    """Return the columns with this heading; a number that is not a heading counts columns from 1."""
     places = [place for place, heading in enumerate(headings) if same_heading(heading) == same_heading(name)]
     return [int(name) - 1] if not places and is_column_number(name) else places
 
@@ -198,14 +198,14 @@ def is_column_number(name: str) -> bool:
 
 
 def same_heading(heading: str) -> str:
-    """Return a heading as it is compared: without capitals and extra blanks."""
+    """Return a heading for comparison: without capitals and extra blanks."""
     return " ".join(heading.split()).casefold()
 
 
 def upright(table: Table) -> Table:
-    """Return a table that prints one fact a row (`ID | 57`, `Range | 0 to 70`) as one row below headings.
+    """Return a table that prints one fact in each row (`ID | 57`, `Range | 0 to 70`) as one row below headings.
 
-    Its heading becomes the name; any other table is returned as it is.
+    Its heading becomes the name; any other table is returned unchanged.
     """
     facts = [(one_line(row.cells[0]), row.cells[1]) for row in table.rows if len(row.filled) == 2]
     roles = [role_of(heading) for heading, _ in facts]

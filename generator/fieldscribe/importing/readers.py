@@ -19,7 +19,7 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELL = 50_000, 400, 8_000
 
 
 class UnreadableError(Exception):
-    """The file cannot be read as tables, or has no such column; `line` is where (0: the whole file)."""
+    """The file cannot be read as tables, or has no such column; `line` is the place (0: the whole file)."""
 
     def __init__(self, message: str, line: int = 0, hint: str = "") -> None:
         super().__init__(message)
@@ -79,7 +79,7 @@ class TableCollector:
         self._count = 0
 
     def add(self, line: int, cells: list[str]) -> None:
-        """Add a row to the current table, without empty cells at its end. Raises UnreadableError beyond a limit."""
+        """Add a row to the current table, without trailing empty cells. Raises UnreadableError beyond a limit."""
         while cells and not cells[-1]:
             cells.pop()
         self._count += 1
@@ -192,7 +192,7 @@ def _read_workbook(data: bytes) -> list[Table]:
 
 
 def _cell_text(value: Any) -> str:
-    """Return a cell as its reader sees it: whole numbers without a decimal point."""
+    """Return the text of a cell as a workbook shows it: whole numbers without a decimal point."""
     if value is None:
         return ""
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
@@ -241,7 +241,7 @@ def _heading(line: str) -> re.Match[str] | None:
 
 
 def _separator(line: str) -> str:
-    """Return what separates the cells of a line, `|` or a tab; empty for prose and tables of contents."""
+    """Return the separator of the cells of a line, `|` or a tab; empty for prose and tables of contents."""
     if "|" in line and _MARKDOWN_ROW.fullmatch(line):
         return "|"
     is_contents = len(line) < 2 * _LONGEST_HEADING and _CONTENTS_LINE.fullmatch(line)
@@ -258,7 +258,7 @@ def _split(line: str, separator: str) -> list[str]:
 def _read_html(text: str) -> list[Table]:
     """Return the tables of a page, each with the heading or caption above it.
 
-    A cell that spans rows stands in each of them, one that spans columns in the first; a table inside a cell is text.
+    A cell that spans rows appears in each of them, one that spans columns in the first; a table inside a cell is text.
     """
     parser = _TableParser()
     parser.feed(text)
@@ -268,7 +268,7 @@ def _read_html(text: str) -> list[Table]:
 
 
 class _TableParser(HTMLParser):
-    """Collects rows while tags arrive; an element that is never closed ends where the next one begins."""
+    """Collects rows while tags arrive; an unclosed element ends where the next one begins."""
 
     def __init__(self) -> None:
         super().__init__(convert_charrefs=True)
@@ -279,7 +279,7 @@ class _TableParser(HTMLParser):
         self._depth = self._line = self._number = 0
         self._columns = self._rows = 1
         self._spanning: dict[tuple[int, int], str] = {}
-        """By number of the row, and by column, the texts of cells that began in a row above."""
+        """The texts of cells that began in a row above, by row number and by column."""
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Begin a cell, row, table or heading."""

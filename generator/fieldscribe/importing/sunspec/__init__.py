@@ -1,7 +1,7 @@
 """Turns models of SunSpec into the draft of a device: `import sunspec`.
 
-A group of a model is a group of the draft, and its places are counted from the model's start. What a description
-cannot say stays as a question at the point (`points`) or as a comment at the group.
+A group of a model becomes a group of the draft, with addresses counted from the start of the model. Facts that a
+description cannot express become questions at the point (`points`) or comments at the group.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Imported(NamedTuple):
         return [point for group in self.groups for point in group.points]
 
     def lost(self) -> Counter[str]:
-        """Return what is not carried, each with how often."""
+        """Return the kinds of facts that are not carried, each with its number."""
         questions = [question for point in self.points for question in point.questions]
         comments = [comment for group in self.groups for comment in group.comments]
         return Counter(text.partition(":")[0] for text in (*questions, *comments))
@@ -42,10 +42,10 @@ class Imported(NamedTuple):
 def draft_models(
     models: Sequence[Model], device: str, most: int, counts: Mapping[str, int], exponents: int = MOST_EXPONENT
 ) -> Imported:
-    """Return the draft of a device with these models, with the first `most` elements of what repeats.
+    """Return the draft of a device with these models, with the first `most` elements of each repetition.
 
-    `counts` are the numbers that points of the device hold, by their names: what lies after so many elements has a
-    place then. Scale factors lie within `exponents` of 0.
+    `counts` are the values of counting points of the device, by name; with them, everything after counted elements has
+    a fixed place. Scale factors are within -`exponents`..`exponents`.
     """
     names = Counter(name for model in models for name in _names(model.group))
     drafter = _Drafter(names, most, counts, Facts(exponents))
@@ -85,7 +85,7 @@ def _title(group: Group) -> str:
 
 
 def _snake(title: str, otherwise: str) -> str:
-    """Return a name with all words of a title; `MaxChaRte` has three."""
+    """Return a title as a name with all its words; `MaxChaRte` has three."""
     return snake(re.sub("(?<=[a-z]{2})(?=[A-Z])", " ", title), otherwise, articles=True)
 
 
@@ -94,13 +94,13 @@ def _repeats(group: Group) -> bool:
 
 
 class _Words(NamedTuple):
-    """A number of words: a fixed one, and multiples of what points of the model count."""
+    """A number of words: a fixed number plus multiples of counting points of the model."""
 
     fixed: int
     counted: Mapping[str, int] = {}
 
     def plus(self, other: _Words, times: int = 1) -> _Words:
-        """Return the sum with so many times the other."""
+        """Return the sum with a multiple of the other."""
         counted = Counter(self.counted)
         counted.update({name: factor * times for name, factor in other.counted.items()})
         return _Words(self.fixed + other.fixed * times, {name: factor for name, factor in counted.items() if factor})
@@ -108,11 +108,11 @@ class _Words(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where a group begins, counted from the start of the model; None if that is known only at the device.
+    """The place of a group: its start, counted from the start of the model; None if only the device knows it.
 
-    `path` has the groups around it, `scope` all points that it sees. `repeats` are the facts that repeat its points,
-    `shared` what all points of the group have, `suffix` ends their names; `text` is said of a group around it that has
-    no points of its own.
+    `path` has the enclosing groups, `scope` all visible points. `repeats` are the facts that repeat its points,
+    `shared` the facts of all points of the group, `suffix` ends their names; `text` describes an enclosing group that
+    has no points.
     """
 
     model: Model
@@ -125,11 +125,11 @@ class _Place:
     text: str = ""
 
     def after(self, words: _Words | None, times: int = 1) -> _Words | None:
-        """Return where the words after so many times these begin."""
+        """Return the start of the words after a multiple of these."""
         return None if self.start is None or words is None else self.start.plus(words, times)
 
     def only_while(self, condition: str) -> Mapping[str, str]:
-        """Return what all points have, which exist only while this is true."""
+        """Return the shared facts of points that exist only while this is true."""
         return {**self.shared, "when": " and ".join(filter(None, (self.shared.get("when"), condition)))}
 
 
@@ -146,7 +146,7 @@ class _Drafter:
         self._held: Mapping[str, int] = {}
 
     def add_model(self, model: Model) -> None:
-        """Draft a model; what repeats in it exists only while the counting points hold what the user says."""
+        """Draft a model; repeated points exist only while the counting points hold the numbers that the user gave."""
         counting = {inner.count for inner in _within(model.group)}
         self._counting = {point.name for point in model.group.points if point.name in counting and point.size == 1}
         self._held = {name: number for name, number in self._counts.items() if name in self._counting}
@@ -194,7 +194,7 @@ class _Drafter:
             within = replace(within, start=within.after(self._all_words(inner)))
 
     def _elements(self, group: Group, place: _Place) -> Iterator[tuple[Group, _Place]]:
-        """Yield a group and its place; each of its elements where these have as many words as a point counts."""
+        """Yield a group and its place; each element separately if a point gives the size of the elements."""
         words, counter = self._words(group), place.scope.get(str(group.count))
         if words is None or not words.counted or counter is None or place.suffix or place.repeats:
             yield group, place
@@ -205,7 +205,7 @@ class _Drafter:
             yield named, replace(place, shared=shared, start=start, suffix=f"_set_{number}")
 
     def _repeated(self, group: Group, place: _Place, draft: DraftGroup) -> _Place:
-        """Return the place of a group with what repeats it; where that cannot be said, the draft has a comment."""
+        """Return the place of a group with its repetition; the draft has a comment if that cannot be expressed."""
         count, words = group.count, self._words(group)
         if count == 1:
             return place
@@ -226,11 +226,11 @@ class _Drafter:
         return replace(place, repeats={**place.repeats, **repeats}, shared=shared)
 
     def _number(self, group: Group) -> int | None:
-        """Return how many elements a group has; None if the device says it."""
+        """Return the number of elements of a group; None if the device decides."""
         return self._held.get(group.count) if isinstance(group.count, str) else group.count or None
 
     def _words(self, group: Group) -> _Words | None:
-        """Return how many words an element of a group has; None if nothing counts them."""
+        """Return the number of words of an element of a group; None if nothing counts them."""
         words = _Words(sum(point.size for point in group.points))
         for inner in group.groups:
             inside = self._all_words(inner)
@@ -240,7 +240,7 @@ class _Drafter:
         return words
 
     def _all_words(self, group: Group) -> _Words | None:
-        """Return how many words all elements of a group have; None if nothing counts them."""
+        """Return the number of words of all elements of a group; None if nothing counts them."""
         number, words = self._number(group), self._words(group)
         if words is None or number is not None:
             return None if words is None or number is None else _Words(0).plus(words, number)

@@ -1,4 +1,4 @@
-"""Reads models of SunSpec (JSON): groups of points with their types, counts and symbols, as they stand in the file."""
+"""Reads models of SunSpec (JSON): groups of points with their types, counts and symbols, as they are in the file."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Model:
 def read_models(path: Path, chosen: Sequence[int]) -> list[Model]:
     """Return the models of a file, or of all files `model_*.json` of a folder, in the order of their numbers.
 
-    `chosen` are the numbers of the models that are wanted; empty for all. Raises UnreadableError.
+    `chosen` are the numbers of the requested models; empty for all. Raises UnreadableError.
     """
     files = sorted(path.glob("model_*.json")) if path.is_dir() else [path]
     models = sorted((read_model(file) for file in files if _is_chosen(file, chosen)), key=lambda model: model.id)
@@ -118,7 +118,7 @@ def one_line(text: str) -> str:
 
 
 class _Reader:
-    """Reads the parts of a model, and says what is wrong with them."""
+    """Reads the parts of a model, and reports what is wrong with them."""
 
     def __init__(self, file: str) -> None:
         self._file = file
@@ -129,7 +129,7 @@ class _Reader:
         return UnreadableError(f"{self._file}: {one_line(what)[:200]}", hint=hint)
 
     def value(self, tree: Any, key: str, kinds: Any, otherwise: Any) -> Any:
-        """Return what stands under a key; `otherwise` where nothing stands, unless that is None."""
+        """Return the value of a key; `otherwise` for a missing key, unless that is None."""
         value = tree.get(key, otherwise) if isinstance(tree, dict) else None
         if not isinstance(value, kinds) or isinstance(value, bool):
             where = f" of `{tree['name']}`" if isinstance(tree, dict) and "name" in tree else ""
@@ -147,14 +147,14 @@ class _Reader:
         return one_line(self.value(tree, key, str, otherwise))
 
     def _remarks(self, tree: Any) -> str:
-        """Return the description and whatever else is remarked, each as a sentence."""
+        """Return the description and further remarks, each as a sentence."""
         standards = ", ".join(map(str, self.value(tree, "standards", list, [])))
         comments = map(str, self.value(tree, "comments", list, []))
         texts = (*(self._text(tree, key) for key in ("desc", "detail", "notes")), *comments, standards)
         return " ".join(f"{text}{'' if text[-1] in '.!?' else '.'}" for text in map(one_line, texts) if text)
 
     def group(self, tree: Any, depth: int) -> Group:
-        """Return a group with all within."""
+        """Return a group with everything inside."""
         if depth > _DEEPEST:
             raise self._wrong(f"more than {_DEEPEST} groups lie within each other")
         points = [self._point(point) for point in self.value(tree, "points", list, [])]

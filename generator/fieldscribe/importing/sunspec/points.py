@@ -1,4 +1,4 @@
-"""The facts of points of SunSpec in a draft; what a description cannot say is a question at the point."""
+"""The facts of points of SunSpec in a draft; facts that a description cannot express become questions at the point."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
@@ -15,7 +15,7 @@ _TYPES = {
     "float64": "f64",
     "count": "u16",
 }
-"""The types of descriptions for those of SunSpec that are plain numbers."""
+"""The types of descriptions for SunSpec types of plain numbers."""
 _FORMATS = {
     "sunssf": "{type: s16, range: -%d..%d}",
     "acc16": "{type: u16, special: {0FFFFh: ~, 0: {name: not_accumulated, no_value: yes}}}",
@@ -31,7 +31,7 @@ _NOT_IMPLEMENTED = {
     "f32": "7FC00000h",
     "f64": "7FF8000000000000h",
 }
-"""What a device holds in a point that it does not have, by type."""
+"""The raw numbers of points that a device does not implement, by type."""
 _OF_TYPES = {
     **{
         kind: f"{{special: {{{code}: {{name: not_implemented, no_value: yes}}}}}}"
@@ -48,13 +48,13 @@ _OTHER_UNITS = (
     "mps=m/s meters=m ohms=ohm HPa=hPa kO=kohm W/m2=W/m² W/m^2=W/m² Vm=V/m"
 )
 _UNITS = dict(pair.split("=") for pair in _OTHER_UNITS.split())
-"""Units that SunSpec writes otherwise."""
+"""Units that SunSpec spells differently."""
 _NO_UNITS = frozenset(("cos()", "PF", "SF", "text"))
 _LONGEST_NOTE, _LONGEST_UNIT = 300, 20
 
 
 class Facts:
-    """States the facts of points, and what they share; `exponents` is how far scale factors lie from 0."""
+    """States the facts of points, and shared facts; `exponents` bounds the magnitude of scale factors."""
 
     def __init__(self, exponents: int) -> None:
         self._units: dict[str, str] = {}
@@ -93,7 +93,7 @@ class Facts:
         return scalar(known) if known else self._units.setdefault(text, scalar(text))
 
     def shared(self, points: Iterable[DraftPoint]) -> Iterator[str]:
-        """Yield what points share, as lines of the head: facts of types, formats, and units that are not shipped."""
+        """Yield shared facts as lines of the head: facts of types, formats, and units that are not shipped."""
         stated = [point.facts for point in points]
         formats = {each["format"] for each in stated if "format" in each}
         types = {each.get("type") for each in stated} | {_FORMATS[name][7:10] for name in formats}
@@ -107,7 +107,7 @@ class Facts:
 
 
 def empty_words(point: Point) -> int:
-    """Return how many of its words stand before what a point holds."""
+    """Return how many words precede the contents of a point."""
     return int(point.type == "eui48" and point.size == _BYTES["eui48"][1])
 
 

@@ -1,7 +1,7 @@
 """Drafts a description from a device template of Wiren Board's gateway: `import wb`.
 
-`templates` reads the file, `rows` its channels and parameters, `conditions` says when they exist, `heads` has what
-concerns the whole device, and repeats become one row. What is not carried is a question in the draft.
+`templates` reads the file, `rows` its channels and parameters, `conditions` their conditions, `heads` the facts of the
+whole device; repetitions become one row. Whatever is not carried is a question in the draft.
 """
 
 import re
@@ -23,13 +23,13 @@ from fieldscribe.importing.wb.templates import MOST_BYTES, Texts, labels_text, o
 from fieldscribe.safe_files import read_regular
 
 _LEAST = 3
-"""So many rows are worth a group with a rule of addresses."""
+"""The least number of rows for a group with a rule of addresses."""
 _DIFFERENT = ("when", "default")
-"""What may differ between the rows that one row replaces, besides their addresses."""
+"""The facts that may differ between rows that become one, in addition to their addresses."""
 
 
 def folded(groups: Sequence[DraftGroup], blocks: Sequence[DraftBlock]) -> list[DraftGroup]:
-    """Return the groups, each followed by those of its repeats; conditions have the new names of points."""
+    """Return the groups, each followed by those of its repetitions; conditions use the new names of points."""
     points, names, renamed = Names(), Names(), dict[str, str]()
     for group in groups:
         names.give(group.name)
@@ -75,7 +75,7 @@ def _parts(
 
 
 def _alike(points: Iterable[DraftPoint], place: int) -> list[list[DraftPoint]]:
-    """Return the points that have all in common but one number of their titles, and what may differ."""
+    """Return the points that differ only in one number of their titles, and in what may differ."""
     alike: dict[object, list[DraftPoint]] = {}
     for point in points:
         if (
@@ -130,7 +130,7 @@ class Draft(NamedTuple):
 
     @property
     def not_carried(self) -> Counter[str]:
-        """How many facts are questions, by their keys."""
+        """The number of facts that became questions, by key."""
         texts = [text for group in self.groups for text in group.comments]
         texts += [text for group in self.groups for point in group.points for text in point.questions]
         texts += [text for block in self.head.blocks for text in block.questions]
@@ -174,7 +174,7 @@ def draft(path: Path, device: str) -> Draft:
         blocks=[*parameters.blocks, *blocks_of(template, parameters)],
         bus=bus_of(body, groups),
     )
-    compilable(groups, head, with_head=True)  # a point that is a view of another one is not folded
+    compilable(groups, head, with_head=True)  # a point that is a view of another is not folded
     return Draft(folded(groups, head.blocks), head)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol, TypeAlias
 
 Condition: TypeAlias = str | bool
-"""A condition as a description writes it, or what it always is."""
+"""A condition as a description writes it; or True or False if it is constant."""
 
 _LONGEST = 4000
 _SIGNS = {ast.Eq: "==", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
@@ -15,14 +15,14 @@ _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 COMPARE: Mapping[str, Callable[[Any, Any], bool]] = dict(
     zip(_SIGNS.values(), (operator.eq, operator.ne, operator.lt, operator.le, operator.gt, operator.ge), strict=True)
 )
-"""What comparisons do."""
+"""The functions of the comparison operators."""
 
 
 class Names(Protocol):
-    """What the names of a template's parameters mean in the description."""
+    """The meaning of parameter names of a template in the description."""
 
     def compared(self, name: str, sign: str, number: int) -> Condition:
-        """Return the condition that a parameter compares so with a number."""
+        """Return the condition that compares a parameter with a number."""
 
     def defined(self, name: str) -> Condition:
         """Return the condition that a parameter exists."""
@@ -40,7 +40,7 @@ def condition_of(text: str, names: Names) -> Condition:
 
 
 def any_of(parts: Sequence[Condition]) -> Condition:
-    """Return that one of the conditions is true."""
+    """Return the condition that one of these is true."""
     if True in parts:
         return True
     listed: dict[str, list[str]] = {}
@@ -61,7 +61,7 @@ def _one_of(name: str, numbers: Sequence[str]) -> str:
 
 
 def _all_of(parts: Sequence[Condition]) -> Condition:
-    """Return that all conditions are true; what they all say need not be excluded by one of them."""
+    """Return the condition that all of these are true, without parts that others imply."""
     if False in parts:
         return False
     texts = list(dict.fromkeys(part for part in parts if isinstance(part, str)))
@@ -71,7 +71,7 @@ def _all_of(parts: Sequence[Condition]) -> Condition:
 
 
 def _condition(node: ast.expr, names: Names) -> Condition:
-    """Return what a part of a condition means. Raises ValueError."""
+    """Return the condition for a part of a template's condition. Raises ValueError."""
     match node:
         case ast.BoolOp(op=ast.And(), values=values):
             return _all_of([_condition(value, names) for value in values])
@@ -112,7 +112,7 @@ def _number(node: ast.expr) -> int | None:
 
 
 def opposite(condition: Condition) -> Condition:
-    """Return that a condition is not true."""
+    """Return the opposite of a condition."""
     if isinstance(condition, bool):
         return not condition
     return f"not {condition}" if re.fullmatch(r"exists\(\w+\)", condition) else f"not ({condition})"

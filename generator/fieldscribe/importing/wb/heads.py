@@ -1,4 +1,4 @@
-"""What a template says about the whole device: bus, slots, identification, and what is written to set it up."""
+"""The facts of the whole device in a template: bus, slots, identification, and writes that set it up."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -16,24 +16,24 @@ FAMILY = next(family for family in families() if "holding" in family.spaces)
 SLOTS = range(1, 5)
 """The slots of modules; the gateway counts them again from 1 after the last."""
 _SIGNATURE = (200, 20)
-"""Where devices of Wiren Board hold their model: the first register, and how many, with a character in each."""
+"""The registers of the model in devices of Wiren Board: the first one and their number, a character in each."""
 _TIMES = {
     "response_timeout_ms": "response_timeout", "response_timeout": "response_timeout",
     "frame_timeout_ms": "frame_timeout", "guard_interval_us": "guard_interval",
     "min_request_interval": "request_interval",
 }  # fmt: skip
 _LONGEST, _MOST_STEPS = 1_000_000, 1000
-"""The longest time in milliseconds, and the steps that a command can have."""
+"""The longest time in milliseconds, and the most steps of a command."""
 _SHOWN = {
     *("name", "id", "channels", "parameters", "groups", "translations", "setup", "protocol", "stride", "shift"),
     *("enable_wb_continuous_read", "preserve_setup_order", "force_frame_timeout", "device_max_fail_cycles"),
     *("max_read_registers", "max_write_registers", "deprecated", *_TIMES),
 }
-"""What is read, or how the gateway goes about its work: no fact of the device."""
+"""Keys that are read elsewhere, or about the gateway and not the device."""
 
 
 def bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
-    """Return the bus, with the most of each request and with times."""
+    """Return the bus, with the largest requests and with times."""
     spaces = {group.space for group in groups} | {_space(item) for item in objects(body.get("setup"))}
     lines = FAMILY.part("description").bus_of(spaces).splitlines()
     for key, pattern in (("max_read_registers", "(read_.*_registers)"), ("max_write_registers", "(write_registers)")):
@@ -61,7 +61,7 @@ def base_of(body: Mapping[str, Any]) -> dict[str, str]:
 
 
 def identification(template: Mapping[str, Any], names: Names) -> list[DraftGroup]:
-    """Return the group of the register that tells devices from others."""
+    """Return the group of the register that identifies the device."""
     if not _signatures(template):
         return []
     first, count = _SIGNATURE
@@ -126,7 +126,7 @@ def _space(item: Mapping[str, Any]) -> str:
 
 
 def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
-    """Return the commands of these writes: for each slot, as a step has no base, or such that run first."""
+    """Return the commands of these writes: one for each slot (steps have no base), or commands that run first."""
     block, steps = DraftBlock([]), list[tuple[str, int, str]]()
     for item in _writes(body):
         address, value, form = whole_of(item.get("address")), whole_of(item.get("value")), item.get("format", "u16")

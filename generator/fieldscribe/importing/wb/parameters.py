@@ -1,4 +1,4 @@
-"""What the names of parameters mean in conditions: a point, or the choice of a person, which becomes a variant."""
+"""The meaning of parameter names in conditions: a point, or a choice of the user, which becomes a variant."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -29,7 +29,7 @@ class Parameters:
 
     @property
     def blocks(self) -> list[DraftBlock]:
-        """The variants: what a person chooses, and no register holds."""
+        """The variants: choices of the user that no register holds."""
         lines = []
         for key, axis in self._axes.items():
             row, names = self._rows[key][0], Names()
@@ -42,7 +42,7 @@ class Parameters:
         return [DraftBlock(["variants:", *lines])] if lines else []
 
     def compared(self, name: str, sign: str, number: int) -> Condition:
-        """Return the condition that a parameter compares so with a number; one that is not there equals none."""
+        """Return the condition that compares a parameter with a number; a missing parameter equals no number."""
         if name in self._axes:
             fits = {COMPARE[sign](choice, number) for choice in self._choices[name]}
             return f"{self._axes[name]}.number {sign} {number}" if len(fits) > 1 else True in fits
@@ -58,7 +58,7 @@ class Parameters:
         return any_of([self._exists(row) for row in self._rows.get(name, [])])
 
     def _exists(self, row: Row) -> Condition:
-        """Return that a point exists; by its own condition, if it came later than the point that asks."""
+        """Return the condition that a point exists: its own condition if it came later than the point that names it."""
         if "condition" not in row.item:
             return True
         first, asking = row.item.get("fw"), self._asking.item.get("fw") if self._asking else None
@@ -71,7 +71,7 @@ class Parameters:
         return condition_of(str(row.item["condition"]), self)
 
     def set_condition(self, row: Row) -> None:
-        """Set when a point exists."""
+        """Set the condition of a point."""
         text, point = row.item.get("condition"), row.point
         if not text or row.is_choice:
             return
@@ -84,7 +84,7 @@ class Parameters:
             point.facts["when"] = scalar(when)
 
     def condition(self, text: str, questions: list[str]) -> Condition:
-        """Return a condition as a description writes it; True, and a question, if that cannot be."""
+        """Return a condition as a description writes it; if that is impossible, True, with a question."""
         try:
             when = condition_of(text, self)
         except (ValueError, RecursionError) as error:
@@ -97,7 +97,7 @@ class Parameters:
 
 
 def _choices(rows: Sequence[Row]) -> dict[int, str]:
-    """Return the numbers that can be chosen, with their names."""
+    """Return the choices: numbers with their names."""
     choices: dict[int, str] = {}
     for row in rows:
         choices = (row.labels or {number: str(number) for number in row.choices[:_MOST_VALUES]}) | choices

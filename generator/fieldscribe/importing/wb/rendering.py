@@ -1,8 +1,8 @@
 """Renders a stranger's Jinja template: run as a program, in a process of its own with limits of time and memory.
 
-It reads the file that its first argument names, and writes the text to standard output. Included templates lie in the
-folder of the file. The sandbox lets a template read values and call what has no effect; all it may change are its own
-lists. What it must not do, or cannot, ends in a message on standard error and exit code 3.
+It reads the file that its first argument names, and writes the text to standard output. Included templates are in the
+folder of the file. The sandbox lets a template read values and call functions without effects; it may change only its
+own lists. A violation or an error ends in a message on standard error and exit code 3.
 """
 
 import sys
@@ -19,14 +19,14 @@ REFUSED = 3
 
 
 class _Sandbox(ImmutableSandboxedEnvironment):
-    """A sandbox whose templates may append to lists, for all lists are their own."""
+    """A sandbox whose templates may append to lists, because all lists belong to the template."""
 
     def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
         return (type(obj) is list and attr == "append") or super().is_safe_attribute(obj, attr, value)
 
 
 def _limit() -> None:
-    """Limit time and memory, where the system can (Windows cannot: there the caller's limit of time holds)."""
+    """Limit time and memory, if the system can (Windows cannot: there only the caller's timeout applies)."""
     try:
         import resource
     except ModuleNotFoundError:

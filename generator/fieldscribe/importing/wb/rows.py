@@ -24,24 +24,24 @@ _UNITS_OF_CONTROLS = {
     "atmospheric_pressure": "mbar", "pressure": "bar", "lux": "lx", "sound_level": "dB", "concentration": "ppm",
     "resistance": "ohm", "wind_speed": "m/s", "water_flow": "m³/h", "water_consumption": "m³",
 }  # fmt: skip
-"""The units of control types, as Wiren Board's conventions have them."""
+"""The units of control types in the conventions of Wiren Board."""
 _SHOWN = {
     *("name", "title", "id", "group", "order", "type", "original_name", "vrf", "enabled", "required", "hidden"),
     *("sporadic", "semi-sporadic", "ui_options", "read_period_ms", "read_rate_limit_ms", "poll_interval"),
 }
-"""How the gateway shows and polls a register: no facts of the device."""
+"""Keys about showing and polling in the gateway, which are not facts of the device."""
 _READ = {
     *("reg_type", "address", "write_address", "format", "word_order", "byte_order", "string_data_size", "scale"),
     *("offset", "round_to", "units", "enum", "enum_titles", "on_value", "off_value", "min", "max", "default", "fw"),
     *("error_value", "unsupported_value", "description", "readonly", "consists_of", "device_type", "oneOf", "shift"),
     *("stride", "condition"),
 }
-"""What the gateway reads as facts of a register."""
+"""The keys that the gateway reads as facts of a register."""
 _MOST_NAMED = 500
 
 
 class Row:
-    """One channel or parameter while its facts are read; what is taken of the item is not asked about."""
+    """One channel or parameter while its facts are read; facts that are taken give no question."""
 
     def __init__(self, item: Mapping[str, Any], texts: Texts, *, is_parameter: bool) -> None:
         self.item, self._texts, self._left = item, texts, dict(item)
@@ -52,23 +52,23 @@ class Row:
         )
         self.is_parameter, self.labels, self.words = is_parameter, Labels(), 1
         self.unit = ""
-        """A unit of its own."""
+        """A unit that is not shipped."""
         self._ends: tuple[Fraction | float, Fraction | float] = (-inf, inf)
         self._ratio, self._offset = Fraction(1), Fraction(0)
 
     def take(self, key: str) -> Any:
-        """Return what the item has under a key, which is thereby carried."""
+        """Return the value of a key, and mark it as carried."""
         return self._left.pop(key, None)
 
     def take_number(self, key: str) -> Fraction | None:
-        """Return a number; one that cannot be read stays in the item, as what is not carried."""
+        """Return a number; one that cannot be read remains and counts as not carried."""
         number = number_of(self._left.get(key))
         if number is not None:
             del self._left[key]
         return number
 
     def lose(self, key: str, value: Any) -> None:
-        """Note what is not carried."""
+        """Record a fact that is not carried."""
         self.point.questions.append(f"not carried: {key}: {value}")
 
     def raw(self, value: Fraction) -> Fraction:
@@ -77,22 +77,22 @@ class Row:
 
     @property
     def is_choice(self) -> bool:
-        """Whether the item is no register, but what a person chooses in the gateway."""
+        """True if the item is not a register but a choice in the gateway."""
         return self.is_parameter and (bool(self.item.get("readonly")) or "address" not in self.item)
 
     @property
     def choices(self) -> range:
-        """The numbers that can be chosen where none has a name."""
+        """The numbers that can be chosen, if they have no names."""
         low, high = number_of(self.item.get("min", 0)) or 0, number_of(self.item.get("max", 1)) or 0
         return range(int(low), int(high) + 1)
 
     def compares(self, sign: str, value: int) -> bool:
-        """Return False if no number of the point compares so with a value."""
+        """Return False if the comparison with a value is false for all numbers of the point."""
         raw = self.raw(Fraction(value))
         return not self.labels or any(COMPARE[sign](number, raw) for number in self.labels)
 
     def read(self) -> DraftPoint:
-        """Return the draft point, but for its condition and its names of numbers."""
+        """Return the draft point without its condition and its names of numbers."""
         self._read_place()
         self._read_type()
         self._read_scale()
@@ -191,11 +191,11 @@ class Row:
 
     @property
     def is_number(self) -> bool:
-        """Whether the point is a register, and no text."""
+        """True if the point is a register and not a text."""
         return self.point.space in ("holding", "input") and self.point.facts.get("type") != "text"
 
     def _read_labels(self) -> None:
-        """Read the names of numbers; they are raw, so they take the place of a scale."""
+        """Read the names of numbers; they are raw, so they replace a scale."""
         numbers, titles = self.take("enum"), self.take("enum_titles")
         on, off, control = self.take_number("on_value"), self.take_number("off_value"), self.item.get("type")
         if isinstance(numbers, list) and len(numbers) <= _MOST_NAMED:
@@ -219,7 +219,7 @@ class Row:
                 self.point.facts.pop(key, None)
 
     def _read_range(self) -> None:
-        """Read what may be written, which is no more than the type can hold."""
+        """Read the range, limited to what the type can hold."""
         low, high, ends = self.take_number("min"), self.take_number("max"), self._limits()
         if self.labels or not self.is_number or (low is None and high is None):
             return
@@ -241,7 +241,7 @@ class Row:
             self.point.remarks.append(f"the template has {said}, beyond what the type holds")
 
     def _limits(self) -> list[Fraction] | None:
-        """Return the least and the greatest value that the type can hold; None for other than whole numbers."""
+        """Return the least and the greatest value that the type can hold; None unless it is a whole number."""
         kind, bits = self.point.facts.get("type", "u16"), self.point.facts.get("bits")
         if kind[0] not in "us":
             return None

@@ -16,7 +16,7 @@ from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line
 
 PROTOCOLS = ("modbus", "modbus_io")
-"""The protocols of templates that are read; that of modules in slots comes second."""
+"""The protocols of readable templates; that of modules in slots comes second."""
 MOST_BYTES = 16 << 20
 _WALL_SECONDS = 60
 _LINT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -42,7 +42,7 @@ def read_template(path: Path) -> dict[str, Any]:
 
 
 def in_slots(body: Mapping[str, Any]) -> bool:
-    """Return True for modules whose addresses depend on the slot that they stand in."""
+    """Return True for modules whose addresses depend on their slot."""
     return body.get("protocol") == PROTOCOLS[1]
 
 
@@ -63,7 +63,7 @@ def _text(path: Path) -> str:
 
 
 def _rendered(path: Path) -> bytes:
-    """Return what a Jinja template renders to, in a process of its own. Raises UnreadableError where it fails."""
+    """Return the text of a Jinja template, rendered in a separate process. Raises UnreadableError if that fails."""
     command = [sys.executable, "-I", rendering.__file__, str(path.absolute())]
     try:
         ended = subprocess.run(command, capture_output=True, timeout=_WALL_SECONDS, check=False)  # noqa: S603 # all ours
@@ -82,7 +82,7 @@ Labels: TypeAlias = dict[int, str]
 
 
 class Texts:
-    """The texts of a template, which are English, or keys of its translations."""
+    """The texts of a template, which are English or keys of its translations."""
 
     def __init__(self, translations: Any) -> None:
         read = translations if isinstance(translations, dict) else {}
@@ -103,18 +103,18 @@ class Texts:
 
 
 def objects(value: Any) -> list[dict[str, Any]]:
-    """Return the objects of a list; of anything else, none."""
+    """Return the objects of a list; empty for anything else."""
     return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
 
 
 def whole_of(value: Any) -> int | None:
-    """Return a whole number of a template; None for what is none."""
+    """Return a whole number of a template; None for anything else."""
     number = number_of(value)
     return None if number is None or number.denominator != 1 else int(number)
 
 
 def number_of(value: Any) -> Fraction | None:
-    """Return a number of a template (5, 0.1, "0x1F"); None for what is none."""
+    """Return a number of a template (5, 0.1, "0x1F"); None for anything else."""
     if isinstance(value, int | Fraction) and not isinstance(value, bool):
         return Fraction(value)
     text = str(value).strip()
