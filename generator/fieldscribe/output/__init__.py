@@ -1,4 +1,4 @@
-"""Files on disk: planned for a whole device, written only if they changed, atomically, and only over files of our own.
+"""Files on disk: planned for a whole device, written atomically, only if they changed, and only over our own files.
 
 Nothing outside the output folder is ever touched, whatever a manifest or a link in the folder says.
 """

@@ -1,4 +1,4 @@
-"""Runs a function in a child process while the run goes on, where the system can fork."""
+"""Runs a function in a child process during the run, if the system can fork."""
 
 import os
 import pickle
@@ -11,14 +11,14 @@ T = TypeVar("T")
 
 
 def may_have_children() -> bool:
-    """Return True if there are processors for more than one process, and a fork breaks no thread."""
+    """Return True if there are several processors and a fork is safe for threads."""
     return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1
 
 
 def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
-    """Start a child that makes results, and return an iterator over them that waits until it has made all.
+    """Start a child that makes results; return an iterator over them, which waits until all are made.
 
-    The iterator raises ChildProcessError if the child was killed.
+    The iterator raises ChildProcessError if the child is killed.
     """
     file = TemporaryFile()  # noqa: SIM115 - closed by the iterator
     child = os.fork()

@@ -1,4 +1,4 @@
-"""Holds the contents of a device's files until all are made: large ones on disk, not in memory."""
+"""Keeps the contents of a device's files until all are made: large ones on disk, not in memory."""
 
 from collections.abc import Iterator
 from hashlib import sha256
@@ -33,9 +33,9 @@ def contents_of(data: bytes) -> Contents:
 
 
 class Spool:
-    """An unnamed temporary file, created for the first large text; it disappears with the run, however the run ends.
+    """An unnamed temporary file, created for the first large text; it disappears when the run ends, in any way.
 
-    A child process that shares the file keeps contents `apart` in it: they travel without the file.
+    A child process that shares the file uses `keep_apart`: such contents travel without the file.
     """
 
     def __init__(self) -> None:
@@ -61,15 +61,15 @@ class Spool:
         return Contents(digest.hexdigest(), size, b"", spool, start)
 
     def keep_apart(self, text: str) -> Contents:
-        """As keep, in a child process. Raises UnicodeEncodeError."""
+        """Return the contents for a text, in a child process. Raises UnicodeEncodeError."""
         return self.keep(text)._replace(spool=None)
 
     def joined(self, contents: Contents) -> Contents:
-        """Return contents that a child kept apart with the file that has them."""
+        """Return contents from `keep_apart`, joined with the file that has them."""
         return contents if len(contents.data) == contents.size else contents._replace(spool=self._opened())
 
     def share(self) -> Self:
-        """Return the spool with its file, which a child process may share, and write what is kept so far."""
+        """Return the spool with its file, flushed, so that a child process can share it."""
         self._opened().flush()
         return self
 

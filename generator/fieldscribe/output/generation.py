@@ -23,12 +23,12 @@ from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import knows
 
 MANY_POINTS = 1_000
-"""With so many points in a run, a second process renders half of the targets."""
+"""From this many points in a run on, a second process renders half of the targets."""
 
 
 @dataclass(slots=True)
 class Generation:
-    """One run: its targets, output folder and descriptions, and what it did."""
+    """One run: its targets, output folder and descriptions, and its results."""
 
     out: Path
     targets: tuple[str, ...]
@@ -36,17 +36,17 @@ class Generation:
     known: dict[str, Path] = field(default_factory=dict)
     """The device.yaml of each loaded device, by its id."""
     strict: bool = False
-    """Changed facts under the same version are an error."""
+    """True if changed facts under the same version are an error."""
     unreleased: bool = False
-    """Nobody has the present versions yet, so their facts may change."""
+    """True if nobody has the present versions yet, so that their facts may change."""
     has_changed_version: bool = False
-    """The facts of some device changed under the same version."""
+    """True if the facts of some device changed under the same version."""
     devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
-        """Load the devices without errors; two descriptions of the same device are an error."""
+        """Load the devices that have no errors; two descriptions of one device are an error."""
         for device_file in device_files:
             try:
                 models = load_models(device_file, self.report, self.inputs)
@@ -62,7 +62,7 @@ class Generation:
             self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
-        """Collect what is stale. A file that changed during the comparison is stale too: somebody is writing it."""
+        """Collect stale files. A file that changed during the comparison is stale too: somebody is writing it."""
         manifests, result = Manifests(self.out), self.result
         for device, files in self._compiled():
             self._record_version(manifests, device, files)
@@ -74,12 +74,12 @@ class Generation:
         result.stale.update(changed_since(self.out, result.states))
 
     def write(self, waiting: Callable[[], None], memory: Memory | None, *, force: bool) -> None:
-        """Write what changed, under the lock of the folder. Raises OSError."""
+        """Write changed files, under the lock of the folder. Raises OSError."""
         if not self.devices:
             return
         with only_run(self.out, waiting):
             self._write_all(force=force)
-            if memory and not (self.report.has_errors or self.has_changed_version):  # that warning is to come again
+            if memory and not (self.report.has_errors or self.has_changed_version):  # the warning must come again
                 memory.keep(self.inputs, self.result.states, self.result.digests)
 
     def _write_all(self, *, force: bool) -> None:
@@ -130,7 +130,7 @@ class Generation:
             files[FOLDER] = {}  # earlier compilers recorded the facts there: remove them
 
     def _report_changed_version(self, device: Device) -> None:
-        """Report that the facts changed and the version did not."""
+        """Report that the facts changed but the version did not."""
         message = f"`{device.id}` has changed since its version {device.version} was generated"
         hint = (
             f"raise the version: `fieldscribe diff` says by which step. If nobody has {device.version} yet, "

@@ -1,7 +1,7 @@
 """One run at a time writes to an output folder.
 
-The run holds a `flock` on an empty file in that folder. The system releases it when the run ends, however it ends; the
-file is removed by this run, or by the next if this one is killed. Without `flock` (Windows, some network file systems)
+The run holds a `flock` on an empty file in that folder. The system releases it when the run ends, in any way. This
+run removes the file, or the next run if this one is killed. Without `flock` (Windows, some network file systems)
 runs do not exclude each other.
 """
 
@@ -27,13 +27,13 @@ except ImportError:
 
 NAME = ".fieldscribe-lock"
 PATIENCE = 60.0
-"""How many seconds a run waits for another one."""
+"""The most seconds that a run waits for another one."""
 
 _PAUSE = 0.05
 _SILENCE = 0.5
-"""Seconds before a waiting run says so: most runs are over by then."""
+"""Seconds before a run says that it waits: most runs are over by then."""
 _MOST_MISSES = 5
-"""How often in a row the folder may vanish while we open the lock, because another run removes what it made."""
+"""How often in a row the folder may vanish while we open the lock, because another run removes it."""
 _FLAGS = os.O_CREAT
 for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
     _FLAGS |= getattr(os, _name, 0)
@@ -67,7 +67,7 @@ def _acquire(place: Path, waiting: Callable[[], None], patience: float) -> int:
     while True:
         try:
             handle, misses = _try_lock(place), 0
-        except (FileNotFoundError, FileExistsError):  # the second: it vanished between two steps of mkdir
+        except (FileNotFoundError, FileExistsError):  # FileExistsError: it vanished between two steps of mkdir
             handle, misses = None, misses + 1
             if misses > _MOST_MISSES:
                 raise
@@ -95,7 +95,10 @@ def _try_lock(place: Path) -> int | None:
 
 
 def _open(place: Path) -> int:
-    """Open or create the lock file. Raises UnfitFileError for a link or a file that is no lock; it stays untouched."""
+    """Open or create the lock file.
+
+    Raises UnfitFileError for a link or a file that is not a lock, which stays untouched.
+    """
     place.parent.mkdir(parents=True, exist_ok=True)
     with suppress(FileNotFoundError):
         status = os.lstat(place)
@@ -105,11 +108,11 @@ def _open(place: Path) -> int:
     try:
         return os.open(place, _FLAGS | os.O_RDWR, 0o666)
     except PermissionError:
-        return os.open(place, _FLAGS | os.O_RDONLY)  # the file of another user: a lock needs no right to write
+        return os.open(place, _FLAGS | os.O_RDONLY)  # another user's file: a lock needs no permission to write
 
 
 def _flock(handle: int) -> bool:
-    """Return True if the lock is ours, or if there are no locks here."""
+    """Return True if we hold the lock, or the system has no locks."""
     if flock is None:
         return True
     try:
@@ -132,7 +135,7 @@ def _is_at(place: Path, handle: int) -> bool:
 
 @contextmanager
 def _exit_on_sigterm() -> Iterator[None]:
-    """Turn SIGTERM into SystemExit, so that files are cleaned up; a handler that is set already stays."""
+    """Turn SIGTERM into SystemExit, so that files are cleaned up; an existing handler stays."""
     is_default = signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
     sets_handler = is_default and threading.current_thread() is threading.main_thread()
     if sets_handler:

@@ -1,8 +1,8 @@
-"""Remembers what the last run read and wrote, so that a run on unchanged input ends before the compiler is imported.
+"""Remembers the inputs and outputs of the last run, so that a run without changes ends before the compiler is imported.
 
 The user's cache folder records the state and digest of each input and output, and the state of each file of the
-compiler. A file is read only if its state is too new to be trusted. Any difference means a full run. `generate --check`
-does not use the record. The cache holds plain data; nothing in it is executed.
+compiler. A file is read again only if its state is too new to trust. Any difference means a full run. `generate
+--check` does not use the record. The cache holds plain data; nothing in it is executed.
 """
 
 import json
@@ -37,7 +37,7 @@ class Memory:
         self._place = folder and folder / f"{name:08x}.json"
 
     def outputs(self) -> list[str] | None:
-        """Return the outputs of the last run, or None if an input or output changed since."""
+        """Return the outputs of the last run; None if an input or output has changed since."""
         if self._place is None:
             return None
         try:
@@ -59,7 +59,7 @@ class Memory:
         return list(outputs)
 
     def keep(self, inputs: Inputs, states: Mapping[str, State], digests: Mapping[str, str]) -> None:
-        """Record inputs and outputs; do nothing without a cache folder, or if the compiler was edited meanwhile."""
+        """Record inputs and outputs, unless there is no cache folder or the compiler was edited meanwhile."""
         from fieldscribe.output.writing import replace
 
         compiler = _compiler()
@@ -78,7 +78,7 @@ class Memory:
 
 
 def _is_as_left(path: str, left: list[int], settled: int) -> bool:
-    """Return True if the state of a file is the recorded one and old enough to be trusted."""
+    """Return True if the state of a file is the recorded one and old enough to trust."""
     state = state_of(os.stat(path))
     return list(state) == left and max(state[2:]) <= settled
 
@@ -97,7 +97,7 @@ def _compiler() -> list[str]:
 def cache_dir(name: str) -> Path | None:
     """Return the cache folder for one purpose, created if missing; None unless only this user can write to it."""
     base = os.environ.get("XDG_CACHE_HOME", "")
-    if not os.path.isabs(base):  # the XDG specification: a relative path is to be ignored
+    if not os.path.isabs(base):  # the XDG specification says to ignore a relative path
         base = os.path.expanduser("~/.cache")
     if not os.path.isabs(base):
         return None  # no home folder
@@ -107,6 +107,6 @@ def cache_dir(name: str) -> Path | None:
         status = place.lstat()
     except OSError:
         return None
-    # a record that others wrote could make stale outputs pass for unchanged
+    # a record written by others could make stale outputs look unchanged
     private = not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)
     return place if private and os.access(place, os.W_OK) else None

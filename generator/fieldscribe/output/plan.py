@@ -10,7 +10,7 @@ from fieldscribe.output.manifests import Manifests, Targets, made_of, manifest_t
 from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_at
 
 TargetFiles = dict[str, dict[str, Contents]]
-"""By target the contents of its files, by path relative to the output folder."""
+"""The contents of files by target, then by path relative to the output folder."""
 
 _MOST_BYTES = 512 << 20
 _NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor the recorded checksum"
@@ -18,7 +18,7 @@ _NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor t
 
 @dataclass(slots=True)
 class Plan:
-    """The differences between what should be in the output folder and what is there; paths are relative to it."""
+    """The differences between the expected and the actual contents of the output folder; paths are relative to it."""
 
     out: Path
     manifests: Manifests
@@ -29,18 +29,18 @@ class Plan:
     targets: Targets
     """The device's files as the manifest will record them."""
     pending: bytes
-    """The manifest while the files are being written: it has old and new digests."""
+    """The manifest while files are being written, with old and new digests."""
     write: dict[str, Contents] = field(default_factory=dict)
     remove: list[str] = field(default_factory=list)
     unchanged: dict[str, State] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
     """Foreign files in the way, each with the reason why it may not be replaced."""
     forcible: set[str] = field(default_factory=set)
-    """Those that `force` would replace."""
+    """Foreign files that `force` would replace."""
     kept: list[str] = field(default_factory=list)
-    """Files that are no longer generated but stay, because somebody edited them or they are not ours."""
+    """Files that are no longer generated but stay, because they were edited or are not ours."""
     digests: dict[str, str] = field(default_factory=dict)
-    """The digests of all files that should be there, the manifest included."""
+    """The digests of all expected files, including the manifest."""
 
     def add(self, path: str, contents: Contents) -> None:
         """Plan a file that should be in the folder."""
@@ -73,7 +73,7 @@ class Plan:
                 (self.remove if self._may_go(path) else self.kept).append(path)
 
     def _may_go(self, path: str) -> bool:
-        """Return True if the file is ours by its name or head; a manifest alone may have been edited."""
+        """Return True if the file is ours by name or head: the manifest may have been edited."""
         try:
             place = inside(self.out, path)
             if self._in_the_way(path, place) is not None:
@@ -84,7 +84,7 @@ class Plan:
             return False
 
     def _in_the_way(self, path: str, place: Path) -> str | None:
-        """Return why the present file may not be replaced; None if it may, or if there is none."""
+        """Return why an existing file must not be replaced; None if it may be, or does not exist."""
         try:
             kind = kind_of(os.lstat(place))
             if kind is not None:
@@ -102,7 +102,7 @@ class Plan:
         return None if self.manifests.vouch_for(path, device, data) else _NOT_OURS
 
     def advice(self, path: str) -> str:
-        """Return what to do about a refused file."""
+        """Return advice about a refused file."""
         other = "replace it with `--force`" if path in self.forcible else "choose another folder or name"
         return f"move it away, or {other}; nothing of {self.device} was written"
 
@@ -138,7 +138,7 @@ def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
 
 
 def _is_replaceable(place: Path) -> bool:
-    """Return True if something is there that a file can replace."""
+    """Return True if there is something that a file can replace."""
     return os.path.lexists(place) and not os.path.isdir(place)
 
 

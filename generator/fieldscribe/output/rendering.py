@@ -1,4 +1,4 @@
-"""Renders the files of devices for a target: here, or in a child process for all devices."""
+"""Renders the files of devices for a target: in this process, or in a child process for all devices."""
 
 from collections.abc import Callable, Collection, Iterator
 from itertools import starmap
@@ -12,14 +12,14 @@ from fieldscribe.targets import TARGETS, target
 
 
 class Failure(NamedTuple):
-    """An internal error with a device: where it happened, and what it is."""
+    """An internal error with a device: its place and its text."""
 
     where: str
     bug: str
 
 
 Rendered = dict[str, Contents] | Failure
-"""The files of a device for a target by their paths, or why there are none."""
+"""The files of a device for a target by path, or the failure."""
 
 
 class ChildTargets:
@@ -39,9 +39,9 @@ class ChildTargets:
 
 
 def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Cut the targets of a run in two parts that take about as long; the second is empty where there is one target.
+    """Return the targets of a run in two parts of about equal time; the second is empty if there is one target.
 
-    Neighbours in the list of all targets stay together: the page of a device has the scripts of its package.
+    Neighbours in the list of all targets stay together, because the page of a device shares the scripts of its package.
     """
     ordered = tuple(name for name in TARGETS if name in targets)
     weights = [target(name).WEIGHT for name in ordered]
@@ -53,7 +53,7 @@ def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Re
     """Return the files of a device for a target."""
     try:
         found = outputs(models.whole, [target], models.plain)
-        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text outlives its turn
+        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text is kept longer than needed
     except TargetError as error:
         return failure(f"target {error}", error.__cause__ or error)
     except UnicodeEncodeError as error:
@@ -61,13 +61,13 @@ def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Re
 
 
 def failure(where: str, error: BaseException) -> Failure:
-    """Return the failure of an error, which is shown if the user wants to see it."""
+    """Return the failure of an error; print its traceback if the user asked for it."""
     show_traceback(error)
     return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
 
 
 def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool) -> Iterator[Rendered]:
-    """Yield the files of each device for each target, as a child does."""
+    """Yield the files of each device for each target, in the child process."""
     for models in devices:
         for name in targets:
             yield rendered(models, name, spool.keep_apart)

@@ -1,9 +1,8 @@
 """Carries out a plan, and writes the dependency file for make and ninja: the outputs depend on inputs and compiler.
 
 Each file is replaced atomically, and at every moment a manifest records which files are ours. Make and ninja compare
-times. An output whose contents did not change would stay older than a changed input, and would be built again each
-time; so outputs older than an input are touched. Each input has an empty rule, so that a build goes on after an input
-was removed.
+times. An unchanged output would stay older than a changed input and be built again each time, so outputs older than
+an input are touched. Each input has an empty rule, so that a build continues after an input was removed.
 """
 
 from __future__ import annotations
@@ -32,9 +31,9 @@ _BREAK = " \\\n  "
 
 
 class Result:
-    """What a run did: the relative paths of its outputs by what happened to them.
+    """The result of a run: the relative paths of its outputs, by what happened to them.
 
-    `wanted` are all outputs; `states` and `digests` belong to those that are up to date.
+    `wanted` are all outputs; `states` and `digests` are those of up-to-date outputs.
     """
 
     def __init__(self, wanted: Iterable[str] = ()) -> None:
@@ -48,12 +47,12 @@ class Result:
 
     @property
     def left(self) -> int:
-        """The number of files that were up to date; a shared file that one device wrote does not count for another."""
+        """The number of files that were up to date; a shared file counts only for the device that wrote it."""
         return len(self.wanted - self.written - self.stale)
 
 
 def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
-    """Write and remove what the plan says, and return the final state of each file. Raises OSError."""
+    """Write and remove files according to the plan; return the final state of each file. Raises OSError."""
     for folder in {(out / path).parent for path in (*plan.unchanged, *plan.write)}:
         (folder / _NEW).unlink(missing_ok=True)  # left by a killed run
     states = dict(plan.unchanged)
@@ -70,7 +69,7 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
 def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode: int | None = None) -> State:
     """Replace a file atomically through a temporary file beside it, and return its state. Raises OSError.
 
-    `mode` is the file's mode; without it the user's umask decides.
+    `mode` is the mode of the file; by default the umask decides.
     """
     place.parent.mkdir(parents=True, exist_ok=True)
     new = place.parent / temporary
@@ -90,7 +89,7 @@ def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode
 def update_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     """Write the file, and touch outputs that are older than an input. Raises OSError.
 
-    Outputs keep the paths that the user gave, because a build knows them by these.
+    Outputs keep the paths that the user gave, because a build uses these.
     """
     made = list(outputs)
     sources = [*inputs, *map(Path, compiler_files())]
