@@ -1,1 +1,1 @@
-"""Delivers a device, or chosen points of it, to a project: exactly the files that the project needs."""
+"""Delivers a device, or chosen points of it, to a project: only the files that it needs."""

@@ -21,9 +21,9 @@ _MOST_BYTES = 512 << 20
 
 
 class Order(NamedTuple):
-    """A request, with the id of its device, the folder of the project, and what makes the files.
+    """A request, with the id of its device, the folder of the project, and the function that makes the files.
 
-    `contents` takes the texts of others in the folder, by path.
+    `contents` takes the texts of other devices in the folder, by path.
     """
 
     device: str
@@ -84,7 +84,7 @@ def refuse_duplicates(orders: Iterable[Order]) -> None:
 
 
 def compare(order: Order) -> Delivery:
-    """Return what differs, and write nothing. Raises UnclearError."""
+    """Return the differences, and write nothing. Raises UnclearError."""
     manifests = Manifests(order.out, VENDORED)
     made = _files(order, manifests)
     plan, delivery = _planned(order, manifests, made, force=False)
@@ -96,7 +96,7 @@ def compare(order: Order) -> Delivery:
 
 
 def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = False) -> Delivery:
-    """Write what differs, under the lock of the folder; nothing where a foreign file is in the way.
+    """Write the differences, under the lock of the folder; write nothing if a foreign file is in the way.
 
     Raises UnclearError, ModuleNotFoundError and OSError.
     """
@@ -112,7 +112,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
 
 
 def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Path]:
-    """Return the files that earlier orders left in the folders of these orders, and that none of these needs."""
+    """Return the files of earlier orders in the folders of these orders that none of these needs."""
     folders = {os.path.realpath(order.out): order.out for order in orders}
     wanted = {(os.path.realpath(order.out), order.name, order.request.language) for order in orders}
     paths: list[Path] = []
@@ -132,7 +132,7 @@ def _files(order: Order, manifests: Manifests) -> TargetFiles:
 
 
 def _others(order: Order, manifests: Manifests) -> Iterator[tuple[str, str]]:
-    """Yield what other devices in the folder use of the runtime of C: their points, and path and text of headers."""
+    """Yield the points of other devices in the folder that use the C runtime, and path and text of their headers."""
     for name, requests in manifests.requests.items():
         if name != order.name and "c" in requests and os.path.isfile(order.out / f"{name}.h"):
             yield name, " ".join(requests["c"].get("points") or ["fieldscribe_*"])
@@ -142,7 +142,7 @@ def _others(order: Order, manifests: Manifests) -> Iterator[tuple[str, str]]:
 
 
 def _manifests_of_others(order: Order, manifests: Manifests, made: Mapping[str, Contents]) -> dict[str, Contents]:
-    """Return the manifests that record another checksum of a file that these devices share with the order."""
+    """Return the manifests with another checksum of a file that these devices share with the order."""
     changed: dict[str, Contents] = {}
     for name in manifests.requests.keys() - {order.name}:
         targets, language = manifests.of(name), order.request.language

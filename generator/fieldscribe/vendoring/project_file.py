@@ -1,4 +1,4 @@
-"""Reads `fieldscribe.toml`: which devices a project uses, with which points, in which languages.
+"""Reads `fieldscribe.toml`: the devices of a project, with their points and languages.
 
 out = "drivers"              # below this file's folder; a device may name another one
 targets = ["c"]              # c, python, rust, typescript; a device may name others
@@ -35,7 +35,7 @@ _WHERE = re.compile(r"at line (\d+), column (\d+)")
 
 
 class ProjectDevice(NamedTuple):
-    """A device of the project file: its name there, the place of that, the request, and the output folder."""
+    """A device of the project file: its name there, the place of the name, the request, and the output folder."""
 
     device: str
     place: Span
@@ -44,7 +44,7 @@ class ProjectDevice(NamedTuple):
 
 
 def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> list[ProjectDevice]:
-    """Return the devices of a project file; errors in it go to the report. Raises OSError.
+    """Return the devices of a project file; report errors in it. Raises OSError.
 
     `inputs` records the file.
     """
@@ -78,7 +78,7 @@ class _Reader:
         self._heads = [number for number, line in enumerate(self._lines) if _is_device_head(line)]
 
     def devices(self, document: Mapping[str, Any]) -> Iterator[ProjectDevice]:
-        """Yield what stands under `devices`, once for each language."""
+        """Yield the entries under `devices`, once for each language."""
         common = {key: value for key, value in document.items() if key not in ("devices", *_OF_LINES)}
         self._check(common, None, _COMMON)
         devices = document.get("devices")
@@ -131,7 +131,7 @@ class _Reader:
                 self._wrong(message, number, key, f"there are {', '.join(LANGUAGES)}")
 
     def _inside(self, path: str, span: Span) -> Path:
-        """Return the full path; one that leads out of the file's folder is an error."""
+        """Return the full path; report one that leads out of the file's folder."""
         root = os.path.realpath(self._file.parent)
         if os.path.commonpath([root, os.path.realpath(os.path.join(root, path))]) != root:
             message = f"`{shortened(path)}` leads out of the folder of {self._file.name}"

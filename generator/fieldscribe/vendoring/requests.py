@@ -1,6 +1,6 @@
-"""The requests of projects, code in a language or documentation in a format, and the files that answer them.
+"""The requests of projects, for code in a language or documentation in a format, and the files for them.
 
-Leaves out of the runtime headers of C what no chosen point uses.
+Prunes the runtime headers of C to what the chosen points use.
 
 A header is divided at its empty lines. A part that defines something is kept if the code of a kept part has one of its
 names as a word, or if a text that uses the runtime has, also in a comment below its head. `fieldscribe_modbus_*` there
@@ -31,7 +31,7 @@ from fieldscribe.vendoring.selection import select
 
 RUNTIME_NAME = re.compile(r"fieldscribe_[a-z0-9_]*\*?|FIELDSCRIBE_[A-Z0-9_]*\*?")
 _FOR_USERS = {"FIELDSCRIBE_COUNT"}
-"""What a user's program may need though no generated line does."""
+"""Names that a user's program may need although no generated line uses them."""
 _HEAD = re.compile(r"\A\s*/\*.*?\*/", re.DOTALL)
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _DEFINED = re.compile(
@@ -46,7 +46,7 @@ _NOTICE = "/* Only what the chosen points use: to have more, add its names to --
 
 
 def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) -> dict[str, str]:
-    """Return the runtime headers without what neither these texts nor these words use. Raises UnclearError."""
+    """Return the runtime headers without parts that neither these texts nor these words use. Raises UnclearError."""
     parts = {name: _HEAD.sub("", text).split("\n\n") for name, text in runtime.items()}
     defined = {part: _names_of(part) for of_file in parts.values() for part in of_file}
     known = frozenset[str]().union(*defined.values())
@@ -72,7 +72,7 @@ def _words_of(part: str) -> frozenset[str]:
 
 @lru_cache(maxsize=2048)
 def _names_of(part: str) -> frozenset[str]:
-    """Return what a part defines; nothing if it opens or closes the conditions of others, and is always kept."""
+    """Return the names that a part defines; none if it opens or closes conditions of others, and is always kept."""
     text = _COMMENT.sub("", part)
     if len(re.findall(r"(?m)^#if", text)) != len(re.findall(r"(?m)^#endif", text)):
         return frozenset()
@@ -80,7 +80,7 @@ def _names_of(part: str) -> frozenset[str]:
 
 
 def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
-    """Return the kept parts of a header below its head, and a notice unless these are all."""
+    """Return the kept parts of a header below its head, with a notice unless all are kept."""
     texts = [part for part in parts if part in kept]
     if len(texts) == len(parts):
         return whole
@@ -92,7 +92,7 @@ def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
 
 
 def _is_empty(part: str, following: str = _CLOSES, second: str = "") -> bool:
-    """Return True for a comment with nothing below it, if need be in a condition, and for an empty condition."""
+    """Return True for a comment with nothing below it, perhaps in a condition, and for an empty condition."""
     if _is_comment(part):
         below = second if following.startswith("#if ") and second else following
         ends = _is_comment(below) or following.startswith((_CLOSES, _CLOSES_C))
@@ -112,7 +112,7 @@ LANGUAGE_OF = {"frames": "c", "rows": "c", "single_file": "c", "wheel": "python"
 
 LICENCE = "LICENSE-fieldscribe.txt"
 _POINTS_IN_A_HEAD = 60
-"""Characters; a longer list of points is in the manifest only."""
+"""The most characters of a list of points; longer lists are only in the manifest."""
 
 
 FORMATS = {
@@ -128,8 +128,8 @@ FORMATS = {
 class CodeRequest:
     """A request for code: its language, the chosen points (empty: all), and switches.
 
-    `name` is the device's name in code if it is not the id. `frames`, `rows` and `single_file` are for C, `wheel` is
-    for Python.
+    `name` is the name of the device in code, if it differs from the id. `frames`, `rows` and `single_file` are for C,
+    `wheel` is for Python.
     """
 
     language: str
@@ -148,7 +148,7 @@ class CodeRequest:
         return tuple(word for word in self.points if not RUNTIME_NAME.fullmatch(word)) or self.points
 
     def command(self, device: str) -> tuple[str, ...]:
-        """Return the command that makes the files again, word by word."""
+        """Return the command that makes the files again, as words."""
         words = ["fieldscribe", "vendor", self.language, device]
         if self.name is not None:
             words += ["--as", self.name]
@@ -163,7 +163,7 @@ class CodeRequest:
         return tuple(words)
 
     def as_data(self, device: str) -> dict[str, object]:
-        """Return what the manifest records of the request."""
+        """Return the request as the manifest records it."""
         data: dict[str, object] = {"device": device, "points": list(self.points)}
         data |= {} if self.frames else {"frames": False}
         return data | {key: True for key in ("rows", "single_file", "wheel") if getattr(self, key)}
@@ -193,11 +193,11 @@ class DocumentRequest:
     """The message and the hint if the library of an extra is missing."""
 
     def command(self, device: str) -> tuple[str, ...]:
-        """Return the command that makes the files again, word by word."""
+        """Return the command that makes the files again, as words."""
         return "fieldscribe", "docs", device, "--format", self.language
 
     def as_data(self, device: str) -> dict[str, object]:
-        """Return what the manifest records of the request."""
+        """Return the request as the manifest records it."""
         return {"device": device}
 
     def contents(self, device: Device, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
@@ -230,7 +230,7 @@ class IndexRequest:
     extra = DocumentRequest.extra
 
     def as_data(self, device: str) -> dict[str, object]:
-        """Return what the manifest records of the request."""
+        """Return the request as the manifest records it."""
         return {"device": device, "devices": [each.id for each in self.devices], "pages": bool(self.shelves)}
 
     def contents(self, others: Mapping[str, str] = {}) -> Iterator[tuple[str, bytes]]:
@@ -269,7 +269,7 @@ def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {
 
 
 def _frames_part(request: CodeRequest) -> str:
-    """Return what the header of frames of C holds: calls alone for chosen points, if no other function is chosen."""
+    """Return the contents of the C header of frames: only calls for chosen points, unless others are chosen."""
     if not request.frames:
         return "constants"
     others = request.rows or request.single_file or request.points != request.chosen
@@ -289,7 +289,7 @@ def _wheels_of(texts: Mapping[str, str]) -> Iterator[tuple[str, bytes]]:
 
 
 def _build_wheel(project: Path, out: Path) -> Path:
-    """Build the wheel of a package, with hatchling's constant date, so that the bytes are always the same."""
+    """Return the wheel of a package, with the constant date of hatchling, so that its bytes are reproducible."""
     from hatchling.builders.wheel import WheelBuilder
 
     before = os.environ.pop("SOURCE_DATE_EPOCH", None)

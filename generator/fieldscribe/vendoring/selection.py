@@ -1,4 +1,4 @@
-"""Reduces a device to chosen points, and to the points that these depend on."""
+"""Reduces a device to chosen points and their dependencies."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -15,11 +15,11 @@ from fieldscribe.user_errors import UnclearError, did_you_mean
 
 _GLOB = frozenset("*?[")
 _MOST_NAMED = 20
-"""How many wrong words a message names."""
+"""The most wrong words in a message."""
 
 
 def select(device: Device, words: Sequence[str]) -> Device:
-    """Return the device reduced to these points and commands, and to what they depend on, with its own digest.
+    """Return the device reduced to these points and commands and their dependencies, with its own digest.
 
     A word is a code, a name, `group:NAME` or the name of a group, or a pattern such as `d0*`. Raises UnclearError.
     """
@@ -45,7 +45,7 @@ def select(device: Device, words: Sequence[str]) -> Device:
 
 
 def address_only_messages(device: Device, words: Iterable[str]) -> Iterator[str]:
-    """Yield a message for each word that names a point of which code has only the address."""
+    """Yield a message for each word that names a point whose code is only the address."""
     for word in words:
         reason = next((point.reason for point in _named(device, word) if point.raw_only), None)
         if reason is not None:
@@ -116,7 +116,7 @@ def _hint(device: Device, word: str) -> str:
 
 
 def _with_dependencies(device: Device, items: set[str], named: Iterable[str]) -> list[Point]:
-    """Return these points and all points that they depend on; the latter can only be read."""
+    """Return these points and all their dependencies, which can only be read."""
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
         for name in dict.fromkeys((point.item, point.name)):
@@ -133,7 +133,7 @@ def _with_dependencies(device: Device, items: set[str], named: Iterable[str]) ->
 
 
 def _dependencies(point: Point) -> Iterator[str]:
-    """Yield the names of the points that scale, limits and existence of this one depend on."""
+    """Yield the names of the points on which scale, limits and existence of this one depend."""
     yield from point.arguments
     if point.when is not None:
         yield from point.when.names
@@ -186,7 +186,7 @@ def _enums_of(device: Device, points: Iterable[Point]) -> tuple[Enum, ...]:
 
 
 def _blocks(device: Device, points: Sequence[Point]) -> Mapping[str, tuple[Block, ...]]:
-    """Return the reads of each group, planned for the points that remain."""
+    """Return the reads of each group, planned for the remaining points."""
     reading = family(device.family).part("reading")
     if reading is None:
         return {}
