@@ -1,4 +1,4 @@
-"""Formats descriptions, if their meaning and comments stay the same; replaces files of one: all of them, or none."""
+"""Formats descriptions, if their meaning and comments stay the same; replaces all files of a description or none."""
 
 import os
 import re
@@ -29,7 +29,7 @@ class MovedError(Exception):
 
 
 def formatted(name: str, data: bytes, report: Report) -> bytes | None:
-    """Return the canonical form of a file; None, with a finding, if it cannot be read or has none."""
+    """Return the canonical form of a file; None, with a finding, if it cannot be read or has no such form."""
     source = decoded(name, data, report)
     if source is None:
         return None
@@ -70,7 +70,7 @@ def files_of(path: Path) -> Iterator[Path]:
 
 
 class Formatting:
-    """Formats files, and records which were not in canonical form."""
+    """Formats files, and records those that were not in canonical form."""
 
     def __init__(self, report: Report, *, writes: bool) -> None:
         self.report, self.writes = report, writes
@@ -91,7 +91,7 @@ class Formatting:
         self._schema(path, content.data)
 
     def _schema(self, path: Path, data: bytes) -> None:
-        """Update the schema if it is ours and stands beside the description or above it."""
+        """Update the schema if it is ours and lies beside the description or above it."""
         line = _SCHEMA_LINE.fullmatch(data[:500].decode("utf-8-sig", "replace").partition("\n")[0].rstrip())
         if line is None:
             return
@@ -107,7 +107,7 @@ class Formatting:
             self.kept += 1
             return
         if self.writes:
-            place = Path(os.path.realpath(path))  # a link stays
+            place = Path(os.path.realpath(path))  # a link stays a link
             status = os.stat(place)
             if state_of(status) != state:
                 raise MovedError
@@ -120,7 +120,7 @@ _MARK = b"\xef\xbb\xbf"
 
 
 def rewrite(texts: Mapping[str, tuple[str, str]]) -> None:
-    """Replace the text of each file, given as it was read and as it is to be; modes stay. Raises UnclearError."""
+    """Replace the text of each file, given as old and new text; modes stay. Raises UnclearError."""
     before: dict[Path, bytes] = {}
     replaced: list[Path] = []
     try:

@@ -1,4 +1,4 @@
-"""Starts a description: its questions, its files, which compile at once, and the schema for editors."""
+"""Starts a description: the questions, the files, which compile at once, and the schema for editors."""
 
 import os
 from collections.abc import Mapping
@@ -46,7 +46,7 @@ class Question:
     name: str
     asks: str
     usual: str = ""
-    """The default; it may contain the names of earlier answers in braces."""
+    """The default, which may contain names of earlier answers in braces."""
 
 
 QUESTIONS = (
@@ -69,13 +69,13 @@ class NotStartedError(Exception):
 
 
 def startable() -> dict[str, str]:
-    """Return the families, each with what it is used for."""
+    """Return the families, each with its use."""
     parts = {name: family(name).part("description") for name in FAMILIES}
     return {name: part.SERVES for name, part in parts.items() if part is not None}
 
 
 def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
-    """Return what is wrong with an answer, and a hint; None if it is right."""
+    """Return what is wrong with an answer, with a hint; None if it is right."""
     if not answer or not answer.isprintable():
         return f"`{name}` is {'empty' if not answer else 'no line of text'}", "write one line of text"
     if name == "family" and answer not in startable():
@@ -98,7 +98,7 @@ def _shape_of(name: str) -> ValueShape:
 
 
 def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
-    """Make the folder of the device, whole or not at all, and return its files.
+    """Create the folder of the device, either completely or not at all; return its files.
 
     Raises FileExistsError, another OSError, or NotStartedError.
     """

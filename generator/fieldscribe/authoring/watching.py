@@ -1,4 +1,4 @@
-"""Compiles devices whenever one of their files is saved: those that changed, and those that failed before.
+"""Compiles devices whenever one of their files is saved: changed ones, and those that failed before.
 
 The files are polled a few times a second. That works on every file system and without a library; five devices cost a
 thousandth of a processor.
@@ -27,7 +27,7 @@ States = dict[Path, dict[str, "State | None"]]
 
 @dataclass(slots=True)
 class Outcome:
-    """The result of one run: the devices that it compiled, those that are gone, and its findings and files."""
+    """The result of one run: the compiled devices, the removed ones, and its findings and files."""
 
     devices: list[str]
     gone: list[str]
@@ -70,7 +70,7 @@ class Watch:
                 states = self._settled(stopped)
 
     def _settled(self, stopped: Callable[[float], bool]) -> States:
-        """Return the states once nobody is writing, so that no half-saved file is compiled."""
+        """Return the states once nobody is writing, so that no partly saved file is compiled."""
         states = self._poll()
         for _ in range(_MOST_POLLS if states != self.states else 0):
             if stopped(SETTLING):
