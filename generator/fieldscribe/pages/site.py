@@ -1,6 +1,6 @@
 """The files of an index: the list of devices, Fieldscribe's own pages, and one search over all of them.
 
-A link to a page or a heading that is not there is a finding.
+A link to a missing page or heading is a finding.
 """
 
 from __future__ import annotations
@@ -31,17 +31,20 @@ if TYPE_CHECKING:
 
 
 FOLDER = "fieldscribe"
-"""Where our pages lie, beside the pages of devices."""
+"""The folder of our pages, beside the pages of devices."""
 
 _ELSEWHERE = re.compile(r"(?i)[a-z][a-z0-9+.-]*:")
 _DEVICE = re.compile(r"descriptions/(\w+)")
 _OURS = re.compile(r"[^/]+\.md|descriptions/.*\.md")
-"""The paths that pages have. What else a link may name, such as a folder, is not delivered: its words stay alone."""
+"""Matches paths of pages.
+
+Other targets of links, such as folders, are not delivered: their text stays without a link.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Links:
-    """Leads links: to `pages` by their paths, which were read below `root`, and to `devices` that have a page."""
+    """Resolves links: to `pages` by their paths below `root`, and to `devices` that have a page."""
 
     pages: Mapping[str, Page]
     devices: Collection[str]
@@ -49,7 +52,7 @@ class Links:
     report: Report
 
     def lead(self) -> None:
-        """Change the links of all pages, and report those that lead nowhere."""
+        """Resolve the links of all pages, and report broken ones."""
         for page in self.pages.values():
             for token in page.tokens:
                 if token.children:
@@ -72,7 +75,7 @@ class Links:
                 yield token
 
     def _target(self, page: Page, href: str) -> str | None:
-        """Return where a link leads; None if that is nowhere."""
+        """Return the target of a link; None if it has none."""
         path, anchor = _path(page, href), unquote(href.partition("#")[2])
         device = _DEVICE.fullmatch(path)
         if device and device[1] in self.devices:
@@ -85,18 +88,18 @@ class Links:
 
 
 def html_path(path: str) -> str:
-    """Return where a page of Markdown lies as HTML."""
+    """Return the path of a page of Markdown as HTML."""
     return f"{FOLDER}/{path.removesuffix('.md')}.html"
 
 
 def _path(page: Page, href: str) -> str:
-    """Return the path that a link names, as from the top."""
+    """Return the path of a link, from the top folder."""
     path = unquote(href.partition("#")[0])
     return normpath(join(dirname(page.path), path)) if path else page.path
 
 
 Row = tuple[str, str, str, str]
-"""What a search sees of a place: its anchor, its title, its further words, and the heading above it."""
+"""An entry of the search: its anchor, its title, further words, and the heading above it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +128,7 @@ def device_name(device: Device) -> str:
 
 
 def rows_of(device: Device) -> Iterator[Row]:
-    """Yield what a search sees of the points of a device: names, codes, titles, addresses in all notations."""
+    """Yield the search entries of the points of a device: names, codes, titles, addresses in all notations."""
     groups = {group.name: line(title_text(group.title)) for group in device.groups}
     for point in device.points:
         title = f"{label(point)}: {line(title_text(point.title))}"
@@ -133,7 +136,7 @@ def rows_of(device: Device) -> Iterator[Row]:
 
 
 def _numbers(device: Device, point: Point) -> Iterable[str]:
-    """Yield the numbers under which manuals and tools know a point, and its old names."""
+    """Yield the numbers of a point in manuals and tools, and its old names."""
     yield from point.was
     if point.addresses:
         first = min(point.addresses)
@@ -143,7 +146,7 @@ def _numbers(device: Device, point: Point) -> Iterable[str]:
 
 
 NAME = "index"
-"""The name of the files, as a device has one: their manifest's, too."""
+"""The name of the files and their manifest, in place of a device id."""
 
 _SHELVES = (
     ("Start", ("README.md", "CHANGELOG.md")),
@@ -154,7 +157,7 @@ _SHELVES = (
 
 
 class Shelf(NamedTuple):
-    """Pages that the list of pages has under one heading."""
+    """Pages under one heading of the list of pages."""
 
     heading: str
     pages: tuple[Page, ...]
@@ -171,7 +174,7 @@ class LinkView:
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """A page, in HTML: its heading, the way to the top, the lists of links beside it, and its text."""
+    """A page, in HTML: its heading, the path to the top, the lists of links beside it, and its text."""
 
     path: str
     title: str
@@ -202,7 +205,7 @@ def load_pages(devices: Collection[str], report: Report, root: Path | None = Non
 def site_files(
     devices: Sequence[Device], shelves: Sequence[Shelf], command: str, render: Render
 ) -> Iterator[tuple[str, str]]:
-    """Yield the files: path relative to the folder, and text. `command` makes them again."""
+    """Yield the files: path relative to the folder, and text. `command` is the one that makes them again."""
     head = f"Generated by fieldscribe {__version__} from {NAME} of these pages; do not edit."
     context = {"made": head, "command": command}
     text = render("docs/page/devices.html.j2", {"devices": [device_view(device) for device in devices]})
@@ -233,7 +236,7 @@ def _view(path: str, title: str, shelves: Sequence[Shelf], contents: tuple[LinkV
 
 
 def _search_data(devices: Sequence[Device], shelves: Sequence[Shelf]) -> str:
-    """Return the call that gives the search its places: path, name, and rows of anchor, title, words, heading above."""
+    """Return the call that adds entries to the search: path, name, and rows of anchor, title, words, heading above."""
     places: list[object] = [[f"{device.id}.html", device_name(device), list(rows_of(device))] for device in devices]
     for page in (page for shelf in shelves for page in shelf.pages):
         rows = [(at.anchor, at.title, " ".join(" ".join(at.words).split()), at.within) for at in page.sections]

@@ -1,6 +1,6 @@
-"""Reads a page of Markdown: its headings with anchors, what a search sees of each section, and its HTML.
+"""Reads a page of Markdown: its headings with anchors, the search entry of each section, and its HTML.
 
-Nothing of the Markdown passes as markup of its own: HTML in it stands as text, and images are left out.
+No markup of the Markdown gets through: HTML in it becomes text, and images are left out.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from markdown_it.token import Token
 
 _COMMENT = re.compile(r"(?s)\s*<!--.*?-->\s*")
-"""A mark for our own tools, which nobody reads."""
+"""Matches a comment for our own tools."""
 
 
 @dataclass(slots=True)
 class Section:
-    """A place that a link can lead to: a heading, or a row of a table that starts with a name in code (level 0).
+    """A place to which a link can lead: a heading, or a row of a table that starts with a name in code (level 0).
 
     `words` is the text below the heading, or of the row; `within` is the heading above the row.
     """
@@ -67,7 +67,7 @@ def words_of(inline: Token) -> str:
 
 
 def _clean(text: str) -> str:
-    """Return the text without characters that are not seen, such as bidi controls, which change the order of others."""
+    """Return the text without invisible characters, such as bidi controls, which change the order of others."""
     return "".join(char for char in text if char in "\n\t" or unicodedata.category(char) not in {"Cc", "Cf", "Cs"})
 
 
@@ -119,7 +119,7 @@ def _anchor(title: str, taken: dict[str, int]) -> str:
 
 @cache
 def markdown_reader() -> MarkdownIt:
-    """Return what reads Markdown and writes HTML. Raises ModuleNotFoundError without markdown-it-py."""
+    """Return the converter from Markdown to HTML. Raises ModuleNotFoundError without markdown-it-py."""
     from markdown_it import MarkdownIt
 
     reader = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
@@ -159,4 +159,4 @@ _RULES: dict[str, Any] = {
     "table_open": _table_start,
     "table_close": _table_end,
 }
-"""What differs from plain HTML: anchors at headings, and boxes that scroll."""
+"""Renderers that differ from plain HTML: anchors at headings, and boxes that scroll."""
