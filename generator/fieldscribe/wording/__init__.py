@@ -18,7 +18,7 @@ from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
 
 LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
-"""Lines of a manual that a sentence names: `the replies at lines 246 and 297`."""
+"""Matches lines of a manual in a sentence: `the replies at lines 246 and 297`."""
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
 
 
@@ -33,7 +33,7 @@ def address_text(address: int) -> str:
 
 
 def base_text(base: Base) -> str:
-    """Return what addresses count from: `slot * 1000`, `block 103 of models`, `block 705 of models + points * 2`."""
+    """Return the base of addresses: `slot * 1000`, `block 103 of models`, `block 705 of models + points * 2`."""
     if base.block is None:
         return line(base.formula)
     chain, _, after = line(base.formula).partition(f" {base.block}")
@@ -41,12 +41,12 @@ def base_text(base: Base) -> str:
 
 
 def words_text(point: Point) -> str:
-    """Return all words of a point, and which one holds the high part: `1013h (4115) high, 1014h (4116) low`."""
+    """Return all words of a point, and the one with the high part: `1013h (4115) high, 1014h (4116) low`."""
     return _words_of(point, point.addresses)
 
 
 def bits_in_message(point: Point) -> str:
-    """Return where a signal lies, as CAN databases count: `12 bits from bit 3 on, low byte first`."""
+    """Return the bits of a signal, as CAN databases count: `12 bits from bit 3 on, low byte first`."""
     several = "" if point.width == 1 else f", {'low' if point.place.low_first else 'high'} byte first"
     what = "bit" if point.width == 1 else f"{point.width} bits from bit"
     return f"{what} {point.place.bit}{' on' if several else ''}{several}"
@@ -73,7 +73,7 @@ def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
 
 
 def order_text(point: Point) -> str:
-    """Return which of several words comes first: `low word first`; empty for a single word, or if it is not settled."""
+    """Return the order of several words: `low word first`; empty for a single word, or if the order is open."""
     first, *others = point.addresses or (0,)
     if not others or point.untyped is not None:
         return ""
@@ -117,7 +117,7 @@ def type_text(point: Point) -> str:
 
 
 def characters_text(layout: Text) -> str:
-    """Return what a text holds: `16 characters, ascii`, and how they stand in words if that is not usual."""
+    """Return the contents of a text: `16 characters, ascii`, with their layout if it is not the usual one."""
     if layout.parts:
         return f"{layout.encoding}, {counted(layout.words, 'word')}{', low byte first' * layout.low_first}"
     usual_what = "byte" if layout.is_bytes else "character"
@@ -149,7 +149,7 @@ def fixed_text(point: Point) -> str:
 
 
 def shares_word(point: Point) -> bool:
-    """Return True if writing the point needs the rest of its word; words of a telegram are all sent anyway."""
+    """Return True if writing the point needs the rest of its word; a telegram sends all words anyway."""
     return point.bits is not None and point.writable and point.telegram is None
 
 
@@ -165,12 +165,12 @@ def shared_text(point: Point) -> str:
 
 
 def access_text(access: str) -> str:
-    """Return what the bus may do with a point."""
+    """Return what a master may do with a point."""
     return _ACCESS.get(access, access)
 
 
 def display_text(point: Point) -> str:
-    """Return with how many decimals instruments show the value: `shown with 2 decimals`."""
+    """Return the number of decimals that instruments show: `shown with 2 decimals`."""
     return f"shown with {decimals_text(point)}" if point.display is not None else ""
 
 
@@ -182,7 +182,7 @@ def decimals_text(point: Point) -> str:
 
 
 def epoch_text(point: Point) -> str:
-    """Return the date from which a time counts: `seconds since 1970-01-01`; empty for what is no time."""
+    """Return the date from which a time counts: `seconds since 1970-01-01`; empty for anything else."""
     return f"seconds since {point.epoch}" if point.epoch else ""
 
 
@@ -227,14 +227,14 @@ def count_text(point: Point) -> str:
 
 
 def write_texts(point: Point) -> tuple[str, ...]:
-    """Return what a writer has to know of a point: sentences without a full stop."""
+    """Return facts about writing a point: sentences without a full stop."""
     effect = () if point.takes_effect is None else (f"a written value takes effect {point.takes_effect}",)
     together = (f"write it in one request with {', '.join(point.write_with)}",) if point.write_with else ()
     return effect + together
 
 
 def width_texts(point: Point) -> tuple[str, ...]:
-    """Return what a scaled point lacks because its numbers are too wide: sentences without a full stop."""
+    """Return what a scaled point lacks because its numbers are too wide, as sentences without a full stop."""
     if point.form != "scaled" or not point.generated:
         return ()
     counts = ("no integer path: its counts need more than 64 bits",) if point.decimals is None else ()
@@ -243,7 +243,7 @@ def width_texts(point: Point) -> tuple[str, ...]:
 
 
 def overflow_texts(point: Point) -> tuple[str, ...]:
-    """Return with which numbers a scaled point overflows that its type, or that of a factor, holds."""
+    """Return the numbers within its type, or that of a factor, with which a scaled point overflows."""
     texts = [f"overflows beyond raw {point.most_raw} in size"] if point.most_raw is not None else []
     cases = point.scale if point.scale_arguments else None
     factors = [factor for case in cases or () for factor in case.rule.factors]
@@ -295,13 +295,13 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
 
 
 def raw_range_text(point: Point, points: RenamedPoints | None = None) -> str:
-    """Return which raw numbers may be written: `0..4000`; empty where the limits are values, as of f32 and f64."""
+    """Return which raw numbers may be written: `0..4000`; empty if the limits are values, as for f32 and f64."""
     nothing = point.info.floating or point.allowed.units or point.text is not None or point.patterns
     return "" if nothing or _is_unbounded(point) else ranges_text(point, SAME, points, "")
 
 
 def _is_unbounded(point: Point) -> bool:
-    """Return True if nothing limits the numbers: the point has no type, and the manual prints no range."""
+    """Return True if the numbers have no limit: the point has no type, and the manual prints no range."""
     return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
@@ -316,7 +316,7 @@ def entry_text(entry: Entry, *, patterns: bool = False) -> str:
 
 
 def entry_number(entry: Entry, *, patterns: bool) -> str:
-    """Return the raw number of an entry; if it is a floating-point pattern, after its number: `2.5 (40200000h)`."""
+    """Return the raw number of an entry; for a floating-point pattern, also its number: `2.5 (40200000h)`."""
     return f"{entry.quantity} ({entry.raw:X}h)" if patterns else str(entry.raw)
 
 
@@ -360,7 +360,7 @@ def special_numbers(special: Special, width: int) -> str:
 
 
 def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
-    """Return a raw number of `width` bits in decimal, or the pattern of its bits in hexadecimal."""
+    """Return a raw number of `width` bits in decimal, or its bit pattern in hexadecimal."""
     return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
 
 
@@ -404,7 +404,7 @@ def flag_value_text(entry: Entry) -> str:
 
 
 def keeps_text(device: Device, point: Point) -> str:
-    """Return whether a written value survives switching off, and what that takes."""
+    """Return whether a written value survives power-off, and how."""
     if point.keeps is None:
         return ""
     if point.keeps == "choice":
@@ -426,12 +426,12 @@ def open_texts(errata: Iterable[Erratum], quoted: Callable[[str], str] = line) -
 
 
 def open_text(errata: Iterable[Erratum], quoted: Callable[[str], str] = line) -> str:
-    """Return what the errata of a point leave open, to follow a `the` or `The`."""
+    """Return what the errata of a point leave open, as the rest of a sentence after `the` or `The`."""
     return f"manual leaves open {', '.join(open_texts(errata, quoted))}"
 
 
 def without_lines(text: Any) -> Any:
-    """Return a text, or texts by language, without the numbers of the lines that they name."""
+    """Return a text, or texts by language, without line numbers."""
     if isinstance(text, dict):
         return {language: without_lines(words) for language, words in text.items()}
     return LINES_NAMED.sub("lines", text) if isinstance(text, str) else text

@@ -32,7 +32,7 @@ def number_text(number: Fraction) -> str:
 
 
 def rounded(numerator: int, denominator: int, decimals: int) -> str:
-    """Return the number with so many decimals, rounded to nearest, halves away from zero: `50.00`; never `-0`."""
+    """Return the number with this many decimals, rounded to nearest, halves away from zero: `50.00`; never `-0`."""
     return _decimal(nearest(numerator * 10**decimals, denominator), decimals)
 
 

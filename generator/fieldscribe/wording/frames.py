@@ -22,13 +22,13 @@ _NO_ANSWER: Mapping[str, str] = {
 
 
 def units_text(bus: Bus) -> str:
-    """Return which unit numbers the device may have: `units are 1 to 32`."""
+    """Return the unit numbers that the device may have: `units are 1 to 32`."""
     low, high = bus.units
     return f"units are {low} to {high}"
 
 
 def strange_unit(bus: Bus, unit: int) -> str:
-    """Return that the device cannot have a unit number; empty if it can."""
+    """Return a text if the device cannot have a unit number; empty if it can."""
     low, high = bus.units
     return "" if low <= unit <= high else f"the device cannot have unit {unit}: {units_text(bus)}"
 
@@ -39,7 +39,7 @@ def hex_words(words: Sequence[int]) -> str:
 
 
 def too_short(what: str, least: int, here: int) -> str:
-    """Return that there are fewer bytes than every frame has."""
+    """Return a text about bytes that are too few for any frame."""
     return f"{what} has at least {least} bytes, here {'is' if here == 1 else 'are'} {here}"
 
 
@@ -66,7 +66,7 @@ def span_text(low: int, high: int) -> str:
 
 
 def element_text(parameter: int, index: int, *, alone: bool) -> str:
-    """Return `parameter 1082`, or `parameter 2010, index 1`. `alone`: no point there is one of several elements."""
+    """Return `parameter 1082`, or `parameter 2010, index 1`. `alone`: the parameter has a single element."""
     element = f", all elements (index {index})" if index == ALL_ELEMENTS else f", index {index}"
     return f"parameter {parameter}" + ("" if index == 0 and alone else element)
 
@@ -77,7 +77,7 @@ def numbered(codes: Sequence[Code], number: int) -> Code | None:
 
 
 def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -> str:
-    """Return which word of a point has an address: `low word (2 of 2)`; empty for a point of one word."""
+    """Return the word of a point at an address: `low word (2 of 2)`; empty for a point of one word."""
     count = len(addresses)
     if count < 2 or address not in addresses:
         return ""
@@ -89,6 +89,6 @@ def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -
 
 
 def misprint_text(frame: Frame) -> str:
-    """Return the note for a frame that the manual prints with this very error."""
+    """Return the note for a frame that the manual prints with exactly this error."""
     known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
     return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

@@ -10,7 +10,7 @@ from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, plus_text, times_text, value_multiple
 
 Points = Mapping[str, Point]
-"""Points by name, in which the texts of rules look up units and names."""
+"""Points by name, from which texts of rules take units and names."""
 
 
 class RenamedPoints(dict[str, Point]):
@@ -47,7 +47,7 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
     simple = intervals[0].fixed if len(intervals) == 1 and not listed else None
-    if simple is not None:  # as below, but most points are so
+    if simple is not None:  # the same as below, quicker for most points
         ends = [converted(raw, line) for raw in (simple[::-1] if falling else simple)]
         text = "..".join(ends) if simple[0] != simple[1] else ends[0]
         return f"{text} {unit}" if unit else text
@@ -68,7 +68,7 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
 
 
 def condition_text(condition: Condition | None, points: Points | None = None) -> str:
-    """Return when a point exists: `model == large and speed.raw > 600`; empty if always."""
+    """Return the condition of a point: `model == large and speed.raw > 600`; empty if it always exists."""
     return " or ".join(clause_text(clause, points) for clause in condition.clauses) if condition is not None else ""
 
 
@@ -179,12 +179,12 @@ def time_text(milliseconds: int) -> str:
 
 
 def word_text(word: Word) -> str:
-    """Return a word as a formula, and its bits if it has not all."""
+    """Return a word as a formula, with its bits if these are not all."""
     return str(word) if word.mask == WHOLE_WORD else f"{word} in the bits {hex_text(word.mask)}"
 
 
 def step_text(step: Step) -> str:
-    """Return what a step writes where and how, or what it waits for."""
+    """Return what a step writes, where and how, or for what it waits."""
     words = ", ".join(map(word_text, step.words))
     says = "" if step.says == words else f"{step.says}: "
     where = f"{step.space} {step.address} ({hex_text(step.address)}){f' from {step.base}' if step.base else ''}"
@@ -202,6 +202,6 @@ def steps_texts(command: SteppedCommand, points: Points | None = None) -> list[s
 
 
 def run_text(command: SteppedCommand) -> str:
-    """Return when a command is given, and with which arguments."""
+    """Return when a command is given, and with what arguments."""
     run = command.run if command.every is None else f"every {time_text(command.every)}, by caller"
     return ", ".join([run, *(f"{name} {low}..{high}" for name, (low, high) in command.arguments.items())])
