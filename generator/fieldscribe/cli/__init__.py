@@ -2,10 +2,10 @@
 
 To add a command, write one module in this folder and add one line to `COMMANDS`; `schema.py` is a short model. It has
 
-- `EXAMPLE`: the end of its `--help`: examples, and when it ends with which exit code,
+- `EXAMPLE`: the end of its `--help`: examples, and the meaning of its exit codes,
 - `add_arguments(parser)`: its arguments, with the shared ones of `common.py` (`add_device`, `add_paths`, `add_format`),
 - `run(arguments)`: does the work and returns `FINE`, `FINDINGS` or `USAGE`. Results go to stdout, messages to stderr.
-  What stops the command is raised as `common.StopError`.
+  To stop a command, raise `common.StopError`.
 
 A module is imported when its command is chosen, so it can import what it needs at its top. Tests: an entry in
 `tests/cli/test_help_examples.py` for each example, and in `tests/cli/test_reporting.py` if it has `--format`.
@@ -31,7 +31,7 @@ from fieldscribe.cli.terminal import terminal_width
 if TYPE_CHECKING:
 
     class Command(Protocol):
-        """What the module of a command offers."""
+        """The interface of a command's module."""
 
         EXAMPLE: str
 
@@ -80,7 +80,7 @@ _MODULES = {"list": "listing"}
 
 _DIGITS = frozenset(".0123456789")
 _INTERRUPTED, _PIPE_CLOSED = 130, 141
-"""Exit codes of a shell for Ctrl-C and for a reader that went away."""
+"""Exit codes of a shell for Ctrl-C and for a broken pipe."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -118,7 +118,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
         return USAGE
-    gc.freeze()  # else the interpreter collects once more at its end
+    gc.freeze()  # otherwise the interpreter collects again at exit
     return code
 
 
@@ -170,7 +170,7 @@ def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:
 
 
 def _overview(argv: list[str]) -> int:
-    """Answer `--help`, `--version`, and what is no command; return the exit code."""
+    """Answer `--help`, `--version`, and anything that is not a command; return the exit code."""
     width = max(map(len, COMMANDS))
     commands = "\n".join(f"  {name:<{width}}  {does}" for name, does in COMMANDS.items())
     parser = _parser(
@@ -219,7 +219,7 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
 
 
 def _discard_output() -> None:
-    """Send the rest of the output nowhere, also at interpreter exit: the pipe is closed, or the disk is full."""
+    """Discard the rest of the output, also at interpreter exit: the pipe is closed, or the disk is full."""
     try:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, ValueError):

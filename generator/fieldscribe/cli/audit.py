@@ -1,4 +1,4 @@
-"""`fieldscribe audit`: hold what a description cites against the text of its manual, or compare two editions of it."""
+"""`fieldscribe audit`: compare a description with the text of its manual, or compare two editions of it."""
 
 import re
 from argparse import ArgumentParser, Namespace
@@ -41,7 +41,7 @@ fact uses, for rows that nothing cites among rows that are cited, and when no fa
 _MOST_BYTES = 16 << 20
 _MOST_LINES, _LONGEST_LINE = 100_000, 20_000
 _MOST_NUMBERS = 200_000
-"""Limits of a manual's text: more than ten times those of the longest known one."""
+"""Limits of a manual's text: more than ten times the longest known one."""
 
 
 class _Text(NamedTuple):
@@ -54,7 +54,7 @@ class _Text(NamedTuple):
 
     @property
     def is_recorded(self) -> bool | None:
-        """Whether it is the text that the description records; None if that is unknown."""
+        """True if it is the text that the description records; None if that is unknown."""
         return None if self.document.sha256 is None else self.sha256 == self.document.sha256
 
 
@@ -127,7 +127,7 @@ def _compare(arguments: Namespace) -> int:
 
 
 def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
-    """Write the lines of the new edition; return what was done. Raises StopError."""
+    """Write the line numbers of the new edition; return a report. Raises StopError."""
     result = renumber(subject.scope.files, document.id, editions)
     if result.hindrances:
         raise StopError(f"not renumbered: {'; '.join(result.hindrances)}", "nothing was changed", FINDINGS)
@@ -148,7 +148,7 @@ def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: 
 
 
 def _given(arguments: Namespace) -> dict[str, str]:
-    """Return what is to be recorded beside the checksum. Raises StopError."""
+    """Return the facts to record beside the checksum. Raises StopError."""
     given = {key: str(value) for key in LONGEST if (value := getattr(arguments, key)) is not None}
     for key, value in given.items():
         if not value.strip() or not value.isprintable() or len(value) > LONGEST[key]:
@@ -159,7 +159,7 @@ def _given(arguments: Namespace) -> dict[str, str]:
 
 
 def _accept(arguments: Namespace, outcome: Comparison, editions: Editions, subject: Analysis, new: _Text) -> list[str]:
-    """Record the new edition; return what was done and what is left to look at. Raises StopError."""
+    """Record the new edition; return a report, with what is left to look at. Raises StopError."""
     recorded = subject.scope.header["documents"][new.document.id]
     text = with_recorded(recorded, {"sha256": new.sha256, **_given(arguments)})
     if text is None:
@@ -195,7 +195,7 @@ def _subject(arguments: Namespace) -> Analysis:
 
 
 def _text(subject: Analysis, place: Path) -> _Text:
-    """Read the text of a manual. Raises StopError."""
+    """Return the text of a manual. Raises StopError."""
     path, document = _manual_of(subject, place)
     data = read_regular(path, _MOST_BYTES).data
     try:
@@ -219,7 +219,7 @@ def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
     documents = list(subject.scope.documents.values())
     if not place.exists():
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
-    # only plain names, so that a description cannot lead out of the given folder
+    # only plain names, so that a description cannot leave the given folder
     known = {
         document.file: document for document in documents if document.file and Path(document.file).name == document.file
     }

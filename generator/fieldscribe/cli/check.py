@@ -56,7 +56,7 @@ def _check_behaviour(device_file: Path, device: Device, report: Report) -> None:
 
 
 def _counts(device: Device) -> dict[str, Any]:
-    """Return how much a description holds."""
+    """Return the counts of the parts of a description."""
     return {
         "device": device.id,
         "version": device.version,
@@ -70,7 +70,7 @@ def _counts(device: Device) -> dict[str, Any]:
 
 
 def _line(counts: dict[str, Any]) -> str:
-    """Return the same in one line."""
+    """Return the counts in one line."""
     certainty = ", ".join(f"{count} {name}" for name, count in counts["errata_by_certainty"].items())
     errata = f"{counts['errata']} {'erratum' if counts['errata'] == 1 else 'errata'}"
     return (

@@ -1,4 +1,4 @@
-"""What commands share: their common arguments, finding and opening descriptions, and printing findings and errors."""
+"""Shared by commands: common arguments, finding and opening descriptions, printing findings and errors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Parser = ArgumentParser | _ArgumentGroup
 
 _LONGEST = 1e8
-"""The most seconds that an option takes: three years."""
+"""The most seconds that an option accepts: three years."""
 
 LOCAL = Path("descriptions")
 """The usual folder of a project's descriptions."""
@@ -71,7 +71,7 @@ def _number(text: str, what: str, is_allowed: Callable[[float], bool]) -> float:
 
 
 def usage_error(message: str, hint: str = "") -> int:
-    """Print what is wrong with the command line or the machine on stderr; return the exit code."""
+    """Print an error of the command line or the machine on stderr; return the exit code."""
     lines = [[("error", "fieldscribe: "), ("", visible(message))]]
     if hint:
         lines.append([("hint", f"  hint: {visible(hint)}")])
@@ -81,7 +81,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
-    """Print that there is no such command, with near names; return the exit code."""
+    """Print that there is no such command, with similar names; return the exit code."""
     return usage_error(f"there is no command `{shortened(name)}`", _near(name, list(known)))
 
 
@@ -93,7 +93,7 @@ def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), remark: str =
 
 
 def add_repeated(parser: Parser, name: str, metavar: str, help_text: str, **more: Any) -> None:
-    """Add an option whose values make a list, because it may be repeated."""
+    """Add an option that may be repeated; its values become a list."""
     help_text += "; may be repeated"
     parser.add_argument(name, action="append", default=[], metavar=metavar, help=help_text, **more)
 
@@ -137,9 +137,9 @@ def some_path(text: str) -> Path:
 
 
 def description_paths(paths: list[Path]) -> list[Path]:
-    """Return the given paths, with device ids as folders. Raises StopError for what does not exist.
+    """Return the given paths, with device ids as folders. Raises StopError for one that does not exist.
 
-    Without any: ./device.yaml, ./descriptions, or the shipped descriptions.
+    The default is ./device.yaml, ./descriptions, or the shipped descriptions.
     """
     if paths:
         return list(map(_device_folder, paths))
@@ -152,7 +152,10 @@ def description_paths(paths: list[Path]) -> list[Path]:
 
 
 def _device_folder(path: Path) -> Path:
-    """Return the path, or the folder of a device id. A folder of that name without a description hides no device."""
+    """Return the path, or the folder of a device id.
+
+    A folder of that name without a description does not hide a device.
+    """
     if path.exists() and (not _is_id(str(path)) or find_devices([path], Report())):
         return path
     known = known_devices(default_folders())
@@ -169,7 +172,7 @@ def _is_id(text: str) -> bool:
 
 
 def default_folders() -> list[Path]:
-    """Return the folders in which device ids are searched, in order: the user's own come before the shipped ones."""
+    """Return the folders in which device ids are searched: those of the user, then the shipped one."""
     return [Path(), LOCAL, descriptions_dir()]
 
 
@@ -235,13 +238,13 @@ def _searched_folders(arguments: Namespace) -> list[Path]:
 
 
 def _near(name: str, known: list[str]) -> str:
-    """Return a hint with names like this one, else with all names."""
+    """Return a hint with similar names, or else with all names."""
     near = did_you_mean(get_close_matches(name.lower()[:60], known, 3))
     return near or (f"there are {', '.join(known[:20])}" if known else "")
 
 
 def report_findings(report: Report, form: str, stream: TextIO | None = None) -> None:
-    """Print findings: as text on stderr or `stream`; as JSON on stdout if there are errors, in place of the result."""
+    """Print findings: as text on stderr or `stream`; as JSON on stdout if there are errors, instead of the result."""
     findings = report.findings
     if form == "json":
         if report.has_errors:
@@ -262,7 +265,7 @@ def print_json(data: object) -> None:
 
 
 def _lines_of(name: str) -> list[str] | None:
-    """Return the lines of a file that findings name; None if it cannot be read."""
+    """Return the lines of a file for findings; None if it cannot be read."""
     from fieldscribe.language.source import MOST_BYTES  # a `generate` with nothing changed starts without it
 
     try:

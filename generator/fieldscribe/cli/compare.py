@@ -1,4 +1,4 @@
-"""`fieldscribe compare`: what differs between two snapshots, or between one and the manual's defaults."""
+"""`fieldscribe compare`: the differences between two snapshots, or between one and the manual's defaults."""
 
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
@@ -40,7 +40,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _defaults(arguments: Namespace, first: Snapshot) -> Snapshot:
-    """Return what the manual of the snapshot's device says. Raises UnclearError."""
+    """Return the defaults in the description of the snapshot's device. Raises UnclearError."""
     arguments.device = first.device
     arguments.variant = [f"{axis}={value}" for axis, value in first.variants.items()]
     return defaults(open_device(arguments))

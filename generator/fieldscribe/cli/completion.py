@@ -76,7 +76,7 @@ def run(arguments: Namespace) -> int:
 
 
 def completions(typed: Sequence[str]) -> list[str]:
-    """Return the words that may replace the last one; none where files may stand, or nothing is known."""
+    """Return the words that may replace the last one; none if it may be a file, or nothing is known."""
     words = [word for place, word in enumerate(typed) if word != "=" or place + 1 == len(typed)]  # bash splits at `=`
     *before, word = [text.strip() for text in words] or [""]
     if not before:
@@ -89,7 +89,7 @@ def _starting_with(word: str, known: Iterable[str]) -> list[str]:
 
 
 class _CommandLine:
-    """The words of a command before the one that is completed."""
+    """The words of a command before the completed one."""
 
     def __init__(self, command: str, before: list[str]) -> None:
         parser = ArgumentParser(prog=command, add_help=True)
@@ -137,7 +137,7 @@ class _CommandLine:
         return [f"{name}=" for name in self._points()] if metavar.startswith("POINT=") else []
 
     def _devices(self) -> dict[str, Path]:
-        """Return the devices whose folders are named by an id; others cannot be one word on a command line."""
+        """Return the devices whose folders have the name of an id; others cannot be one word on a command line."""
         known = known_devices(default_folders() if self._folder is None else [self._folder])
         return {name: file for name, file in known.items() if re.fullmatch(ID.pattern, name)}
 

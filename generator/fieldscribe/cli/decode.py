@@ -45,14 +45,14 @@ ends with 1 when a frame
   - is damaged or foreign (length, checksum, header), or does not answer the request before it
   - asks for what the device does not have: unit, function, task, count, multiplexer, address
   - writes what the device does not take: out of range, read only, or against bits that are always written
-ends with 2 when a line of a stream is no frame; the other lines are decoded"""
+ends with 2 when a line of a stream is not a frame; the other lines are decoded"""
 
 _GC_THRESHOLD = 100_000
-"""The new objects after which a stream collects garbage; the default is too often for short-lived texts."""
+"""The number of new objects after which a stream collects garbage; the default is too low for short-lived texts."""
 _MOST_MESSAGES = 10
-"""How many lines that are no frames get a message of their own."""
+"""The most lines without a frame that get a message each."""
 _LONGEST_LINE = 1 << 16
-"""The bytes of a line that are read; a longer line ends in dots, and so is no frame."""
+"""The most bytes of a line that are read; a longer line ends in dots and so is not a frame."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -102,7 +102,7 @@ def run(arguments: Namespace) -> int:
 
 
 class _Output:
-    """Prints decoded frames as they come, and keeps what the exit code depends on."""
+    """Prints decoded frames as they come, and records what decides the exit code."""
 
     def __init__(self, decoder: StreamDecoder, printer: _Printer, unit: int | None) -> None:
         self._decoder = decoder
@@ -112,7 +112,7 @@ class _Output:
         self._unread = 0
 
     def print(self, frames: Iterable[FrameResult]) -> None:
-        """Print those of the frames that are to or from the chosen unit."""
+        """Print the frames that are to or from the chosen unit."""
         for frame in frames:
             if self._unit is None or frame.unit == self._unit:
                 self._printer.frame(frame)
@@ -125,8 +125,8 @@ class _Output:
         self.follow(cast("BufferedIOBase", sys.stdin.buffer), "standard input")
 
     def follow(self, stream: BufferedIOBase, name: str) -> None:
-        """Decode the lines of a stream, and print each before waiting for the next; skip lines that are no frames."""
-        gc.freeze()  # what was read before stays
+        """Decode the lines of a stream, and print each before waiting for the next; skip lines without a frame."""
+        gc.freeze()  # objects from before stay
         gc.set_threshold(_GC_THRESHOLD)
         gc.enable()  # a stream may last for days
         for number, text in enumerate(_lines(stream), 1):
@@ -140,7 +140,7 @@ class _Output:
         gc.disable()
 
     def end(self) -> int:
-        """Print what follows the last frame and return the exit code."""
+        """Print the end of the output and return the exit code."""
         self._printer.end("no frame" if self._unit is None else "no frame of that unit")
         if self._unread > _MOST_MESSAGES:
             usage_error(f"{self._unread - _MOST_MESSAGES} more lines are no frames")
@@ -180,7 +180,7 @@ class _Printer:
         self._separator = "\n"
 
     def end(self, nothing: str) -> None:
-        """Print what follows the last frame; `nothing` says in words that there was no frame."""
+        """Print the end of the output; `nothing` is a text for an output without frames."""
         if not self._separator:
             sys.stdout.write(f"{nothing}\n")
 

@@ -72,7 +72,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _named(name: str) -> list[str]:
-    """Return the devices that a name stands for: all those of a folder, else the one."""
+    """Return the devices of a name: all devices of a folder, or the one with this name."""
     is_folder = bool(name) and Path(name).is_dir()  # an empty name would be the working folder
     files = find_devices([Path(name)], Report()) if is_folder else []
     return list(map(str, files)) if len(files) > 1 else [name]

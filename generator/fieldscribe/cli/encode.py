@@ -26,9 +26,9 @@ EXAMPLE = """examples:
 
 With --frame only the frames go to stdout, one a line; their meaning goes to stderr. A rounded value is a note there.
 
-ends with 1 when the value is refused: it is out of range or no name of the point, a frame is to write a point that is
-read only, or the device takes no such frame
-ends with 2 when the command lacks something (as --with), or VALUE is no value"""
+ends with 1 when the value is refused: it is out of range or not a name of the point, a frame would write a point that
+is read only, or the device does not accept such a frame
+ends with 2 when the command lacks something (such as --with), or VALUE is not a value"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

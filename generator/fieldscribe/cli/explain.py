@@ -18,7 +18,7 @@ from fieldscribe.text import shortened
 from fieldscribe.wording import label
 
 Found = tuple[list[str], Explanation]
-"""How WHAT was read (there may be several ways), and the explanation of what it then means."""
+"""The readings of WHAT, and the explanation of what it means."""
 
 _SHORTEST_FRAME = 4
 
@@ -33,7 +33,7 @@ EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 unit:Hz
   fieldscribe explain hitachi_l200 d001 --raw 0xFE0C
 
-ends with 2 when nothing has that code, name or address, with 1 when the chosen variants do not have it"""
+ends with 2 when nothing has that code, name or address, with 1 when only other variants have it"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -80,7 +80,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _raw_number(text: str) -> int:
-    """Return a raw number as it is typed. Raises StopError."""
+    """Return a typed raw number. Raises StopError."""
     number = number_of(text.strip().removeprefix("-"))
     if number is None:
         raise StopError(f"--raw {shortened(text)}: this is no whole number", "as in 65036, 0xFE0C, FE0Ch or -500")
@@ -113,7 +113,7 @@ def _nothing_found(device: Device, what: str) -> StopError:
 
 
 def _advice(device: Device, kind: str, what: str) -> str:
-    """Return what to try instead: a code of this kind, another kind, `decode` for a frame, or near names."""
+    """Return advice: a code of this kind, another kind, `decode` for a frame, or similar names."""
     own_family = family(device.family)
     kinds = {codes.kind: codes for codes in own_family.codes}
     if kind in kinds:

@@ -13,7 +13,7 @@ EXAMPLE = """examples:
   fieldscribe export json hitachi_l200 | jq '.points[] | select(.code == "A020")'
   fieldscribe export dbc woodward_mpu2s --unit 3 > mpu2s_3.dbc
 
-ends with 1 when the description is wrong, with 2 when the form has no way to say such a device"""
+ends with 1 when the description has errors, with 2 when the form cannot express the device"""
 
 _JSON = "json"
 

@@ -19,7 +19,7 @@ EXAMPLE = """examples:
 
 Indents, blanks, quotes and empty lines become those of the shipped descriptions; which keys share a line stays your
 choice. A schema of ours that a first line names is brought up to date, too.
-ends with 1 when a file is no YAML, and with --check when one is not in its canonical form"""
+ends with 1 when a file is not YAML, and with --check when one is not in its canonical form"""
 
 _STDIN = Path("-")
 

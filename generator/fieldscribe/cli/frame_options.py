@@ -1,4 +1,4 @@
-"""The options of `decode` and `encode` about frames and other points; families declare those that only they take."""
+"""The options of `decode` and `encode` about frames and other points; families declare their own."""
 
 from argparse import ArgumentParser, Namespace
 from fractions import Fraction

@@ -111,7 +111,7 @@ def print_waiting(out: Path) -> None:
 
 
 def _print_result(arguments: Namespace, result: Result, report: Report) -> int:
-    """Print what happened and return the exit code."""
+    """Print the result and return the exit code."""
     if arguments.format == "json":
         lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale", "kept")}
         head = {"out": str(arguments.out), "outputs": sorted(result.wanted)}

@@ -1,4 +1,4 @@
-"""`fieldscribe identify`: which device a unit is, by what descriptions say of that."""
+"""`fieldscribe identify`: find out which device a unit is, by the `identify` of descriptions."""
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
@@ -76,7 +76,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _models(arguments: Namespace) -> Iterator[Device]:
-    """Yield the device of the command line, or all that are known; one with errors is left out with a message."""
+    """Yield the device of the command line, or all known devices; one with errors is left out with a message."""
     if arguments.device:
         yield model_of(arguments)
         return

@@ -19,8 +19,8 @@ EXAMPLE = f"""examples:
 
 The usual headings are known in English and German; --column names other columns, as one of
 {", ".join(ROLES)}.
-In a text, tables are rows between bars (|) or lines with tabs. A cell that is not clear becomes no fact of the
-draft but a comment, `# ?`. A draft compiles. Without --device only groups are written, to be parts of a device.
+In a text, tables are rows between bars (|) or lines with tabs. An unclear cell becomes a comment `# ?` and not a
+fact of the draft. A draft compiles. Without --device only groups are written, to be parts of a device.
 XLSX needs the extra `import`.
 Models of SunSpec and a template make a whole device; the last line on standard error counts what is not carried.
 
@@ -32,7 +32,7 @@ KINDS: dict[str, tuple[ModuleType, str]] = {
     "sunspec": (import_sunspec, "models of SunSpec: a file `model_103.json`, or a folder of them"),
     "wb": (import_wb, "a device template of wb-mqtt-serial: `.json`, `.json.jinja`"),
 }
-"""The module of each kind of file, with what it reads. It has `add_arguments` for its options alone, and `run`."""
+"""The module of each kind of file, with its help text. It has `add_arguments` for its own options, and `run`."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

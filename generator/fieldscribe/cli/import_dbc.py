@@ -47,7 +47,7 @@ def run(arguments: Namespace) -> int:
 
 
 def text_of(data: bytes) -> str:
-    """Return the text of a database: UTF-8 if it is, else as Windows writes it."""
+    """Return the text of a database: UTF-8 if valid, else Windows-1252."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

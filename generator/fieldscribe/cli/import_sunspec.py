@@ -55,7 +55,7 @@ def _count(text: str) -> tuple[str, int]:
 
 
 def _report(models: int, imported: Imported) -> str:
-    """Return how much is carried, and what is not."""
+    """Return a report of what is carried and what is not."""
     whole = sum(not point.questions for point in imported.points)
     lost = imported.lost().most_common()
     first = f"{counted(models, 'model')}, {counted(len(imported.points), 'point')}, {whole} whole"

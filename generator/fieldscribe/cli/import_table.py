@@ -104,7 +104,7 @@ def _lines(text: str) -> tuple[int, int]:
 
 
 def _refuse_arguments(arguments: Namespace) -> None:
-    """Raise StopError for what is wrong before anything is read."""
+    """Raise StopError for arguments that are wrong before anything is read."""
     if arguments.file.suffix.lower() not in FORMATS:
         raise StopError(f"`{arguments.file}`: no reader takes such a file", f"the name ends in {', '.join(FORMATS)}")
     if not re.fullmatch("[a-z]{2}", arguments.language):
@@ -126,7 +126,7 @@ def _drafted(path: Path, options: Options) -> Draft:
 
 
 def _print_list(drafted: Draft) -> None:
-    """Print a line for each table: where it is, whether it holds points, and what its columns hold."""
+    """Print a line for each table: its place, whether it holds points, and the roles of its columns."""
     for columns in drafted.tables:
         table = columns.table
         roles = sorted((place + 1, role) for role, places in columns.places.items() for place in places)

@@ -1,4 +1,4 @@
-"""`fieldscribe listen`: what devices and their masters say, from a capture or on a line, without sending."""
+"""`fieldscribe listen`: show what devices and their masters exchange, from a capture or on a line, without sending."""
 
 import gc
 import json
@@ -43,13 +43,13 @@ serial line as DLT 147 to 162, SocketCAN), BLF and ASC, logs of candump, and lin
 with a time.
 On a line nothing is sent; Ctrl-C ends it, and the summary follows.
 
-ends with 1 when there are errors, or something is against the manual
-ends with 2 when a capture is cut off or is none, or a line cannot be opened or goes away; what came before is printed
+ends with 1 when there are errors, or something contradicts the manual
+ends with 2 when a capture is cut off or invalid, or a line cannot be opened or is lost; what came before is printed
 """
 
 _GC_THRESHOLD = 100_000
 _LAST_MOMENT = 1 << 34
-"""Times beyond are no times."""
+"""Later times are invalid."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -83,7 +83,7 @@ def run(arguments: Namespace) -> int:
         raise StopError("give --capture FILE or --line LINE", "captures are pcap, pcapng, candump, bytes in lines")
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
-    gc.freeze()  # what was read before stays
+    gc.freeze()  # objects from before stay
     gc.set_threshold(_GC_THRESHOLD)
     gc.enable()  # a line may last for days
     with ExitStack() as stack:
@@ -100,7 +100,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _standard_input() -> BufferedReader:
-    """Return standard input as bytes, which come as they are written. Raises StopError."""
+    """Return standard input as unbuffered bytes. Raises StopError."""
     if sys.stdin is None:
         raise StopError("standard input is closed", "give --capture FILE")
     stream = cast("BufferedReader", sys.stdin.buffer)
@@ -108,7 +108,7 @@ def _standard_input() -> BufferedReader:
 
 
 def _station(arguments: Namespace, text: str, project: Project) -> Station:
-    """Return a device with its unit: as typed, or as the project's file has it. Raises StopError."""
+    """Return a device with its unit: as typed, or from the project file. Raises StopError."""
     known = project.stations.get(text)
     if known is None:
         name, equals, unit = text.rpartition("=")
@@ -124,7 +124,7 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
 
 
 def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress:
-    """Return the line, whose settings become options where these are not given. Raises UnclearError."""
+    """Return the line; its settings become options that are not given. Raises UnclearError."""
     line = read_line(project.lines.get(arguments.line, arguments.line))
     require_line(line, device)
     for option in family(device.family).options:
@@ -146,7 +146,7 @@ class _Output:
         self._unread, self._broken = 0, False
 
     def follow(self, stream: BufferedReader, name: str) -> None:
-        """Print what a capture holds."""
+        """Print the exchanges of a capture."""
         each = None
         if self._writer is not None:
             is_packets = is_packet_file(stream.peek(4))
@@ -159,7 +159,7 @@ class _Output:
             usage_error(f"{name}: {error.message}", error.hint)
 
     def follow_line(self, line: LineAddress, duration: float | None) -> None:
-        """Print what is heard on a line, until Ctrl-C or for so many seconds."""
+        """Print the exchanges on a line, until Ctrl-C or for a number of seconds."""
         self._listener.each = None if self._writer is None else self._writer.write
         end = None if duration is None else time.monotonic() + duration
         try:
@@ -175,7 +175,7 @@ class _Output:
             usage_error(error.message, error.hint)
 
     def _chunk_of(self, text: str) -> Chunk | None:
-        """Return what a line of a log brings; None if it has no frame."""
+        """Return the chunk in a line of a log; None if it has no frame."""
         frame = logged_frame(text) if "unit " in text else text
         try:
             chunk: Chunk | None = None if frame is None else self._listener.part.chunk_of_text(frame)
@@ -194,7 +194,7 @@ class _Output:
             self._printer.exchange(exchange)
 
     def end(self) -> int:
-        """Print what is left and the summary; return the exit code."""
+        """Print the rest and the summary; return the exit code."""
         for exchange in self._listener.rest():
             self._exchange(exchange)
         statistics = self._statistics
@@ -213,7 +213,7 @@ class _Output:
 
 
 class _Printer:
-    """Prints an exchange as a line of text, with `verbose` also its frames and what is said of them."""
+    """Prints an exchange as a line of text, with `verbose` also its frames and remarks."""
 
     def __init__(self, *, verbose: bool) -> None:
         self._verbose = verbose

@@ -1,4 +1,4 @@
-"""The options of commands that talk to a device: its line, unit and variants, by hand or from `fieldscribe.toml`."""
+"""The options of commands that talk to a device: line, unit and variants, given there or in `fieldscribe.toml`."""
 
 from __future__ import annotations
 
@@ -47,16 +47,16 @@ def add_points(parser: ArgumentParser) -> None:
 
 
 def add_writing(parser: ArgumentParser) -> None:
-    """Add what a command that writes is told beside the values."""
+    """Add the options of commands that write."""
     add = parser.add_argument
     add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("-y", "--yes", action="store_true", help="write without asking")
 
 
 def add_unit(parser: ArgumentParser) -> None:
-    """Add `--unit`, and how often a read of that unit is tried again."""
+    """Add `--unit` and `--retries`."""
     parser.add_argument("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
-    tries = "so often a read without a good answer is asked again (default: 1); writes never are"
+    tries = "how often a failed read is repeated (default: 1); writes never are"
     parser.add_argument("--retries", type=int, default=1, metavar="N", help=tries)
 
 
@@ -76,7 +76,7 @@ def line_of(arguments: Namespace) -> LineAddress:
 
 
 def _take(arguments: Namespace, station: Station) -> None:
-    """Set what the command line does not say as the station has it."""
+    """Set what the command line leaves out from the station."""
     arguments.device = station.description
     arguments.line = arguments.line or station.line
     if getattr(arguments, "unit", None) is None:
@@ -91,7 +91,7 @@ def add_pairs(arguments: Namespace, variants: Iterable[str], settings: Iterable[
 
 
 def _without_given(known: Iterable[str], given: list[str]) -> list[str]:
-    """Return the given pairs, and the known ones whose name is not given."""
+    """Return the given pairs, and the known ones with other names."""
     names = {pair.partition("=")[0] for pair in given}
     return [*given, *(pair for pair in known if pair.partition("=")[0] not in names)]
 
@@ -107,7 +107,7 @@ def _named(text: str, project: Project) -> str:
 
 
 class Work:
-    """What a command is at, for whoever interrupts it, or an error does: what was `written`, `begun`, and is `left`."""
+    """The state of a command, for the report if it is interrupted: what was `written`, `begun`, and is `left`."""
 
     def __init__(self) -> None:
         self.written: list[str] = []
@@ -116,7 +116,7 @@ class Work:
 
     @contextmanager
     def writing(self, names: list[str]) -> Iterator[None]:
-        """Note what a request writes: it is `begun`, and then written unless an error comes."""
+        """Record what a request writes: it is `begun`, and then written unless an error comes."""
         self.begun = names
         yield
         self.written += names
@@ -124,7 +124,7 @@ class Work:
         self.begun = []
 
     def state(self) -> str:
-        """Return what was written and what was not, for a command that ends early."""
+        """Return what was written and what was not, as text for a command that ends early."""
         if not self.left:
             return f"written: {', '.join(self.written)}" if self.written else "nothing was written"
         written = f"written: {', '.join(self.written)}; " if self.written else ""
@@ -144,7 +144,7 @@ class Live(NamedTuple):
 
     @property
     def head(self) -> dict[str, object]:
-        """Which device it is, for JSON."""
+        """The device, for JSON."""
         return {"device": self.model.id, "unit": self.device.unit, "line": self.line.text}
 
     def taken(self) -> Snapshot:
@@ -158,12 +158,15 @@ class Live(NamedTuple):
             progress.clear()
 
     def progress(self) -> AbstractContextManager[None]:
-        """Show how many requests were sent, where it takes long."""
+        """Show the number of requests sent if it takes long."""
         return Progress().shown(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
 
 
 def model_of(arguments: Namespace) -> Device:
-    """Return the device of the command line, at its bases. Raises StopError, also for numbers that none depends on."""
+    """Return the device of the command line, at its bases.
+
+    Raises StopError, also for numbers on which no address depends.
+    """
     model = placed(open_device(arguments), arguments)
     if arguments.settings:
         known = ", ".join(each.name for each in model.given)
@@ -174,7 +177,10 @@ def model_of(arguments: Namespace) -> Device:
 
 @contextmanager
 def opened(arguments: Namespace) -> Iterator[Live]:
-    """Return the device of the command line on its line. Raises StopError, also for errors of the line meanwhile."""
+    """Yield the device of the command line on its line.
+
+    Raises StopError, also for errors of the line in the context.
+    """
     line = line_of(arguments)
     model = model_of(arguments)
     unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
@@ -188,9 +194,9 @@ def opened(arguments: Namespace) -> Iterator[Live]:
 
 @contextmanager
 def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connection, Work]]:
-    """Return the line; errors of it end the command, and so does Ctrl-C, with what was written until then.
+    """Yield the line; its errors and Ctrl-C end the command with a report of what was written.
 
-    Frames are printed where `--verbose` asks for it. Raises StopError.
+    Frames are printed with `--verbose`. Raises StopError.
     """
     connection, work = Connection(line, arguments.timeout), Work()
     try:
@@ -208,14 +214,14 @@ def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connect
 
 
 def print_requests(arguments: Namespace, requests: int) -> None:
-    """Print how many requests were sent, where `--verbose` asks for it."""
+    """Print the number of requests sent, with `--verbose`."""
     if arguments.verbose:
         print(f"{requests} request{'' if requests == 1 else 's'}", file=sys.stderr)
 
 
 @contextmanager
 def _frames_printed() -> Iterator[None]:
-    """Print the frames that the runtime logs."""
+    """Print the frames that the runtime logs, in this context."""
     import logging
 
     logger, handler = logging.getLogger("fieldscribe"), logging.StreamHandler(sys.stderr)
@@ -230,7 +236,7 @@ def _frames_printed() -> Iterator[None]:
 
 
 _RARELY = 10
-"""After so many seconds a line goes to what is no terminal."""
+"""Seconds between lines of progress if stderr is not a terminal."""
 
 
 class Progress:
@@ -243,7 +249,7 @@ class Progress:
 
     @contextmanager
     def shown(self, text: Callable[[], str]) -> Iterator[None]:
-        """Show a text again and again while something is done."""
+        """Show a text repeatedly while the context is open."""
         is_done = Event()
 
         def show() -> None:
@@ -260,7 +266,7 @@ class Progress:
             self.clear()
 
     def show(self, text: str) -> None:
-        """Show how far the work is, if it is time."""
+        """Show the progress, if it is time."""
         if (now := time.monotonic()) < self._next:
             return
         self._next = now + (0.1 if self._is_terminal else _RARELY)
@@ -270,7 +276,7 @@ class Progress:
         self._width = len(text)
 
     def clear(self) -> None:
-        """Take the line off the terminal."""
+        """Remove the line from the terminal."""
         if self._is_terminal and self._width:
             sys.stderr.write(f"\r{'':<{self._width}}\r")
             sys.stderr.flush()

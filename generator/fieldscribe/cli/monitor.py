@@ -21,7 +21,7 @@ EXAMPLE = f"""examples:
   fieldscribe monitor pump status --format csv > pump.csv
   fieldscribe monitor pump status --format jsonl --count 60
 
-A terminal shows a table, in which what changed last stands out. Elsewhere each change is a line: as text, as CSV, or as
+A terminal shows a table, with the last changes highlighted. Elsewhere each change is a line: as text, as CSV, or as
 JSON. --all prints what did not change, too.
 
 {LINES}
@@ -57,7 +57,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _samples(live: Live, arguments: Namespace) -> Iterator[list[Reading]]:
-    """Yield the readings, once each period; of a line that is lost meanwhile, the next that come. Raises at first."""
+    """Yield the readings of each period; after a lost line, the next ones. Raises if the first read fails."""
     reader, what = Reader(live.model, live.device), chosen(live.model, arguments.points)
     yield reader.read(what)
     due, left, is_lost = time.monotonic(), arguments.count, False
@@ -75,7 +75,7 @@ def _samples(live: Live, arguments: Namespace) -> Iterator[list[Reading]]:
 
 
 def _report_lost(error: FieldscribeError, *, is_lost: bool) -> None:
-    """Print that the line lost all; once until it is there again."""
+    """Print that the line is lost; once until it is back."""
     if not error.lost:
         raise error
     if not is_lost:
@@ -87,7 +87,7 @@ Show = Callable[[str, Reading], None]
 
 
 def _printer(arguments: Namespace) -> Printer:
-    """Return what prints readings in the chosen form."""
+    """Return a function that prints readings in the chosen form."""
     if arguments.format == "text" and is_coloured(sys.stdout) and not arguments.verbose:
         return _Table()
     show: Show = _csv_writer() if arguments.format == "csv" else _show_line
@@ -95,7 +95,7 @@ def _printer(arguments: Namespace) -> Printer:
 
 
 class _Changes:
-    """Prints each reading that is not as it was."""
+    """Prints each reading that changed."""
 
     def __init__(self, show: Show, *, everything: bool) -> None:
         self._show, self._everything = show, everything
@@ -133,7 +133,7 @@ def _csv_writer() -> Show:
 
 
 class _Table:
-    """A table that is drawn anew in its place; as much of it as the terminal has lines."""
+    """A table that is redrawn in place, limited to the lines of the terminal."""
 
     def __init__(self) -> None:
         self._before: dict[str, Reading] = {}

@@ -1,4 +1,4 @@
-"""`fieldscribe read`: what points of a device hold now."""
+"""`fieldscribe read`: read points of a device."""
 
 from argparse import ArgumentParser, Namespace
 
@@ -31,7 +31,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Read points and print what they hold; return the exit code."""
+    """Read points and print their values; return the exit code."""
     with opened(arguments) as live:
         what = chosen(live.model, arguments.points)
         with live.progress():

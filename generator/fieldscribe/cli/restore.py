@@ -37,7 +37,7 @@ ends with 1 when something cannot be written or was not, or the answer is no; wi
 not answer, and where nobody can be asked"""
 
 _MOST_NAMES = 8
-"""How many points that are left out are named."""
+"""The most points left out that are named."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -47,7 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_live(parser, optional=True)
     add_unit(parser)
     add_repeated(parser, "--only", "POINT|GROUP", "restore only this, whatever it is")
-    add("--all", action="store_true", help="also restore what the description calls no setting, as commands, setpoints")
+    add("--all", action="store_true", help="also restore points that are not settings, such as commands and setpoints")
     add_repeated(parser, "--without", "POINT|GROUP", "do not restore this, as a baud rate or an address")
     add("--dry-run", action="store_true", help="only show what would be written")
     add_writing(parser)
@@ -82,7 +82,7 @@ def run(arguments: Namespace) -> int:
 
 @dataclass
 class Done:
-    """What a restore writes or has written, what it cannot write, what was so before, and what is different still."""
+    """The state of a restore: writes planned or done, impossible ones, equal points, and points that still differ."""
 
     writes: list[Write]
     refused: dict[str, str]
@@ -97,7 +97,7 @@ def _differs(live: Live, item: str, raw: int) -> bool:
 
 
 def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
-    """Set what the command line does not say as the snapshot has it: a station or the command line come first."""
+    """Set what neither the command line nor a station says from the snapshot."""
     if arguments.device is None:
         arguments.device = wanted.device
         arguments.line = arguments.line or wanted.line
@@ -106,7 +106,7 @@ def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
 
 
 def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
-    """Return what chooses points: settings, or those of `--only`, but for those of `--without`. Raises UnclearError."""
+    """Return a test for points: settings, or those of `--only`, except those of `--without`. Raises UnclearError."""
     usual: Callable[[Point], bool] = (lambda _point: True) if arguments.all else is_setting
     only = _named(live, arguments.only) if arguments.only else usual
     without = _named(live, arguments.without)
@@ -114,14 +114,14 @@ def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
 
 
 def _named(live: Live, names: list[str]) -> Callable[[Point], bool]:
-    """Return what chooses points by their names or groups. Raises UnclearError."""
+    """Return a test for points by their names or groups. Raises UnclearError."""
     groups = {group.name for group in live.model.groups} & {*names}
     items = {choose_point(live.model, name).item for name in names if name not in groups}
     return lambda point: point.item in items or point.group in groups
 
 
 def _planned(live: Live, now: Snapshot, order: Order, *, keep: bool) -> list[Write]:
-    """Return the writes, with all that a person should know before. Raises StopError."""
+    """Return the writes, with everything to know before they are sent. Raises StopError."""
     planner = Planner(live.model, live.device, keep=keep, lenient=True, known=settings_of(live.model, now.raws))
     try:
         return planner.plan([f"{item}.raw={raw}" for item, raw in order.writes.items()])
@@ -173,7 +173,7 @@ def _write(live: Live, writes: list[Write], now: Snapshot, journal: Journal) -> 
 
 
 def _report(arguments: Namespace, live: Live, done: Done) -> int:
-    """Print what was done, and return the exit code."""
+    """Print the result, and return the exit code."""
     if arguments.format == "json":
         what = [write.reading.as_data() for write in done.writes]
         key = "written" if done.is_written else "would_write"

@@ -1,4 +1,4 @@
-"""`fieldscribe scan`: which units answer on a line, and with what."""
+"""`fieldscribe scan`: list the units that answer on a line, and their answers."""
 
 from argparse import ArgumentParser, Namespace
 

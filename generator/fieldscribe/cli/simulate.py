@@ -40,7 +40,7 @@ EXAMPLE = f"""examples:
 
 faults: {", ".join(KINDS)}; each with a number, xTIMES and SHARE%
 while it runs, it reads lines from standard input: `help` lists them
-ends with 0 at Ctrl-C, SIGTERM or `quit`; with 1 if --strict has something to complain of; with 2 if a port is taken or
+ends with 0 at Ctrl-C, SIGTERM or `quit`; with 1 if --strict finds a fault of a client; with 2 if a port is taken or
 missing"""
 
 
@@ -64,8 +64,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_repeated(parser, "--set", "POINT=VALUE", "what it holds at the start", dest="values")
     add_repeated(parser, "--unmet", "CONDITION", "refuse the writes that need a condition, such as stopped")
     add_repeated(parser, "--fault", "KIND", 'spoil answers, as in "late 0.5 x3"', dest="faults")
-    add("--still", action="store_true", help="leave its behaviour file aside: numbers change by writes alone")
-    add("--strict", action="store_true", help="print what clients do against the manual, and where it says so")
+    add("--still", action="store_true", help="ignore its behaviour file: numbers change only by writes")
+    add("--strict", action="store_true", help="print what clients do against the manual, with its line")
     add("--seed", type=int, default=0, metavar="N", help="choose other numbers where the manual gives none")
     add("--time-scale", type=float, default=1.0, metavar="X", help="let the time of the devices run X times as fast")
     add(
@@ -94,7 +94,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _settings(arguments: Namespace) -> Mapping[str, Any]:
-    """Return the bench that the command line asks for: one line."""
+    """Return the bench of the command line: one line."""
     if not arguments.devices:
         raise StopError("there is nothing to simulate", "name a device, or a file after --bench")
     common: dict[str, Any] = {"unmet": arguments.unmet} | ({"behaviour": False} if arguments.still else {})
@@ -127,7 +127,7 @@ def _trace(file: Path | None) -> Iterator[Trace | None]:
     elif str(file) == "-":
         yield lambda entry: print(entry, flush=True)
     else:
-        with open(file, "w", encoding="utf-8", newline="\n", buffering=1) as stream:  # others read while it grows
+        with open(file, "w", encoding="utf-8", newline="\n", buffering=1) as stream:  # others read it while it grows
             yield lambda entry: print(entry, file=stream)
 
 

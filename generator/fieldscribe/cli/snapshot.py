@@ -1,4 +1,4 @@
-"""`fieldscribe snapshot`: all that a device holds now, in a file."""
+"""`fieldscribe snapshot`: write all that a device holds to a file."""
 
 import os
 import sys

@@ -19,7 +19,7 @@ Row = tuple[str, str]
 _STYLES = {"error": "1;31", "warning": "1;33", "strong": "1", "place": "36", "frame": "34", "hint": "32"}
 """The terminal's code (SGR) of each style."""
 _LABEL_STYLES = {"Wrong": "1;31", "Note": "33", "Doubt": "33", "Erratum": "33", "Not generated": "33"}
-"""Labels whose rows stand out; all others are cyan, and their texts plain."""
+"""Labels with highlighted rows; all others are cyan, and their texts plain."""
 _MARGIN, _GAP = 2, 2
 
 
@@ -39,7 +39,7 @@ def terminal_width() -> int:
 
 
 def terminal_size() -> tuple[int, int]:
-    """Return the columns and lines of the terminal, 80 by 24 if there is none, or it does not tell."""
+    """Return the columns and lines of the terminal, 80 by 24 if unknown."""
     try:
         columns, lines = os.get_terminal_size(sys.stdout.fileno())
     except (OSError, ValueError):

@@ -54,7 +54,7 @@ def _named(word: str) -> list[Known]:
 
 
 def _as_data(known: Known) -> dict[str, str]:
-    """Return a unit for JSON; `factor` says exactly how many of `base` it is."""
+    """Return a unit for JSON; `factor` is its exact size in `base`."""
     unit = known.unit
     described = {"symbol": unit.symbol, "name": unit.name, "quantity": unit.quantity}
     return {**described, "base": known.base, "factor": str(known.factor)}

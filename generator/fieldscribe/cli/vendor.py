@@ -101,7 +101,7 @@ def deliver_all(orders: list[Order], form: str, *, check: bool, force: bool) -> 
             deliveries.append(_deliver(order, check=check, force=force))
         except UnclearError:
             if deliveries:
-                print_deliveries(deliveries, form, check=check)  # report what is done already
+                print_deliveries(deliveries, form, check=check)  # report what is already done
             raise
     return deliveries
 
@@ -208,9 +208,9 @@ def _points(text: str | None, inputs: Inputs) -> tuple[str, ...]:
 
 
 def print_deliveries(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
-    """Print what was done or what is wrong, and return the exit code.
+    """Print the results, and return the exit code.
 
-    `left` are files that the project file does not name; a command line may have requested them.
+    `left` are files that the project file does not name; an earlier command may have requested them.
     """
     if form == "json":
         data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
