@@ -58,7 +58,7 @@ def test_decode_says_that_limits_could_not_be_checked(run: Callable[..., Output]
     frame = run("encode", "small_drive", "limited", "10", "--with", "P2=20", "--frame").out.strip()
     unchecked = run("decode", "small_drive", frame)
     assert unchecked.code == 0
-    assert "not held against its limits, which depend on P2 ratio: give --with ratio=VALUE" in unchecked.out
+    assert "not compared with its limits, which depend on P2 ratio: give --with ratio=VALUE" in unchecked.out
     assert "not held" not in run("decode", "small_drive", frame, "--with", "P2=20").out
     assert run("decode", "small_drive", frame, "--with", "P2=5").code == 1
 

@@ -45,7 +45,7 @@ def written_remarks(device: Device, point: Point, raw: int, settings: Settings) 
             return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why, ""
         options = " ".join(f"--with {name}=VALUE" for name in error.missing)
         names = names_text(device, error.missing)
-        return "", f"not held against its limits, which depend on {names}: give {options}"
+        return "", f"not compared with its limits, which depend on {names}: give {options}"
     return "", ""
 
 

@@ -79,7 +79,7 @@ _WRITING = """\
   layout: {0: EEh, 1: unit, 2..3: address, 4..5: raw, 6..7: xor 0..5}
 """
 _FRAMES = """\
-frames:                            # frames that the manual prints: each is held against the messages and points
+frames:                            # frames that the manual prints: each is compared with the messages and points
 - {name: read_first, direction: request, can_id: 33Fh, bytes: FF 05 00 01 00 00 FF 04}
 - {name: read_first_answer, direction: response, can_id: 325h, answers: read_first,
    bytes: FF 05 00 01 01 F4 FE F0, says: {first_value: 50.0}}

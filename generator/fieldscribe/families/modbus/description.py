@@ -22,7 +22,7 @@ bus:
   functions:                       # what the device answers, with the most words (or bits) of one request
     03h: {name: read_holding_registers, max: 125}
     06h: write_register
-frames:                            # requests and answers that the manual prints: each is held against the points
+frames:                            # requests and answers that the manual prints: each is compared with the points
 - {name: read_first, direction: request, bytes: 01 03 00 00 00 01 84 0A}
 - {name: read_first_reply, answers: read_first, bytes: 01 03 02 01 F4 B8 53, says: {first_value: 50.0}}
 """

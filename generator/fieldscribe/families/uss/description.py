@@ -41,7 +41,7 @@ bus:
     0: {name: illegal_parameter_number, answers: [1, 2, 3]}
 """
 _FRAMES = """\
-frames:                            # tasks and answers that the manual prints: each is held against the points
+frames:                            # tasks and answers that the manual prints: each is compared with the points
 - {name: read_first, framing: pkw, direction: request, bytes: 1001 0000 0000 0000}
 - {name: read_first_answer, framing: pkw, answers: read_first, bytes: 1001 0000 01F4, says: {P0001: 50.0}}
 """
