@@ -1,4 +1,4 @@
-"""Dates and times in parts: year, month, day, hour, minute, second and millisecond in bits of words of their own."""
+"""Dates and times in parts: year, month, day, hour, minute, second and millisecond, each in some bits of a word."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import date, datetime, time
@@ -15,7 +15,7 @@ _WEEK = 7
 
 
 def date_of_words(layout: Text, words: Sequence[int]) -> str:
-    """Return the date and time that words hold: `2026-11-29T12:00:00`. Raises ValueError for what is none."""
+    """Return the date and time in words: `2026-11-29T12:00:00`. Raises ValueError if they hold none."""
     held = {part.name: _number(layout, part, words) for part in layout.parts if part.name != "weekday"}
     seconds, milliseconds = divmod(held.pop("millisecond", 0), _SECOND)
     if seconds and "second" in held:
@@ -26,7 +26,7 @@ def date_of_words(layout: Text, words: Sequence[int]) -> str:
 
 
 def words_of_date(layout: Text, text: str) -> list[int]:
-    """Return the words of a date and time; what has no part is not looked at. Raises ValueError for what is none."""
+    """Return the words of a date and time; numbers without a part are ignored. Raises ValueError for any other text."""
     value = _CLASSES[layout.encoding].fromisoformat(text.strip())
     words = [0] * layout.words
     for part, number in _numbers(layout, value):
@@ -50,7 +50,7 @@ def _number(layout: Text, part: DatePart, words: Sequence[int]) -> int:
 
 
 def _numbers(layout: Text, value: date | time) -> Iterator[tuple[DatePart, int]]:
-    """Yield the parts with the numbers that stand for a date and time. Raises ValueError for a time with a zone."""
+    """Yield the parts with their numbers for a date and time. Raises ValueError for a time with a zone."""
     if getattr(value, "tzinfo", None) is not None:
         raise ValueError
     has_second = any(part.name == "second" for part in layout.parts)
@@ -64,5 +64,5 @@ def _numbers(layout: Text, value: date | time) -> Iterator[tuple[DatePart, int]]
 
 
 def _weekday(iso: int, sunday: int) -> int:
-    """Return the number of a weekday (ISO: Monday 1, Sunday 7) where Sunday has this number: 0, 1, 6 or 7."""
+    """Return the number of a weekday (ISO: Monday 1, Sunday 7) in a count whose Sunday is 0, 1, 6 or 7."""
     return iso % _WEEK + sunday if sunday < _WEEK - 1 else iso - _WEEK + sunday

@@ -1,4 +1,4 @@
-"""A limit that other points give is a signed 64-bit number: generated code computes with no wider ones."""
+"""A limit from other points is a signed 64-bit number, the widest with which generated code computes."""
 
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Limit

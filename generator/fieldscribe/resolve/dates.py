@@ -1,4 +1,4 @@
-"""The parts of a date and time: which there are, and the bits of the words where each is."""
+"""Resolves the parts of a date and time, each with its bits of a word."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -14,7 +14,7 @@ from fieldscribe.resolve.scope import Scope
 _PLACE = re.compile(r"(?:bits? (?P<high>[0-9]+)(?:\.\.(?P<low>[0-9]+))?)?(?: of )?(?:word (?P<word>[0-9]+))?")
 _PART = re.compile(r"(?P<name>[a-z]+)(?: from (?:(?P<first>sunday|monday) (?P<number>[01])|(?P<year>[0-9]{1,4})))?")
 _MONDAY_IS_0 = 6
-"""The number of Sunday where Monday is 0."""
+"""The number of Sunday if Monday is 0."""
 _BYTE = 8
 _CENTURY = 2000
 _OF_DATE = ("year", "month", "day")
@@ -25,11 +25,11 @@ _NEEDS: Mapping[str, tuple[str, ...]] = {
     "second": ("minute",),
     "millisecond": ("minute",),
 }
-"""What must be there beside a part, so that all of them are a date or a time."""
+"""The parts that each part requires, so that all of them are a date or a time."""
 
 
 def layout_of_date(facts: PointFacts, *, per_word: int, low_first: bool) -> Text:
-    """Return where the parts of a date and time are; whether they can be is another question."""
+    """Return the places of the parts of a date and time, which `is_date` checks."""
     parts = tuple(_parts_of(facts, per_word))
     names = {part.name for part in parts}
     encoding = DATE if "hour" not in names else DATE_AND_TIME if names.intersection(_OF_DATE) else TIME
@@ -43,7 +43,7 @@ def _parts_of(facts: PointFacts, per_word: int) -> Iterator[DatePart]:
     for position, text in enumerate(stated):
         match = _PART.fullmatch(str(text))
         place = _PLACE.fullmatch(str(stated[text])) if isinstance(stated, Map) else _PLACE.fullmatch("")
-        if match is None or place is None or match["name"] not in _NAMES:  # the check of the shape says so
+        if match is None or place is None or match["name"] not in _NAMES:  # the check of the shape has reported it
             continue
         word, bits = position // per_word, ((15, 0) if per_word == 1 else (7, 0) if position % 2 else (15, 8))
         if isinstance(stated, Map):
@@ -54,7 +54,7 @@ def _parts_of(facts: PointFacts, per_word: int) -> Iterator[DatePart]:
 
 
 def _base_of(match: re.Match[str], bits: tuple[int, int]) -> int:
-    """Return the year that a 0 means, or the number of Sunday; 0 for other parts."""
+    """Return the year of the number 0, or the number of Sunday; 0 for other parts."""
     if match["name"] == "weekday":
         return int(match["number"] or 0) + (_MONDAY_IS_0 if match["first"] == "monday" else 0)
     if match["name"] != "year":
@@ -63,7 +63,7 @@ def _base_of(match: re.Match[str], bits: tuple[int, int]) -> int:
 
 
 def is_date(scope: Scope, facts: PointFacts, layout: Text) -> bool:
-    """Return True for a date and time; report parts that are none together, and places where they cannot be."""
+    """Return True for a date and time; report parts that do not form one, and impossible places."""
     faults = [*_faults(facts, layout), *_misplaced(facts, layout)]
     for message, hint, key in faults:
         scope.report.error("date-parts", message, facts.span(key), hint)

@@ -1,4 +1,4 @@
-"""Vectors of dates and times in parts: ends of months and years, leap years, what is no date, and what has no room."""
+"""Vectors of dates and times in parts: ends of months and years, leap years, invalid dates, and dates without room."""
 
 from collections.abc import Iterator, Sequence
 
@@ -20,11 +20,11 @@ _NONE = (
     *((2024, 1, 32, 0, 0, 0, 0), (2024, 1, 1, 24, 0, 0, 0), (2024, 1, 1, 0, 60, 0, 0), (2024, 1, 1, 0, 0, 60, 0)),
     *((2024, 1, 1, 0, 0, 0, 1000), (0, 1, 1, 0, 0, 0, 0), (10000, 1, 1, 0, 0, 0, 0), _ZEROS),
 )
-"""What is no date and time, each for one reason."""
+"""Invalid dates and times, each for one reason."""
 
 
 def dates(lines: Lines, shape: Shape, layout: Text) -> None:
-    """Add vectors of a date or time: each way, and what may not be."""
+    """Add vectors of a date or time: decoding, encoding, and invalid ones."""
     for numbers in (*_DATES, *_NONE):
         held = _held(layout, numbers)
         words = _words(layout, held)
@@ -41,12 +41,12 @@ def dates(lines: Lines, shape: Shape, layout: Text) -> None:
 
 
 def typical_date(layout: Text) -> list[int]:
-    """Return the words of a date and time that its parts hold."""
+    """Return the words of a date and time that fits its parts."""
     return next(words for numbers in _DATES if (words := _words(layout, _held(layout, numbers))) is not None)
 
 
 def _held(layout: Text, numbers: Sequence[int]) -> dict[str, int]:
-    """Return the number of each part, without what it counts from."""
+    """Return the number of each part, without its base."""
     named = dict(zip(_FIELDS, numbers, strict=True))
     if not _has(layout, "second"):
         named["millisecond"] += 1000 * named["second"]
@@ -58,7 +58,7 @@ def _held(layout: Text, numbers: Sequence[int]) -> dict[str, int]:
 
 
 def _weekday(days: int, sunday: int) -> int:
-    """Return the number of the weekday so many days after 0001-01-01, a Monday, where Sunday has a number."""
+    """Return the weekday a number of days after 0001-01-01 (a Monday), in a count with this Sunday."""
     return {0: (days + 1) % 7, 1: (days + 1) % 7 + 1, 6: days % 7, 7: days % 7 + 1}[sunday]
 
 
@@ -78,7 +78,7 @@ def _has(layout: Text, name: str) -> bool:
 
 
 def _words(layout: Text, held: dict[str, int]) -> list[int] | None:
-    """Return the words of numbers; None if a part has no room for its own."""
+    """Return the words of the numbers; None if a part has no room for its number."""
     words = [0] * layout.words
     for part in layout.parts:
         number, width = held[part.name], part.bits[0] - part.bits[1] + 1
@@ -95,7 +95,7 @@ def _swapped(layout: Text, words: Sequence[int]) -> list[int]:
 
 
 def _beside(layout: Text, words: Sequence[int]) -> list[int]:
-    """Return the words with ones in all bits that are of no part, or of the weekday."""
+    """Return the words with ones in all bits outside the parts, and in those of the weekday."""
     beside = [0xFFFF] * layout.words
     for part in layout.parts:
         if part.name != "weekday":
@@ -120,7 +120,7 @@ def _read(layout: Text, word: int) -> list[int] | None:
 
 
 def _decoded(layout: Text, held: dict[str, int]) -> list[int] | None:
-    """Return the seven numbers of a date and time; None if there is no such one."""
+    """Return the seven numbers of a date and time; None if it does not exist."""
     base = {part.name: part.base for part in layout.parts}
     numbers = [held[name] + base[name] if name in held else 0 for name in _FIELDS]
     if not _has(layout, "second"):
@@ -133,7 +133,7 @@ def _is_real(layout: Text, numbers: Sequence[int]) -> bool:
 
 
 def _faults(layout: Text, numbers: Sequence[int]) -> Iterator[bool]:
-    """Yield whether a date is one, and a time."""
+    """Yield whether the date is valid, then whether the time is."""
     year, month, day = numbers[:3]
     if _has(layout, "day"):
         yield 1 <= year <= 9999 and 1 <= month <= 12 and 1 <= day <= _days_in(year, month)
