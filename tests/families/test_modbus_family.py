@@ -15,6 +15,7 @@ from fieldscribe.families.modbus.reading import plan_blocks
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Bus, Code, FamilyFacts, Point, Variant
+from fieldscribe.resources import templates_dir
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -489,3 +490,9 @@ def test_a_bus_without_facts_pads_nothing() -> None:
 
 def test_profile_takes_the_smaller_most() -> None:
     assert dict(profile_of(bus((1, None), (3, 500), (43, 1))).most) == {1: 2000, 3: 125}
+
+
+def test_c_has_room_for_all_functions() -> None:
+    """The profile of a device in C has a largest count for each function up to the last one."""
+    header = (templates_dir() / "c/runtime/fieldscribe_modbus_facts.h").read_text("utf-8")
+    assert f"#define FIELDSCRIBE_MODBUS_FUNCTIONS {max(FUNCTIONS) + 1}U" in header

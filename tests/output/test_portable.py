@@ -15,6 +15,7 @@ from types import SimpleNamespace
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
+from fieldscribe.targets import TARGETS
 from support.places import ROOT, TESTS
 
 DEVICE = TESTS / "devices/kitchen_can"
@@ -51,7 +52,7 @@ def test_every_step_works_without_what_other_systems_lack(tmp_path: Path) -> Non
     (tmp_path / "made/c/kitchen_can.h").unlink()
     assert "1 written" in run("generate", device, "--out", "made")
     assert sorted(path.name for path in (tmp_path / "made").iterdir()) == [
-        *("c", "docs", "manifest", "python", "rust", "typescript", "vectors"),
+        *sorted((*TARGETS, "manifest")),
     ]
 
 
