@@ -50,26 +50,27 @@ def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
     tested = text_of(plain) if len(plain.points) <= _MOST_TESTED else ""
     imported = {found for text in texts.values() for found in _IMPORT.findall(text)} | ({_RUNNER} if tested else set())
     dated = any(point.text is not None and point.text.parts for point in plain.points)
-    runtime = _runtime(tuple(sorted(imported)), left_out="" if dated else _DATES)
+    runtime, names = _runtime(tuple(sorted(imported)), left_out="" if dated else _DATES)
     script = _SCRIPT.format(
-        runtime=_EXPORT.sub("", runtime),
+        runtime=runtime,
         device=_EXPORT.sub("", _joined("index.js", texts.__getitem__, set())),
         kind=Identifiers(plain).device_class,
-        names=", ".join(dict.fromkeys(_EXPORT.findall(runtime))),
+        names=names,
     )
     return _safe(script), tested.replace("<", "%3c")
 
 
 @cache
-def _runtime(imported: tuple[str, ...], left_out: str) -> str:
-    """Return the modules of the runtime that a device imports, without the one that it does not use."""
+def _runtime(imported: tuple[str, ...], left_out: str) -> tuple[str, str]:
+    """Return the modules of the runtime that a device imports, but for the one left out, and their names."""
     root, seen = templates_dir() / _RUNTIME, {left_out}
 
     def text(path: str) -> str:
         return (root / path).read_text("utf-8")
 
     packages = [_located("", name) for name in imported if not name.startswith(".")]
-    return "".join(_joined(path, text, seen) for path in packages)
+    joined = "".join(_joined(path, text, seen) for path in packages)
+    return _EXPORT.sub("", joined), ", ".join(dict.fromkeys(_EXPORT.findall(joined)))
 
 
 def _joined(path: str, text_of: Callable[[str], str], seen: set[str]) -> str:
