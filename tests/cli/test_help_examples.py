@@ -342,7 +342,7 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         simulated("woodward_mpu2s"),
     ):
         places = {
-            "uss:///dev/ttyUSB0?": f"uss://{mm4.path}?parity=none&",
+            "uss:///dev/ttyUSB0?": f"uss://{mm4.path}?",
             "socketcan/can0": "virtual/woodward_mpu2s",
             "192.168.0.20": f"127.0.0.1:{on_tcp.port}",
             "rtu:///dev/ttyUSB0": f"rtu://{on_serial.path}",

@@ -134,15 +134,15 @@ def test_what_is_wrong_in_a_project(text: str, message: str, tmp_path: Path) -> 
 
 
 def test_a_port_that_takes_no_such_settings(monkeypatch: pytest.MonkeyPatch, run: Callable[..., Output]) -> None:
-    """A pseudo terminal has no parity, and pyserial lets the error of the system through."""
+    """Of an adapter that knows no such parity, pyserial lets the error of the system through."""
 
     def refuses(*_: object, **__: object) -> None:
         raise termios.error(22, "Invalid argument")
 
     monkeypatch.setattr("serial.serial_for_url", refuses)
-    done = run("read", "hitachi_l200", "A020", "--line", "rtu:///dev/pts/9?parity=even")
+    done = run("read", "hitachi_l200", "A020", "--line", "rtu:///dev/ttyUSB9?parity=even")
     assert (done.code, done.out) == (2, "")
-    assert "/dev/pts/9 cannot be set as the line needs it: a pseudo terminal has no parity" in done.err
+    assert "/dev/ttyUSB9 cannot be set as the line needs it: (22, 'Invalid argument')" in done.err
 
 
 def test_a_bus_without_its_package_says_how_to_install_it(

@@ -249,7 +249,7 @@ def test_over_a_pseudo_terminal(package: Any) -> None:
 
     with (
         simulated("siemens_mm4", on="serial", variants=VARIANTS, behaviour=True, time_scale=0) as served,
-        UssLine(served.path, 9600, "8N1", timeout=0.3) as line,
+        UssLine(served.path, 9600, timeout=0.3) as line,
     ):
         drive = package.SiemensMm4(line, served.unit, package_link(127, 2), model="mm440", interface="rs485")
         drive.main_setpoint.write(40.0)

@@ -217,8 +217,25 @@ class EchoError(FrameError):
         self.answered = answered
 
 
+_STANDARD = {
+    0x01: "illegal_function",
+    0x02: "illegal_data_address",
+    0x03: "illegal_data_value",
+    0x04: "server_device_failure",
+    0x05: "acknowledge",
+    0x06: "server_device_busy",
+    0x08: "memory_parity_error",
+    0x0A: "gateway_path_unavailable",
+    0x0B: "gateway_target_device_failed_to_respond",
+}
+"""What Modbus calls exceptions."""
+
+
 class ExceptionReplyError(FrameError):
-    """The device refused the request with an exception `code`; `name` is the manual's name for it, where known."""
+    """The device refused the request with an exception `code`; `name` is the manual's name for it, where known.
+
+    Where the manual has none, the message has that of the standard.
+    """
 
     @property
     def lost(self) -> bool:
@@ -226,7 +243,9 @@ class ExceptionReplyError(FrameError):
         return self.name is None and self.code in _OF_GATEWAYS
 
     def __init__(self, code: int, name: str | None = None) -> None:
-        super().__init__("exception", f"the device answered exception {code:02X}h" + (f" ({name})" if name else ""))
+        called = name or _STANDARD.get(code)
+        text = f"the device answered exception {code:02X}h" + (f" ({called})" if called else "")
+        super().__init__("exception", text)
         self.code = code
         self.name = name
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .arguments import raw_number, shown, whole
@@ -16,6 +17,7 @@ from .errors import (
     WrongLengthError,
     WrongTypeError,
 )
+from .forms import U16
 from .guided import Guided
 from .rules import NO_RAWS, Limit, Raws, high_end, low_end, outside
 from .special import Special
@@ -57,7 +59,7 @@ def _lacks(point: Point, name: str) -> str:
     return f"{type(point).__name__!r} object has no attribute {name!r}"
 
 
-_SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
+_SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "joined", "sure_decoder"})
 
 
 _FOR_PEOPLE = (
@@ -203,8 +205,13 @@ class Point(Guided):
             raise self._named(WrongLengthError(f"takes {self.size} words, not {len(found)}"))
         return self.joined(found)
 
-    def joined(self, words: Sequence[int]) -> int:
-        """Return the same for what are known to be the words of the point."""
+    @cached_property
+    def joined(self) -> Callable[[Sequence[int]], int]:
+        """Does the same for what are known to be the words of the point."""
+        is_its_word = self.facts.bits is None and self.wire == U16
+        return itemgetter(0) if is_its_word else self._joined
+
+    def _joined(self, words: Sequence[int]) -> int:
         words = self.wire.ordered(words)
         if self.facts.bits is not None:
             return self.wire.number(words[0] >> self._lowest_bit, self.width)

@@ -49,11 +49,11 @@ class Framing(NamedTuple):
     """What a receiver must know of the frames on a line: sizes in bytes, and whose frame one is.
 
     `size` returns the length of the frame that begins with these bytes, or None while they are too few to tell.
-    `address` returns the number that a reply has in common with its request: a unit, or a transaction.
+    `address` returns what a reply has in common with its request: a unit, or the bytes of a transaction.
     """
 
     size: Callable[[bytes], int | None]
-    address: Callable[[bytes], int]
+    address: Callable[[bytes], int | bytes]
     shortest: int
     longest: int
 
@@ -82,7 +82,10 @@ class Receiver:
 
         Raises FrameError (long_frame) when there are more bytes than any frame has and no frame among them.
         """
-        self.received = self.received + data if self.received else data
+        self.received = received = self.received + data if self.received else data
+        framing = self._framing
+        if framing.size(received) == len(received) <= framing.longest and framing.address(received) == self._address:
+            return received  # nearly always: the reply, and nothing else
         try:
             return self._reply()
         except FrameError as error:
@@ -94,8 +97,6 @@ class Receiver:
         while True:
             length = len(self.received)
             size = framing.size_of(self.received)
-            if size == length and framing.address(self.received) == self._address:
-                return self.received
             if size is None or length < size:
                 if length >= framing.longest:
                     raise FrameError("long_frame", f"{_quoted(self.received)}, more than any frame has; {_HINT}")

@@ -151,7 +151,10 @@ export class EchoError extends FrameError {
     written: readonly number[];
     answered: readonly number[];
 }
-/** The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. */
+/**
+ * The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. Where
+ * the manual has none, the message has that of the standard.
+ */
 export class ExceptionReplyError extends FrameError {
     /** @param {number} code @param {string} [codeName] */
     constructor(code: number, codeName?: string);

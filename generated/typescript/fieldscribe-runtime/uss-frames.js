@@ -245,8 +245,14 @@ function openUss(request, reply, link) {
   const size = reply.length;
   const isWhole = size >= 4 && reply[1] + 2 === size && size % 2 === 0;
   const part = (size - 4) / 2 - link.pzd;
-  if (!isWhole || (link.pkw === USS_VARIABLE ? part < 3 : part !== link.pkw)) {
-    throw new FrameError("wrong_length", `${size} bytes are no whole reply over this link`);
+  if (!isWhole) throw new FrameError("wrong_length", `${size} bytes are no whole reply`);
+  if (link.pkw === USS_VARIABLE ? part < 3 : part !== link.pkw) {
+    const least = link.pkw === USS_VARIABLE ? "at least " : "";
+    const belong = `${least}${4 + 2 * ((least ? 3 : link.pkw) + link.pzd)}`;
+    throw new FrameError(
+      "wrong_length",
+      `the reply has ${size} bytes where ${belong} belong: is the link of the device set so?`,
+    );
   }
   if (blockCheck(reply) !== 0) throw new FrameError("wrong_check", "the check of the reply is wrong");
   if (reply[2] !== request.unit) {

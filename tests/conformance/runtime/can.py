@@ -41,14 +41,15 @@ def check_among_others(package: Package) -> None:
         assert not bus.queue
         bus.answer = _followed(frames)
         refused = refusal(device.speed.read)
-        assert (type(refused), str(refused)) == (package.runtime.NoReplyError, "P5 speed: told for 5 did not come")
+        told = f"P5 speed: unit {device.unit} did not send told for 5"
+        assert (type(refused), str(refused)) == (package.runtime.NoReplyError, told)
         assert isinstance(refused.__cause__, TimeoutError)
         spoiled = answer(bus_frame(package, 5))[0]
         spoiled = package.can.Frame(spoiled.id, spoiled.data[:7] + bytes((spoiled.data[7] ^ 1,)))
         bus.answer = _followed([spoiled, package.can.Frame(1, b"")])
         refused = refusal(device.speed.read)
         wrong = f"a byte that told has as its check is {spoiled.data[7]:02X}h"
-        assert str(refused) == f"P5 speed: told for 5 did not come ({wrong})"
+        assert str(refused) == f"P5 speed: unit {device.unit} did not send told for 5 ({wrong})"
         assert refused.__cause__.status == "wrong_check"
 
 
@@ -62,12 +63,12 @@ def check_patience(package: Package) -> None:
     for device, bus, _ in on_lines(package, waiting=False):
         bus.answer = lambda frame: [package.can.Frame(1, b"")] * 100
         refused = refusal(device.speed.read)
-        assert str(refused) == "P5 speed: told for 5 did not come within 10 s"
+        assert str(refused) == f"P5 speed: unit {device.unit} did not send told for 5 within 10 s"
         assert (len(bus.queue), bus.clock) == (89, 1011.0)
         device.patience = 2.5
         bus.queue.clear()
         bus.answer = lambda frame: [package.can.Frame(1, b"")] * 100
-        assert str(refusal(device.speed.read)) == "P5 speed: told for 5 did not come within 2.5 s"
+        assert str(refusal(device.speed.read)) == f"P5 speed: unit {device.unit} did not send told for 5 within 2.5 s"
         assert len(bus.queue) == 97
 
 
@@ -137,11 +138,14 @@ def check_telegrams(package: Package) -> None:
             bus.queue = [beat_of(package, 1, 1, 1, 1), beat_of(package, 0, 4, 5, 7)]
             refused = refusal(device.late.read)
             torn = "words (2, 3) of beat may belong to different values"
-            assert str(refused) == f"late: beat with words 2, 3 did not come ({torn})"
+            assert str(refused) == f"late: unit {device.unit} did not send beat with words 2, 3 ({torn})"
             assert refused.__cause__.status == "torn"
             bus.clock += 5
             refused = refusal(device.beat.read)
-            assert (str(refused), refused.status) == ("B1 beat: beat with words 1 did not come", "timeout")
+            assert (str(refused), refused.status) == (
+                f"B1 beat: unit {device.unit} did not send beat with words 1",
+                "timeout",
+            )
             assert refusal(device.read_at, "beat", 5).status == "bad_address"
             assert refusal(device.write_at, "beat", 0, 1).status == "bad_space"
             device.fresh_for = 0.0

@@ -75,7 +75,9 @@ def check_errors(package: Package) -> None:
         assert str(unsaid) == "chosen, step 1 (a): depends on model: pass it when the device is made"
         memory.errors = [runtime.ExceptionReplyError(2)]
         refused = refusal(lambda device: now(device.chosen.send()), kind(memory, 1, {"model": "a"}))
-        assert str(refused) == "chosen, step 1 (a): needs mode: the device answered exception 02h"
+        assert (
+            str(refused) == "chosen, step 1 (a): needs mode: the device answered exception 02h (illegal_data_address)"
+        )
         device.retries, memory.errors = 3, [TimeoutError()]
         lost = refusal(lambda device: now(device.alive.send()), device)
         assert str(lost) == "alive, step 1 (alive): unit 1 did not reply to function 06h"
@@ -127,7 +129,7 @@ def check_automatic(package: Package) -> None:
         assert (now(device.identify()), memory.since()) == ({}, [])
         memory.errors = [runtime.ExceptionReplyError(4)]
         failed = refusal(lambda device: now(device.mode.read()), device)
-        assert str(failed) == "first, step 1 (one): the device answered exception 04h"
+        assert str(failed) == "first, step 1 (one): the device answered exception 04h (server_device_failure)"
         now(device.mode.read())
         assert memory.since() == [(6, 20, 1), (6, 21, 2), (3, 1, 1)]
         now(device.level.write(9))

@@ -212,7 +212,7 @@ def check_requests(package: Package) -> None:
     asked, line = uss.Request(9, 1, 5), Line(0)
     wrong = {
         "the reply does not begin with 02h": b"\3",
-        "3 bytes are no whole reply over this link": b"\2\1\t",
+        "3 bytes are no whole reply": b"\2\1\t",
         "the check of the reply is wrong": line._closed(b"\t", (0x1005, 0, 1, 0))[:-1] + b"\0",
         "unit 8 answered instead of 9": line._closed(b"\x08", (0x1005, 0, 1, 0)),
         "the device has not answered the task yet": line._closed(b"\t", (0, 0, 0, 0)),

@@ -145,7 +145,7 @@ def reads() -> Iterator[dict[str, Callable[[], Any]]]:
         siemens = stack.enter_context(contextmanager(imported)(PACKAGES, "siemens_mm4")).SiemensMm4
         link = importlib.import_module("fieldscribe_runtime.uss").Link(4, 2)
         pty = stack.enter_context(pty_end(ends.answer))
-        line = stack.enter_context(transport("serial").UssLine(pty, 115200, "8N1", timeout=TIMEOUT))
+        line = stack.enter_context(transport("serial").UssLine(pty, 115200, timeout=TIMEOUT))
         made["UssLine uss"] = partial(siemens(line, 1, link).read_at, "parameter", 1)
         yield made
 

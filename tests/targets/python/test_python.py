@@ -219,7 +219,7 @@ def test_read_many(drive: Any, slave: Slave, caplog: pytest.LogCaptureFixture) -
     slave.refuses = {0x2007: 2}
     assert drive.read_many(["voltage_ratio", "power"], errors="return")["voltage_ratio"].code == 2
     (message,) = caplog.messages  # of the point, not of its block
-    assert message.endswith("exception 02h (voltage_ratio)")
+    assert message.endswith("exception 02h (illegal_data_address) (voltage_ratio)")
 
 
 REFUSED = [  # the point that is refused, the exception, and what a later round requests

@@ -80,7 +80,8 @@ def test_what_another_point_decides_is_asked_before_a_group_is_read(package: Any
     slave.refuses, slave.words[10] = {15: 2}, 0
     device = package.Tempco(slave, 1, model="pro")
     assert "trend" not in device.read_many("main", errors="return")
-    expected = "trend: the device answered exception 02h; it exists only when model == pro and highest == 1"
+    refused = "the device answered exception 02h (illegal_data_address)"
+    expected = f"trend: {refused}; it exists only when model == pro and highest == 1"
     assert str(error(device.trend.read)) == expected
     assert str(device.read_many(["trend"], errors="return")["trend"]) == expected
     device.highest.write(1)

@@ -129,6 +129,10 @@ def test_an_adapter_that_echoes(l200: Any) -> None:
 
     with pty_end(reply) as port, transport("serial").SerialLine(port, echo=True) as line:
         assert l200.HitachiL200(line, unit=1).read_at("holding", STATUS) == (3,)
+    with socket_end(lambda request: request + with_word(request, 4)) as number:  # the echo and the reply in one piece
+        line = transport("serial").SerialLine(f"socket://127.0.0.1:{number}", echo=True)
+        assert l200.HitachiL200(line, unit=1).read_at("holding", STATUS) == (4,)
+        line.close()
 
 
 def test_uss_on_a_serial_line() -> None:
@@ -143,10 +147,12 @@ def test_uss_on_a_serial_line() -> None:
             yield whole[:3]
             yield whole[3:]
 
-        with pty_end(reply) as port, serial.UssLine(port, 9600, "8N1") as line:
-            drive = package.SiemensMm4(line, 1, uss.Link(4, 2))
-            assert line.exchange(b"\x02") == answer + bytes((bcc,))
-            assert drive.transport is line
+        with pty_end(reply) as port:
+            for _ in range(2):  # a pseudo terminal refuses its second user's parity
+                with serial.UssLine(port, 9600) as line:
+                    drive = package.SiemensMm4(line, 1, uss.Link(4, 2))
+                    assert line.exchange(b"\x02") == answer + bytes((bcc,))
+                    assert drive.transport is line
 
 
 def hang_up(listening: socket.socket) -> None:
@@ -263,6 +269,8 @@ def test_framings_that_do_not_fit(l200: Any) -> None:
         refused = error(package.SiemensMm4, serial.SerialLine("x"), 1, link)
         assert refused.status == "bad_framing"
         assert "UssLine" in str(refused)
+        refused = error(l200.HitachiL200, serial.UssLine("x"), 1)
+        assert "for a serial line take a SerialLine" in str(refused)
         package.SiemensMm4Async(serial.AsyncSerialLine(serial.UssLine("x")), 1, link)
 
 

@@ -29,7 +29,7 @@ from .frames import (
     Request,
     build,
     check_framing,
-    parse,
+    parse_checked,
 )
 from .planner import Block, plan, read_function
 
@@ -118,7 +118,7 @@ class ModbusSession(Session):
         return [point for point in points if max(point.facts.at.addresses) <= start.last]
 
     def _ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
-        """One request and its reply."""
+        """Return the steps of one request and its reply."""
         key = function, address, count
         if values or (known := self._reads.get(key)) is None:
             request = Request(self.unit, function, address, count, values)
@@ -126,9 +126,8 @@ class ModbusSession(Session):
             if not values and len(self._reads) < _REMEMBERED:
                 self._reads[key] = known
         if self.unit == self.PROFILE.broadcast:
-            yield from self._retried_steps(0, self._to_all_steps, known[1])
-            return ()
-        return (yield from self._retried_steps(self.retries, self._exchange_steps, *known))
+            return self._retried_steps(0, self._to_all_steps, known[1])
+        return self._retried_steps(self.retries, self._exchange_steps, *known)
 
     def _exchange_steps(self, request: Request, frame: bytes) -> Steps[tuple[int, ...]]:
         """Send a frame; return what the reply brings."""
@@ -143,13 +142,16 @@ class ModbusSession(Session):
             raise no_reply(f"unit {self.unit} did not reply to function {request.function:02X}h", error) from error
         check_bytes(reply)
         self.traffic.came(reply, sent)
-        return parse(request, reply, self.PROFILE, self._framing, transaction)
+        return parse_checked(request, reply, self.PROFILE, self._framing, transaction)
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
-        """Read the words or bits of a place, in ascending order of address."""
+        """Return the steps that read the words or bits of a place, in ascending order of address."""
+        if len(place.addresses) == 1 and place.base is None:
+            return self._ask(read_function(place), place.addresses[0], 1)
+        return self._several_steps(place)
+
+    def _several_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         start = 0 if place.base is None else (yield from self._start_steps(place.base, max(place.addresses)))
-        if len(place.addresses) == 1:
-            return (yield from self._ask(read_function(place), start + place.addresses[0], 1))
         if place.is_scattered:
             found: dict[int, int] = {}
             for block in plan(place.runs, self.PROFILE, self._bridges() - self._holes()):

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 MODBUS_PORT = 502
 _OLD = 16
 """So many pieces of old bytes are read before a connection is given up."""
-_PIECE = 4096
+PIECE = 4096
 """So many bytes are read at most at once."""
 _CLOSED = "the other side closed the connection"
 
@@ -69,7 +69,7 @@ class Connection:
         while self.socket is not None and self._has_bytes(0):
             left -= 1
             try:
-                is_open = self.socket.recv(_PIECE) != b""
+                is_open = self.socket.recv(PIECE) != b""
             except ConnectionError:
                 is_open = False
             if not is_open or left <= 0:
@@ -133,7 +133,7 @@ class TcpLine(Line):
 
     def _read(self, most: int, until: float) -> bytes:
         del most  # what comes behind a reply is dropped before the next request
-        return self._connection.read(_PIECE, until)
+        return self._connection.read(PIECE, until)
 
     def _failed(self, request: bytes) -> None:
         del request
@@ -194,7 +194,7 @@ class AsyncTcpLine:
 
     async def _received(self, line: socket.socket, receiver: Receiver, loop: asyncio.AbstractEventLoop) -> bytes:
         since = time.monotonic()
-        while data := await loop.sock_recv(line, _PIECE):
+        while data := await loop.sock_recv(line, PIECE):
             if (reply := receiver.take(data)) is not None:
                 return Reply.timed(reply, since)
         raise ConnectionError(_CLOSED)

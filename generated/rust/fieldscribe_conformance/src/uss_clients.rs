@@ -361,7 +361,13 @@ fn answers() {
         ("02bc 0000 0000 0007 a1b2 0003", ReplyError::NoAnswer),
         ("72bc 0000 0011 0007 a1b2 0003", NOT_NOW),
         ("82bc 0000 0000 0007 a1b2 0003", ReplyError::NoRights),
-        ("32bc 0000 0000 0007 a1b2 0003", ReplyError::WrongResponse),
+        (
+            "32bc 0000 0000 0007 a1b2 0003",
+            ReplyError::WrongResponse {
+                task: 1,
+                response: 3,
+            },
+        ),
         ("12bd 0000 0000 0007 a1b2 0003", ReplyError::WrongParameter),
         ("12bc 0001 0000 0007 a1b2 0003", ReplyError::WrongParameter),
         ("12bc 0000 0000 0007 a1b2", ReplyError::WrongLength),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .errors import EchoError, FieldscribeError, FrameError, LineError, NoReplyError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from .facts import Place
     from .points import Point
@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 
 _LISTED = 4
 """So many points of one request are listed in an error."""
+
+
+def add_points(error: FieldscribeError, asked: Sequence[Labelled]) -> None:
+    """Add to an error what was requested, unless it has that."""
+    more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
+    error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
 
 
 class About:
@@ -30,9 +36,7 @@ class About:
 
     def __exit__(self, _: object, error: BaseException | None, traceback: object) -> None:
         if isinstance(error, FieldscribeError):
-            asked = self._asked
-            more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
-            error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
+            add_points(error, self._asked)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from copy import copy
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .about import About, needing, of_group
+from .about import About, add_points, needing, of_group
 from .arguments import check_name, check_number, check_seconds, shown
 from .conditions import may_hold, names_in
 from .errors import (
@@ -127,11 +127,12 @@ class Session(NamedPoints, ABC):
                 yield Pause(self.retry_pause)
             left -= 1
 
-    def _to_all_steps(self, frame: bytes) -> Steps[None]:
-        """Send a frame that no unit answers."""
+    def _to_all_steps(self, frame: bytes) -> Steps[tuple[()]]:
+        """Send a frame that no unit answers: it brings no words."""
         with suppress(TimeoutError):
             self.traffic.sent(frame)
             yield Broadcast(frame)
+        return ()
 
     def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
@@ -224,11 +225,14 @@ class Session(NamedPoints, ABC):
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        yield from self._select_steps(point)
+        facts = point.facts
+        if facts.selects:
+            yield from self._select_steps(point)
+        self.traffic.about = (point,)
         try:
-            with About(self.traffic, point):
-                return self._taken(point, (yield from self._get_steps(point.facts.at)))
+            return self._taken(point, (yield from self._get_steps(facts.at)))
         except FieldscribeError as error:
+            add_points(error, (point,))
             self._add_condition(error, point)
             raise
 

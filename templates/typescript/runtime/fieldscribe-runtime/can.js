@@ -311,7 +311,7 @@ export class CanDevice extends Session {
       return false;
     };
     this._isUnanswered = true; // until the answer came, whatever ends the wait
-    await this._wait(frame, accepts, () => `${answer.name} for ${address} did not come${fault}`);
+    await this._wait(frame, accepts, () => `unit ${this.unit} did not send ${answer.name} for ${address}${fault}`);
     this._isUnanswered = false;
     return word;
   }
@@ -358,7 +358,8 @@ export class CanDevice extends Session {
       }
       return words !== undefined;
     };
-    const awaited = () => `${receiver.telegram} with words ${at.addresses.join(", ")} did not come${trouble}`;
+    const places = at.addresses.join(", ");
+    const awaited = () => `unit ${this.unit} did not send ${receiver.telegram} with words ${places}${trouble}`;
     if (look()) return words ?? [];
     if (this._isWaitOver) throw new NoReplyError(awaited());
     await this._wait(null, (heard) => this.take(heard) && look(), awaited);

@@ -235,12 +235,29 @@ export class EchoError extends FrameError {
   }
 }
 
-/** The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. */
+/** What Modbus calls exceptions. @type {Readonly<Record<number, string>>} */
+const STANDARD_NAMES = {
+  0x01: "illegal_function",
+  0x02: "illegal_data_address",
+  0x03: "illegal_data_value",
+  0x04: "server_device_failure",
+  0x05: "acknowledge",
+  0x06: "server_device_busy",
+  0x08: "memory_parity_error",
+  0x0a: "gateway_path_unavailable",
+  0x0b: "gateway_target_device_failed_to_respond",
+};
+
+/**
+ * The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. Where
+ * the manual has none, the message has that of the standard.
+ */
 export class ExceptionReplyError extends FrameError {
   /** @param {number} code @param {string} [codeName] */
   constructor(code, codeName) {
     const hex = code.toString(16).toUpperCase().padStart(2, "0");
-    super("exception", `the device answered exception ${hex}h${codeName ? ` (${codeName})` : ""}`);
+    const called = codeName ?? STANDARD_NAMES[code];
+    super("exception", `the device answered exception ${hex}h${called ? ` (${called})` : ""}`);
     this.code = code;
     this.codeName = codeName;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: 0BSD
 /** Modbus requests and replies as bytes, RTU and TCP, without any I/O. Any bytes of any length are safe to parse. */
-import { ExceptionReplyError, FrameError, RequestError, shown } from "./errors.js";
+import { EchoError, ExceptionReplyError, FrameError, RequestError, shown } from "./errors.js";
 import { checkBytes, checkInteger, checkNumber, hex2, wordsOfBytes } from "./receiving.js";
 
 export const READ_COILS = 0x01;
@@ -222,7 +222,9 @@ function openTcp(request, reply, transaction) {
   const [number, protocol, size] = wordsOfBytes(reply.subarray(0, 6));
   if (protocol !== 0) throw new FrameError("bad_protocol", "the protocol number is not 0");
   checkReplySize(reply.length, 6 + size);
-  if (number !== transaction) throw new FrameError("wrong_transaction", "the reply belongs to another request");
+  if (number !== transaction) {
+    throw new FrameError("wrong_transaction", `the reply is to transaction ${number} instead of ${transaction}`);
+  }
   checkReplyHead(request, reply[6], reply[7]);
   if (reply[7] & 0x80) checkReplySize(size - 1, 2);
   else if (!MODBUS_READS.includes(request.function)) checkReplySize(size - 1, 5);
@@ -242,7 +244,8 @@ function checkReplyHead(request, unit, code) {
     throw new FrameError("wrong_unit", `unit ${unit} answered instead of ${request.unit}`);
   }
   if ((code & 0x7f) !== request.function) {
-    throw new FrameError("wrong_function", `the reply is for function ${hex2(code)}h`);
+    const text = `the reply is to function ${hex2(code & 0x7f)}h instead of ${hex2(request.function)}h`;
+    throw new FrameError("wrong_function", text);
   }
 }
 
@@ -254,14 +257,32 @@ function answerOf(request, pdu) {
     const size = areBits ? (count + 7) >> 3 : count * 2;
     const data = pdu.subarray(2);
     if (pdu[1] !== size || data.length !== size) {
-      throw new FrameError("bad_byte_count", `the reply has ${pdu[1]} data bytes where ${size} belong`);
+      const has = pdu[1] === size ? data.length : pdu[1];
+      throw new FrameError("bad_byte_count", `the reply has ${has} data bytes where ${size} belong`);
     }
     if (!areBits) return wordsOfBytes(data);
     return Array.from({ length: count }, (_, at) => (data[at >> 3] >> (at & 7)) & 1);
   }
+  if (!values.length) throw new FrameError("echo_mismatch", "the reply repeats a request without values");
   const head = headOf(request);
-  if (!values.length || pdu.length !== head.length || head.some((byte, at) => byte !== pdu[at])) {
-    throw new FrameError("echo_mismatch", "the reply does not repeat the request");
-  }
+  if (pdu.length !== head.length || head.some((byte, at) => byte !== pdu[at])) throw otherEcho(request, head, pdu);
   return MODBUS_ECHOES.includes(request.function) ? [...values] : [];
+}
+
+/** The error for a reply that does not repeat a write; of one register it has what the device took.
+ * @param {ModbusRequest} request @param {readonly number[]} head @param {Uint8Array} pdu @returns {FrameError} */
+function otherEcho(request, head, pdu) {
+  const [to, written] = wordsOfBytes(Uint8Array.from(head.slice(1)));
+  const [at, answered] = wordsOfBytes(pdu.subarray(1));
+  if (request.function === WRITE_REGISTER && at === to) {
+    const text = `${written} was written to ${hex4(to)}h, and the device answered ${answered}`;
+    return new EchoError(text, [written], [answered]);
+  }
+  const repeats = `${hex4(answered)}h at ${hex4(at)}h`;
+  return new FrameError("echo_mismatch", `${hex4(written)}h was written to ${hex4(to)}h, and the reply repeats ${repeats}`);
+}
+
+/** A word as four hexadecimal digits. @param {number} word */
+function hex4(word) {
+  return hex2(word >> 8) + hex2(word & 0xff);
 }

@@ -47,7 +47,8 @@ export class ReplyReader {
       const length = this.received.length;
       const expected = size(this.received);
       if (expected !== null && expected > longest) {
-        throw new FrameError("long_frame", `${quotedBytes(this.received)}: a frame has at most ${longest} bytes`);
+        const text = `the reply would have ${expected} bytes, and a frame has at most ${longest}`;
+        throw new FrameError("long_frame", `${quotedBytes(this.received)}: ${text}`);
       }
       if (expected === null || length < expected) {
         if (length < longest) return undefined;

@@ -211,7 +211,7 @@ class CanSession(Session):
 
     def _next_steps(self, deadline: float, awaited: str, trouble: Exception | None) -> Steps[Frame]:
         """The next frame, whatever it is; raises NoReplyError when none comes, or the wait has been too long."""
-        reason = f"{awaited} did not come" + (f" ({trouble})" if trouble else "")
+        reason = f"unit {self.unit} did not send {awaited}" + (f" ({trouble})" if trouble else "")
         if monotonic() > deadline:
             raise NoReplyError(f"{reason} within {self.patience:g} s") from trouble
         try:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import struct
+from functools import cache
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
@@ -30,6 +32,7 @@ SINGLE_WRITES = frozenset({WRITE_COIL, WRITE_REGISTER})
 BLOCK_WRITES = frozenset({WRITE_COILS, WRITE_REGISTERS})
 WRITES = SINGLE_WRITES | BLOCK_WRITES
 ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
+_KNOWN = READS | WRITES | ECHOES
 
 RTU, TCP = "rtu", "tcp"
 _HEAD = struct.Struct(">HHHBB")
@@ -96,7 +99,7 @@ def check_framing(framing: str, profile: Profile) -> None:
     """Raises RequestError (bad_framing) if the device does not frame its telegrams so."""
     if framing in (*profile.framings, PDU):
         return
-    hint = ""
+    hint = "; for a serial line take a SerialLine" if framing == "uss" else ""
     if framing in _FRAMINGS:
         spoken = profile.framings[0]
         subclass = f"a subclass with PROFILE = Device.PROFILE.replaced(framings=({framing!r},))"
@@ -206,14 +209,14 @@ def receive(read: Callable[[int], bytes], request: bytes, framing: str = RTU) ->
 
 
 def _tcp_size(received: bytes) -> int | None:
-    return 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None
+    return 6 + (received[4] << 8) + received[5] if len(received) >= 6 else None
 
 
 def _rtu_size(received: bytes) -> int | None:
     if len(received) < 3:
         return None
     function = received[1] & 0x7F
-    if function not in READS | WRITES | ECHOES:
+    if function not in _KNOWN:
         return None
     if received[1] & 0x80:
         return 5
@@ -221,8 +224,8 @@ def _rtu_size(received: bytes) -> int | None:
 
 
 _FRAMINGS = {
-    RTU: Framing(_rtu_size, lambda frame: frame[0], shortest=5, longest=256),
-    TCP: Framing(_tcp_size, lambda frame: int.from_bytes(frame[:2], "big"), shortest=9, longest=260),
+    RTU: Framing(_rtu_size, itemgetter(0), shortest=5, longest=256),
+    TCP: Framing(_tcp_size, itemgetter(slice(2)), shortest=9, longest=260),
 }
 
 
@@ -235,6 +238,11 @@ def parse(
     """
     check_framing(framing, profile)
     check_bytes(reply)
+    return parse_checked(request, reply, profile, framing, transaction)
+
+
+def parse_checked(request: Request, reply: bytes, profile: Profile, framing: str, transaction: int) -> tuple[int, ...]:
+    """Do as `parse` does for what are bytes, and a framing that was checked."""
     if framing == PDU:
         reply = bytes(reply) + crc(reply).to_bytes(2, "little")  # as if it had come with a CRC
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
@@ -258,12 +266,14 @@ def _open_rtu(request: Request, reply: bytes) -> bytes:
 def _open_tcp(request: Request, reply: bytes, transaction: int) -> bytes:
     if len(reply) < 9:
         raise FrameError("short_frame", f"{len(reply)} bytes are too few for a reply")
-    number, protocol, size, unit, function = _HEAD.unpack_from(reply)
+    head = number, protocol, size, unit, function = _HEAD.unpack_from(reply)
+    if head == (transaction, 0, len(reply) - 6, request.unit, request.function) and function in READS:
+        return reply[7:]
     if protocol != 0:
         raise FrameError("bad_protocol", "the protocol number is not 0")
     _check_size(len(reply), 6 + size)
     if number != transaction:
-        raise FrameError("wrong_transaction", "the reply belongs to another request")
+        raise FrameError("wrong_transaction", f"the reply is to transaction {number} instead of {transaction}")
     _check_address(request, unit, function)
     if function & 0x80 or request.function not in READS:
         _check_size(size - 1, 2 if function & 0x80 else 5)
@@ -280,25 +290,32 @@ def _check_address(request: Request, unit: int, function: int) -> None:
     if unit != request.unit:
         raise FrameError("wrong_unit", f"unit {unit} answered instead of {request.unit}")
     if function & 0x7F != request.function:
-        raise FrameError("wrong_function", f"the reply is for function {function:02X}h")
+        text = f"the reply is to function {function & 0x7F:02X}h instead of {request.function:02X}h"
+        raise FrameError("wrong_function", text)
 
 
 def _answer(request: Request, pdu: bytes) -> tuple[int, ...]:
+    count = request.count
     if request.function in READS:
         bits = request.function in BIT_READS
-        size = (request.count + 7) // 8 if bits else request.count * 2
-        data = pdu[2:]
-        if pdu[1] != size or len(data) != size:
-            raise FrameError("bad_byte_count", f"the reply has {pdu[1]} data bytes where {size} belong")
+        size = (count + 7) // 8 if bits else count * 2
+        if pdu[1] != size or len(pdu) != 2 + size:
+            has = len(pdu) - 2 if pdu[1] == size else pdu[1]
+            raise FrameError("bad_byte_count", f"the reply has {has} data bytes where {size} belong")
         if bits:
-            return tuple(data[place >> 3] >> (place & 7) & 1 for place in range(request.count))
-        return struct.unpack(f">{request.count}H", data)
+            return tuple([pdu[2 + (place >> 3)] >> (place & 7) & 1 for place in range(count)])
+        return _registers(count).unpack_from(pdu, 2)
     if not request.values:
         raise FrameError("echo_mismatch", "the reply repeats a request without values")
     head = _head(request)
     if pdu != head:
         raise _other_echo(request, head, pdu)
     return request.values if request.function in ECHOES else ()
+
+
+@cache
+def _registers(count: int) -> struct.Struct:
+    return struct.Struct(f">{count}H")
 
 
 def _other_echo(request: Request, head: bytes, pdu: bytes) -> FrameError:

@@ -13,6 +13,7 @@ at once, and a port that leads through a network is opened anew.
 
 from __future__ import annotations
 
+import os
 import re
 import time
 from typing import TYPE_CHECKING, Any
@@ -24,7 +25,7 @@ from ..receiving import Broadcast
 from ..uss.frames import USS
 from . import checks
 from .line import Line
-from .tcp import Connection
+from .tcp import PIECE, Connection
 
 try:
     import serial
@@ -49,19 +50,22 @@ _SOCKET = re.compile(r"socket://\[?([^/?\]]+)\]?:(\d+)/?")
 _CONNECT = 5.0
 """Seconds for a connection to open."""
 _FASTEST = 10_000_000
+_OF_PSEUDO_TERMINALS = {"bytesize": 8, "parity": "N"}
+"""A pseudo terminal carries bytes, and refuses to be set for others."""
 
 
 class _Port:
     """A port of pyserial, with the methods of a `Connection`."""
 
     def __init__(self, url: str, settings: dict[str, Any]) -> None:
+        if os.path.realpath(url).startswith("/dev/pts/"):
+            settings = settings | _OF_PSEUDO_TERMINALS
         try:
             self._serial: Any = serial.serial_for_url(url, **settings)
         except (OSError, ValueError, TypeError):
             raise
         except Exception as error:  # of settings that a port does not take, pyserial lets termios.error through
-            why = "a pseudo terminal has no parity" if "/pts/" in url else error
-            raise OSError(f"{url} cannot be set as the line needs it: {why}") from error
+            raise OSError(f"{url} cannot be set as the line needs it: {error}") from error
 
     def drop_old(self) -> None:
         """Drop what has come already; raises OSError."""
@@ -121,10 +125,11 @@ class SerialLine(Line):
             "timeout": min(self.timeout, _SLICE),
         }
         self._is_network = _OF_NETWORK.match(port) is not None
+        self._socket = _SOCKET.fullmatch(port)
         self._silence = 0.0 if self._is_network else max(_SILENCE * _BITS / baudrate, 0.00175)
         self.FRAME_SECONDS = self._framing.longest * _BITS / baudrate
         self._rests_until = 0.0
-        self._late: tuple[int, float] | None = None
+        self._late: tuple[int | bytes, float] | None = None
         """The unit whose reply may still come, and until when."""
         self._open: _Port | Connection | None = None
 
@@ -150,14 +155,15 @@ class SerialLine(Line):
             time.sleep(left)
 
     def _echoed(self, size: int) -> bytes:
+        assert self._open is not None
         until, echoed = time.monotonic() + self.timeout, b""
-        while len(echoed) < size and (more := self._read(size - len(echoed), until)):
+        while len(echoed) < size and (more := self._open.read(size - len(echoed), until)):
             echoed += more
         return echoed
 
     def _opened(self) -> _Port | Connection:
-        if (to := _SOCKET.fullmatch(self.port)) is not None:
-            return Connection(to[1], int(to[2]), _CONNECT)
+        if self._socket is not None:
+            return Connection(self._socket[1], int(self._socket[2]), _CONNECT)
         try:
             return _Port(self.port, self._settings)
         except (ValueError, TypeError) as error:  # a URL that pyserial does not know, or a half one
@@ -165,7 +171,7 @@ class SerialLine(Line):
 
     def _read(self, most: int, until: float) -> bytes:
         assert self._open is not None
-        return self._open.read(most, until)
+        return self._open.read(most if self._socket is None else PIECE, until)  # pyserial waits for all
 
     def _after_broadcast(self) -> bytes:
         self._rests_until = time.monotonic() + self.turnaround

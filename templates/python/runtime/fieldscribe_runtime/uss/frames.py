@@ -236,8 +236,13 @@ def _opened(request: Request, reply: bytes, link: Link) -> tuple[int, ...]:
     size = len(reply)
     whole = size >= 4 and reply[1] + 2 == size and size % 2 == 0
     part = (size - 4) // 2 - link.pzd
-    if not whole or (part < 3 if link.pkw == VARIABLE else part != link.pkw):
-        raise FrameError("wrong_length", f"{size} bytes are no whole reply over this link")
+    if not whole:
+        raise FrameError("wrong_length", f"{size} bytes are no whole reply")
+    if part < 3 if link.pkw == VARIABLE else part != link.pkw:
+        least = "at least " if link.pkw == VARIABLE else ""
+        belong = 4 + 2 * ((3 if least else link.pkw) + link.pzd)
+        text = f"the reply has {size} bytes where {least}{belong} belong: is the link of the device set so?"
+        raise FrameError("wrong_length", text)
     if _check_byte(reply) != 0:
         raise FrameError("wrong_check", "the check of the reply is wrong")
     if reply[2] != request.unit:

@@ -210,12 +210,12 @@ fn replies() {
             (
                 ReplyError::WrongStart,
                 "wrong_start",
-                "the telegram does not start as one",
+                "the reply does not begin with 02h",
             ),
             (
                 ReplyError::WrongLength,
                 "wrong_length",
-                "the telegram has another length",
+                "the reply does not fit the link: is that of the drive set so?",
             ),
             (
                 ReplyError::WrongCheck,
@@ -254,9 +254,12 @@ fn replies() {
                 "the drive gives no right to change parameters",
             ),
             (
-                ReplyError::WrongResponse,
+                ReplyError::WrongResponse {
+                    task: 1,
+                    response: 3,
+                },
                 "wrong_response",
-                "the response is not to the task",
+                "response 3 does not belong to task 1",
             ),
             (
                 ReplyError::OtherNumber {

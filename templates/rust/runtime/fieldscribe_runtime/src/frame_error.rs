@@ -198,7 +198,12 @@ pub enum ReplyError {
     /// The drive does not let this master change parameters.
     NoRights,
     /// The response does not belong to the task.
-    WrongResponse,
+    WrongResponse {
+        /// The task of the request.
+        task: u8,
+        /// The response of the reply.
+        response: u8,
+    },
 }
 
 impl ReplyError {
@@ -226,7 +231,7 @@ impl ReplyError {
             Self::WrongParameter => "wrong_parameter",
             Self::Refused { .. } => "refused",
             Self::NoRights => "no_rights",
-            Self::WrongResponse => "wrong_response",
+            Self::WrongResponse { .. } => "wrong_response",
         }
     }
 
@@ -304,8 +309,10 @@ impl fmt::Display for ReplyError {
                 )
             }
             Self::NoAnswer => formatter.write_str("the device did not answer what was asked"),
-            Self::WrongStart => formatter.write_str("the telegram does not start as one"),
-            Self::WrongLength => formatter.write_str("the telegram has another length"),
+            Self::WrongStart => formatter.write_str("the reply does not begin with 02h"),
+            Self::WrongLength => {
+                formatter.write_str("the reply does not fit the link: is that of the drive set so?")
+            }
             Self::WrongCheck => formatter.write_str("the check byte is wrong"),
             Self::WrongParameter => formatter.write_str("the answer is about another parameter"),
             Self::Refused { error, name } => {
@@ -313,7 +320,12 @@ impl fmt::Display for ReplyError {
                 name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
             }
             Self::NoRights => formatter.write_str("the drive gives no right to change parameters"),
-            Self::WrongResponse => formatter.write_str("the response is not to the task"),
+            Self::WrongResponse { task, response } => {
+                write!(
+                    formatter,
+                    "response {response} does not belong to task {task}"
+                )
+            }
         }
     }
 }

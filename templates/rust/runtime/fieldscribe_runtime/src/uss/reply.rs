@@ -92,7 +92,10 @@ impl Request {
             7 => return Err(profile.refusal(first)),
             8 => return Err(ReplyError::NoRights),
             response if !profile.answers(self.task, response) => {
-                return Err(ReplyError::WrongResponse);
+                return Err(ReplyError::WrongResponse {
+                    task: self.task,
+                    response,
+                });
             }
             2 | 5 => reply.value = Value::Double(u32::from(first) << 16 | u32::from(second?)),
             _ if link.single_last() => reply.value = Value::Word(second?),
