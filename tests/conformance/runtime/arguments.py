@@ -304,6 +304,9 @@ def check_can_frames(package: Package) -> None:
         for function in (device.take, decoder.take, decoder.decode):
             refuses(request, f"takes a Frame(id, data), not {wrong!r}", function, wrong)
             assert refusal(function, wrong).status == "bad_frame"
+    of_python_can = type("Message", (), {"arbitration_id": 1})()
+    hint = "; this is Frame(message.arbitration_id, bytes(message.data))"
+    assert str(refusal(decoder.decode, of_python_can)).endswith(hint)
     raws = "raws are raw numbers by name, as {'name': 1}, not [1]"
     refuses(package.runtime.WrongTypeError, raws, decoder.decode, beat_of(package, 0, 1, 2, 3), [1])
     for wrong in (None, 5, "x", [], (1.0,)):

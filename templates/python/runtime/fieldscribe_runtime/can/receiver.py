@@ -140,7 +140,9 @@ class Receiver:
 
 
 def _no_frame(frame: object) -> RequestError:
-    return RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}")
+    of_python_can = "; this is Frame(message.arbitration_id, bytes(message.data))"
+    hint = of_python_can if hasattr(frame, "arbitration_id") else ""
+    return RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}{hint}")
 
 
 def pairs_of(message: Message) -> list[tuple[int, int]]:

@@ -70,10 +70,22 @@ fn a_lost_connection_is_made_anew() {
     });
     let lost = client.read::<p::OutputFrequency>().unwrap_err();
     assert_eq!(kind(&lost), Some(ErrorKind::UnexpectedEof), "{lost}");
+    assert_eq!(lost.to_string(), "output_frequency: the other side closed the connection");
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.7);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.8);
     sleep(QUICK);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.7); // closed meanwhile, and nobody noticed
+}
+
+fn errors_say_where_nobody_listens() {
+    let nobody = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    for (address, text) in [
+        (nobody.to_string(), format!("output_frequency: {nobody}: Connection refused")),
+        ("127.0.0.1".into(), "output_frequency: invalid socket address: it is a name or a number with a port".into()),
+    ] {
+        let told = Client::new(TcpLine::new(address), Framing::Rtu, 1).read::<p::OutputFrequency>().unwrap_err();
+        assert!(told.to_string().starts_with(&text), "{told}");
+    }
 }
 
 fn a_late_answer_answers_nothing() {
@@ -86,6 +98,7 @@ fn a_late_answer_answers_nothing() {
     let started = Instant::now();
     let late = client.read::<p::OutputFrequency>().unwrap_err();
     assert_eq!(kind(&late), Some(ErrorKind::TimedOut), "{late}");
+    assert_eq!(late.to_string(), "output_frequency: no byte came");
     assert!(started.elapsed() >= QUICK);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.9);
 }
@@ -167,6 +180,7 @@ fn main() {
     talks(&ports[0], &PROFILE, Framing::Rtu);
     talks(&ports[1], &GATEWAY, Framing::Tcp);
     a_lost_connection_is_made_anew();
+    errors_say_where_nobody_listens();
     a_late_answer_answers_nothing();
     an_answer_that_drips_is_late_as_a_whole();
     another_transaction_is_passed_over();

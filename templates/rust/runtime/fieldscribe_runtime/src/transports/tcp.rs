@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! TCP by the standard library. Needs the feature `std`.
 
+use std::format;
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
@@ -64,14 +65,14 @@ impl<A: ToSocketAddrs> TcpLine<A> {
 
     fn connected(&self) -> Result<TcpStream> {
         let mut failure = Error::from(ErrorKind::AddrNotAvailable);
-        for address in self.address.to_socket_addrs()? {
+        for address in self.address.to_socket_addrs().map_err(with_form)? {
             match TcpStream::connect_timeout(&address, self.timeout) {
                 Ok(stream) => {
                     stream.set_nodelay(true)?;
                     stream.set_write_timeout(Some(self.timeout))?;
                     return Ok(stream);
                 }
-                Err(error) => failure = error,
+                Err(error) => failure = Error::new(error.kind(), format!("{address}: {error}")),
             }
         }
         Err(failure)
@@ -97,15 +98,33 @@ impl<A: ToSocketAddrs> Transport for TcpLine<A> {
     }
 }
 
+/// The same error, where there was no address, with what one is.
+fn with_form(error: Error) -> Error {
+    match error.kind() {
+        ErrorKind::InvalidInput => Error::new(
+            error.kind(),
+            format!("{error}: it is a name or a number with a port, as 192.168.0.20:502"),
+        ),
+        _ => error,
+    }
+}
+
+fn nothing_came() -> Error {
+    Error::new(ErrorKind::TimedOut, "no byte came")
+}
+
 /// Reads some bytes, of which there is at least one.
 fn read_within(stream: &mut TcpStream, left: Duration, space: &mut [u8]) -> Result<usize> {
     if left.is_zero() {
-        return Err(ErrorKind::TimedOut.into());
+        return Err(nothing_came());
     }
     stream.set_read_timeout(Some(left))?;
     match stream.read(space) {
-        Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
-        Err(error) if is_silence(error.kind()) => Err(ErrorKind::TimedOut.into()),
+        Ok(0) => Err(Error::new(
+            ErrorKind::UnexpectedEof,
+            "the other side closed the connection",
+        )),
+        Err(error) if is_silence(error.kind()) => Err(nothing_came()),
         other => other,
     }
 }
