@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from random import Random
+from typing import Any
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder, decode
@@ -166,6 +168,32 @@ def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
 
 RECOGNISER = CanFrameDecoder(DEVICE)
 """It remembers what the heads of all the frames have told."""
+
+
+class _Forgetful(dict[Any, Any]):
+    """Keeps nothing."""
+
+    def __setitem__(self, key: object, value: object) -> None:
+        pass
+
+
+def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
+    """Also where other frames bring exponents, or halves of numbers; a decoder that keeps nothing says the same."""
+    random, again = Random(26), 0
+    for _ in range(40):
+        forgetful = CanFrameDecoder(DEVICE)
+        vars(forgetful).update(remembers=False, _decoded=_Forgetful())
+        keeping, forgetting = (StreamDecoder(DEVICE, {}, each) for each in (CanFrameDecoder(DEVICE), forgetful))
+        seen = list[FrameResult]()
+        for _ in range(60):
+            (place,) = random.choices((0, 1, 7, 10, 14, 15), (9, 3, 9, 3, 2, 2))
+            data = bytes((0xDD, place, random.randrange(2), 0, 0, 0, 0, random.randrange(2)))
+            frame = Pasted(CanFrame(random.choice((0x321, 0x322)), data))
+            first = keeping.decode(frame)
+            assert first.as_data() == forgetting.decode(frame).as_data()
+            again += any(first is kept for kept in seen)
+            seen.append(first)
+    assert again > 50
 
 
 @given(_IDS, _HEADS, st.binary(min_size=8, max_size=8))

@@ -193,9 +193,9 @@ def test_messages_and_bytes_of_lines() -> None:
     message = bytes.fromhex("80000321 03000000 010203")
     assert list(packets.chunks(Packet(1.0, 227, message))) == [Chunk(1.0, MESSAGE, b"\1\2\3", identifier=0x321)]
     for protocol in (b"\0\x0c", b"\0\x0d"):
-        assert next(packets.chunks(Packet(1.0, 113, bytes(14) + protocol + message))).identifier == 0x321
-    assert next(packets.chunks(Packet(1.0, 227, b"\0\0\x0f" + message[3:]))).identifier == 0x721
-    assert next(packets.chunks(Packet(1.0, 227, b"\x81\xff" + message[2:]))).identifier == 0x1FF0321
+        assert next(iter(packets.chunks(Packet(1.0, 113, bytes(14) + protocol + message)))).identifier == 0x321
+    assert next(iter(packets.chunks(Packet(1.0, 227, b"\0\0\x0f" + message[3:])))).identifier == 0x721
+    assert next(iter(packets.chunks(Packet(1.0, 227, b"\x81\xff" + message[2:])))).identifier == 0x1FF0321
     assert list(packets.chunks(Packet(1.0, 227, message[:9]))) == []
     assert list(packets.chunks(Packet(1.0, 147, b"\1"))) == [Chunk(1.0, BYTES, b"\1")]
 

@@ -7,7 +7,7 @@ from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
-from fieldscribe.listening.exchanges import Exchange, item_text
+from fieldscribe.listening.exchanges import Content, item_text
 from fieldscribe.model import Device
 from support.described import described, loaded_in, shipped
 
@@ -76,6 +76,5 @@ def test_what_was_refused_is_a_finding(name: str, frames: tuple[str, str], refus
     device = shipped(name)
     request, reply = results(device, *frames)
     assert reply.refusal.startswith(refusal)
-    exchange = Exchange(None, "", 1, device, "read", request, reply, ())
-    assert reply.refusal in exchange.findings
+    assert reply.refusal in Content(1, device, "read", request, reply).findings
     assert request.refusal == ""

@@ -243,7 +243,7 @@ def test_a_serial_line_that_others_talk_on() -> None:
         listener, exchanges = Listener([Station(shipped("hitachi_l200"))], Options()), list[Exchange]()
         while not exchanges:
             exchanges += listener.take(next(chunks))
-        assert [item.meaning for item in exchanges[0].items] == ["50 Hz", "10 %"]
+        assert [item.meaning for item in exchanges[0].content.items] == ["50 Hz", "10 %"]
     finally:
         os.close(ours)
         os.close(theirs)
@@ -259,7 +259,7 @@ def test_a_bus_that_others_talk_on() -> None:
         bus.send(can.Message(arbitration_id=0x321, is_extended_id=False, data=bytes.fromhex("DD00051513880064")))
     listener = Listener([Station(shipped("woodward_mpu2s"))], Options())
     [exchange] = listener.take(next(chunks))
-    assert exchange.items[1].meaning == "50 Hz"
+    assert exchange.content.items[1].meaning == "50 Hz"
     chunks.close()
 
 

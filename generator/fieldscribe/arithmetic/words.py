@@ -104,7 +104,11 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
 
 def reader_of(point: Point) -> Callable[[Sequence[int]], int]:
     """Return a function that does for this point what `raw_of` does, and is quicker."""
-    plain = point.text is None and point.bits is None and not (point.coding or point.swapped)
+    plain = point.text is None and not (point.coding or point.swapped)
+    if plain and point.bits is not None and point.words == 1 and not point.info.signed:
+        low, mask = point.bits[1], mask_of(point.width)
+        return lambda words: words[0] >> low & mask
+    plain = plain and point.bits is None
     if not plain or point.width != 16 * point.words or point.words not in (1, 2):
         return partial(raw_of, point)
     read, top = (_first, 0x8000) if point.words == 1 else (_first_two, 0x80000000)

@@ -19,7 +19,7 @@ from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import Chunk, timed
-from fieldscribe.listening.exchanges import Exchange, Statistics, finding_text, item_text, seconds
+from fieldscribe.listening.exchanges import Exchange, Statistics, finding_text, seconds
 from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.packets import PacketWriter, is_packet_file
 from fieldscribe.live.lines import NAME, LineAddress, Project, read_line, read_project, require_line
@@ -221,11 +221,12 @@ class _Printer:
 
     def exchange(self, exchange: Exchange) -> None:
         """Print an exchange."""
-        words = [self._moment(exchange.time), exchange.place, "" if exchange.unit is None else f"unit {exchange.unit}"]
-        words += [exchange.action, ", ".join(map(item_text, exchange.items)) or exchange.remark]
+        content = exchange.content
+        words = [self._moment(exchange.time), exchange.place, exchange.text]
         words += [f"({seconds(exchange.took)})"] if exchange.took else []
-        wrong = (*exchange.faults, *(finding_text(*finding) for finding in exchange.findings.items()))
-        words += [f"! {'; '.join(wrong)}"] if wrong else []
+        if exchange.faults or content.findings:
+            wrong = (*exchange.faults, *(finding_text(*finding) for finding in content.findings.items()))
+            words.append(f"! {'; '.join(wrong)}")
         sys.stdout.write(f"{visible('  '.join(filter(None, words)))}\n")
         if self._verbose:
             for frame, result in exchange.frames:

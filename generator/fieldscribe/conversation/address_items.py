@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 from fieldscribe.arithmetic.words import raw_of, reader_of, split
 from fieldscribe.conversation.decode_state import (
     PARAMETER,
-    Base,
     DecodeState,
-    PointFormatter,
     PointPlace,
     named_item,
     without_variants,
 )
+from fieldscribe.conversation.point_items import Base, PointFormatter
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan, Element, Word
@@ -296,14 +295,14 @@ def _word_item(state: DecodeState, word: Word, point: Point) -> Item:
         finding = _fixed_finding(point, word.raw) if word.in_request else ""
         if not finding:
             return item
-        return replace(item, summary=f"{item.summary}; {finding}", findings=(*item.findings, finding))
+        return item.but(summary=f"{item.summary}; {finding}", findings=(*item.findings, finding))
     words = {**state.words, word.address: word.raw}
     part = f"word {point.addresses.index(word.address) + 1} of {len(point.addresses)} = {hex_words((word.raw,))}"
     raw = _raw(point, words)
     if raw is None:
         return named_item(point, base, f"{part}; {sum(at not in words for at in point.addresses)} more words to come")
     item = state.value(point, base, raw)
-    return replace(item, summary=f"{item.summary}; here {part}")
+    return item.but(summary=f"{item.summary}; here {part}")
 
 
 def _fixed_finding(point: Point, word: int) -> str:

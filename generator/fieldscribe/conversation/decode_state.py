@@ -3,20 +3,19 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any
 
-from fieldscribe.arithmetic.codec import Settings, setting_of
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
-from fieldscribe.conversation.refusals import written_remarks
-from fieldscribe.conversation.selection import absence, moved, same_meaning
+from fieldscribe.conversation.point_items import Base, PointFormatter, english_title
+from fieldscribe.conversation.selection import moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Found, Place, Point
 from fieldscribe.text import line
-from fieldscribe.wording import label, title_text
+from fieldscribe.wording import label
 
 
 class FoundBlocks:
@@ -70,15 +69,8 @@ class FoundBlocks:
         return blocks
 
 
-Base = tuple[str, int, int]
-"""Space or telegram, address, and number of addresses of an item."""
-
 PARAMETER = "parameter"
 """The space of parameters."""
-
-_MOST_ITEMS = 64
-"""The number of cached items for one point: a stream may last for days."""
-
 
 Where = tuple[str, int, int]
 """The space or the telegram, the address, and the index that travels with it (0 without one)."""
@@ -155,60 +147,6 @@ class Directory:
         return point.name in self._settings
 
 
-class PointFormatter:
-    """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
-
-    def __init__(
-        self, device: Device, point: Point, base: Base, *, written: bool, doubting: Directory | None = None
-    ) -> None:
-        """With `doubting`, items say if their number is out of range; it returns the points for other readings."""
-        self._device, self._point, self.base, self._written = device, point, base, written
-        self._doubts = None
-        if doubting is not None and point.text is None and point.generated:
-            self._doubts = Doubts(device, point, partial(doubting.neighbours, point))
-        self.needs = point.arguments if written or doubting else point.scale_arguments
-        self._head, self._title = f"{label(point)} = ", english_title(point)
-        self.name, self._code, self._is_text = point.item, point.code, point.text is not None
-        self._raw_text = raw_form(point)
-        self._absent = absence(device, point) if written else ""
-        self._meanings = Meanings(device, point)
-        # typed: a special code equals the plain number, and is no quantity
-        self._cached_item = lru_cache(_MOST_ITEMS, typed=True)(self._item)
-
-    def item(self, raw: int, settings: Settings) -> Item:
-        """Return the point with the meaning of its raw number; if it is written, also why the device refuses it."""
-        if not self.needs:
-            return self._cached_item(raw)
-        return self._cached_item(raw, *[settings.get(name) for name in self.needs])
-
-    def lacks(self, settings: Settings) -> bool:
-        """Return True if the scale needs numbers of other points that are missing here."""
-        return self._meanings.lacks(settings)
-
-    def value(self, raw: int, settings: Settings) -> str:
-        """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
-        return f"{self._meanings.text(raw, settings)} ({self._raw_text(raw)})"
-
-    def _item(self, raw: int, *values: int | Fraction | None) -> Item:
-        settings: dict[str, int | Fraction] = {}
-        if values:
-            settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
-        point, meaning, number = self._point, self._meanings.of(raw, settings), self._raw_text(raw)
-        finding, remark = self._absent, self._absent
-        if self._written and not finding:
-            finding, unchecked = written_remarks(self._device, point, raw, settings)
-            remark = finding or unchecked
-        rest = self._title
-        if remark or meaning.hint or not rest:
-            rest = "; ".join(text for text in (self._title, remark, meaning.hint) if text)
-        text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
-        return Item(
-            *self.base, line(self._head + text), self.name, self._code, None if self._is_text else raw,
-            meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags, meaning.text,
-            () if self._doubts is None else self._doubts.of(raw, settings, meaning.text)[1 if finding else 0 :],
-        )  # fmt: skip
-
-
 @dataclass(slots=True)
 class DecodeState:
     """What is known from the frames of one unit: numbers for rules, words of parameters, and incomplete points."""
@@ -267,14 +205,11 @@ class DecodeState:
         """Return the formatter of a point at this place."""
         key = point.item, base, written
         if key not in self.formatters:
-            doubting = self.directory if self.doubting else None
-            self.formatters[key] = PointFormatter(self.device, point, base, written=written, doubting=doubting)
+            neighbours = partial(self.directory.neighbours, point) if self.doubting else None
+            made = PointFormatter(self.device, point, base, written=written, neighbours=neighbours)
+            made.stays = made.stays and not self.directory.teaches(point)
+            self.formatters[key] = made
         return self.formatters[key]
-
-
-def english_title(point: Point) -> str:
-    """Return the English title."""
-    return title_text({"en": point.title["en"]})
 
 
 def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -> Item:

@@ -7,8 +7,9 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
-from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks, PointFormatter
+from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks
 from fieldscribe.conversation.encoding import family_part
+from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
 from fieldscribe.families.frame_results import FrameResult, Item, Options
@@ -71,8 +72,11 @@ class StreamDecoder:
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
-        self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int, FrameResult]] = {}
-        """Results by the identity of their input, each with the state at that time and its version."""
+        self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int | None, FrameResult]] = {}
+        """Results by the identity of their input, each with the state at that time and its version.
+
+        The version is None for results that neither need nor bring numbers for rules.
+        """
 
         @lru_cache(decoded_frame.MOST_STATES)
         def state_of_unit(_unit: int | None) -> DecodeState:
@@ -85,12 +89,17 @@ class StreamDecoder:
         """Decode the request that the following frames answer, if the options give one. Raises UnclearError."""
         if options.request is None:
             return []
-        return [self.decode(frame, expecting=True) for frame in self._frame_decoder.frames([options.request])]
+        return [self._pasted(frame, expecting=True) for frame in self._frame_decoder.frames([options.request])]
 
     def pasted(self, texts: Sequence[str]) -> list[FrameResult]:
         """Decode the frames in the texts. Raises UnclearError for a text that is not a frame."""
         frames = [frame for text in texts if (frame := logged_frame(text) if "unit " in text else text) is not None]
-        return [self.decode(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
+        return [self._pasted(frame) for frame in self._frame_decoder.frames(frames)] if frames else []
+
+    def _pasted(self, frame: Any, *, expecting: bool = False) -> FrameResult:
+        """Decode the next frame; where a text says more than bytes, the result has that."""
+        result = self.decode(frame, expecting=expecting)
+        return result if isinstance(frame, bytes) else result._replace(captured=frame)
 
     def decode(
         self, frame: Any, *, expecting: bool = False, requests: decoded_frame.OpenRequests | None = None
@@ -104,7 +113,8 @@ class StreamDecoder:
         state = self._state_of_unit(decoded.unit if self._device.found is None else decoded.result.unit)
         requests.follow(decoded, expecting=expecting)
         kept = self._kept.get(id(decoded))
-        if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] == state.version:
+        version = state.version
+        if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] in (version, None):
             return kept[3]
         for content in decoded.contents if state.blocks else ():
             if isinstance(content, decoded_frame.AddressSpan) and content.learned and not content.written:
@@ -115,10 +125,12 @@ class StreamDecoder:
         if isinstance(frame, decoded_frame.CutFrame):
             return decoded.result.complete(items, (*notes, frame.note))
         result = decoded.result.complete(items, notes)
-        if self._frame_decoder.remembers and framings is self._framings:
+        is_settled = not any(item.point in state.incomplete for item in items)
+        if self._frame_decoder.remembers and framings is self._framings and is_settled:
             if len(self._kept) >= _MOST_KEPT:
                 self._kept.clear()
-            self._kept[id(decoded)] = decoded, state, state.version, result
+            stays = state.blocks is None and not state.directory.has_selections and all(item.stays for item in items)
+            self._kept[id(decoded)] = decoded, state, None if stays else version, result
         return result
 
     def _warnings(self, decoded: decoded_frame.DecodedFrame, directory: Directory) -> Iterator[str]:

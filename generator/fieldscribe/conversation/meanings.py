@@ -7,10 +7,10 @@ down. Those that lie in range are listed; nothing is ranked or inferred.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, partial
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
@@ -31,8 +31,7 @@ _MOST_NUMBERS = 64
 """The number of cached texts of a flag."""
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(NamedTuple):
     """The meaning of a raw number: its text, the exact value of a quantity, and what is missing or unusual.
 
     `flags` explains the bits of a word; the text is then empty.
@@ -293,7 +292,8 @@ class Doubts:
     """Finds doubts about the numbers of a point; its limits and neighbours are looked up once."""
 
     def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
-        self._device, self._point, self._fits = device, point, _range_test(point)
+        self._device, self._point, self.fits = device, point, _range_test(point)
+        """`fits` returns True if a number lies in range."""
         self._meanings, self._range = Meanings(device, point), ""
         self._is_plain = point.form in ("scaled", "integer") and not (point.limit_arguments or point.fixed)
         self._read, self._swaps = reader_of(point), point.words > 1
@@ -308,12 +308,10 @@ class Doubts:
         self._others = [(text, reader_of(one), _range_test(one), Meanings(device, one)) for text, one in others]
 
     def of(self, raw: int, settings: Settings, meaning: str) -> tuple[str, ...]:
-        """Return a text that a number is out of range, then the other readings; nothing if it is in range.
+        """Return a text that a number is out of range, then the other readings.
 
         `meaning` is its meaning.
         """
-        if self._fits(raw, settings):
-            return ()
         if self._is_plain and meaning:
             self._range = self._range or range_of(self._device, self._point, settings)
             fault = line(f"{meaning} is outside {self._range}")
@@ -331,11 +329,11 @@ class Doubts:
 
     def _readings(self, raw: int, words: tuple[int, ...], settings: Settings) -> Iterator[tuple[str, int, Meanings]]:
         """Yield each other reading in range: in words, its raw number, and its meaning."""
-        if self._is_limited and self._swaps and self._fits(number := self._read(words[::-1]), settings):
+        if self._is_limited and self._swaps and self.fits(number := self._read(words[::-1]), settings):
             yield "with its words swapped", number, self._meanings
         if self._is_limited and self._is_signed:
             signed = number_of(pattern_of(self._point, raw), self._point.width, signed=True)
-            if signed < 0 and self._fits(-signed, settings):
+            if signed < 0 and self.fits(-signed, settings):
                 text, number = ("without its sign", -signed) if raw < 0 else ("as a signed number", signed)
                 yield text, number, self._meanings
         for text, read, fits, meanings in self._others:

@@ -1,11 +1,11 @@
 """Items of telegrams: process data with masks, and telegrams in several frames."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
-from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
+from fieldscribe.conversation.decode_state import DecodeState, named_item
+from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Point
@@ -31,7 +31,7 @@ def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
             raw = raw_of(point, words)
             item = state.value(point, base, raw, written=written)
             # a master with nothing to write sends zeros
-            yield item if raw or not item.findings else replace(item, findings=())
+            yield item if raw or not item.findings else item.but(findings=())
 
 
 def _telegrams(device: Device, direction: str) -> list[str]:
@@ -79,10 +79,9 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     telegram, settings = piece.telegram.name, state.settings
     parts = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
     parts = parts or _planned(state, piece)
-    teaching = (part for _, part in parts if part is not None and part.teaches)
-    taught = [(part.point, raw) for part in teaching if (raw := _raw(part, piece)) is not None]
-    if taught:
-        state.learn(taught)
+    teaching = [part for _, part in parts if part is not None and part.teaches]
+    if teaching:
+        state.learn([(part.point, raw) for part in teaching if (raw := _raw(part, piece)) is not None])
     items: list[Item] = []
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
     for place, part in parts:
@@ -101,9 +100,9 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
         item = formatter.item(raw, settings)
         if state.incomplete:
             state.incomplete.pop(formatter.name, None)
-        if item.missing:
+        if formatter.needs and item.missing:
             incomplete[formatter.name] = formatter, raw
-            item = replace(item, summary=item.summary + _source_text(state, piece, item.missing))
+            item = item.but(summary=item.summary + _source_text(state, piece, item.missing))
         items.append(item)
     if state.changed:
         items += _completed_items(state)
@@ -169,5 +168,5 @@ def _completed_items(state: DecodeState) -> Iterator[Item]:
         if not state.changed.isdisjoint(formatter.needs) and not formatter.lacks(state.settings):
             del state.incomplete[name]
             item = formatter.item(raw, state.settings)
-            yield replace(item, summary=f"from a frame before: {item.summary}")
+            yield item.but(summary=f"from a frame before: {item.summary}")
     state.changed.clear()

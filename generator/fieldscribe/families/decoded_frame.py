@@ -134,6 +134,8 @@ class OpenRequests:
 
     def follow(self, decoded: DecodedFrame, *, expecting: bool) -> None:
         """Update the open requests after a frame; with `expecting`, the user says that the next frames answer it."""
+        if decoded.request is None and not (decoded.unanswered or decoded.answers or expecting):
+            return
         key = decoded.unit, decoded.exchange
         if decoded.request is not None:
             self._addressed.add(decoded.unit)
@@ -176,7 +178,7 @@ def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> li
 class FrameDecoder(Protocol):
     """Decodes the frames of a family; `decoder_of(device, options)` of its part `frame_decoder` makes one.
 
-    `remembers`: it returns the same object for the same bytes after the same request.
+    `remembers`: it returns the same object only for the same bytes after the same request, and if nothing else counts.
     """
 
     remembers: bool

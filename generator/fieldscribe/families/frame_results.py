@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
 
@@ -64,7 +64,7 @@ class BitTexts(Protocol):
         """Return only the flags that apply."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Item:
     """The content of a frame at one address: a point with its value, a part of a point, a command, or nothing known.
 
@@ -90,6 +90,15 @@ class Item:
     doubts: tuple[str, ...] = ()
     carries: str = ""
     subject: str = ""
+
+    def but(self, **changes: Any) -> Item:
+        """Return the same, except for these facts."""
+        return Item(**{fact.name: getattr(self, fact.name) for fact in fields(Item)} | changes)
+
+    @property
+    def stays(self) -> bool:
+        """True if it says the same whatever other frames bring, and brings nothing that others need."""
+        return True
 
     @property
     def about(self) -> str:
@@ -176,10 +185,6 @@ class FrameResult(NamedTuple):
             "findings": list(self.findings),
             "notes": list(self.notes),
         }
-
-    def captured_as(self, data: bytes, captured: Captured) -> FrameResult:
-        """Return the result with the frame as it was captured."""
-        return self._replace(data=data, captured=captured)
 
     def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
         """Return the result with items and further notes."""

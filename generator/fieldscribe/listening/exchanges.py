@@ -6,7 +6,7 @@ have limits, so that hostile captures do not fill the memory; what no longer fit
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from typing import NamedTuple
 
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.listening.chunks import Cut
@@ -18,90 +18,105 @@ _MOST_BYTES = 16
 """How many bytes of what is no frame are printed."""
 
 
-@dataclass
-class Exchange:
-    """A request with its answer, one of them alone, or a frame that nobody answers.
+class Content:
+    """What a request and its answer say, or one of them alone, whenever they are exchanged; without any, nothing.
 
-    `place` is who asks, where that is known; `action` what is done, in a word; `took` is in seconds. A frame for a unit
-    without a description has no device.
+    `action` is what is done, in a word. A frame for a unit without a description has no device. `findings` are what is
+    against the manual and which numbers are outside their range, by point; and what was refused.
+    """
+
+    __slots__ = ("_text", "action", "device", "findings", "items", "reply", "request", "summary", "unit")
+
+    def __init__(
+        self,
+        unit: int | None = None,
+        device: Device | None = None,
+        action: str = "",
+        request: FrameResult | None = None,
+        reply: FrameResult | None = None,
+    ) -> None:
+        self.unit, self.device, self.action, self.request, self.reply = unit, device, action, request, reply
+        main = request if reply is None or (request and not reply.items) else reply
+        self.items: Sequence[Item] = main.items if main else ()
+        self.summary = main.summary if main else ""
+        """What is said of frames without items."""
+        self.findings: dict[str, str] = {}
+        for result in (request, reply):
+            if result is not None:
+                self.findings.update(dict.fromkeys(result.findings, ""))
+                for item in result.items:
+                    if wrong := (*item.findings, *item.doubts):
+                        self.findings[item.about] = ", ".join(wrong)
+        if reply is not None and reply.refusal:
+            self.findings[reply.refusal] = ""
+        self._text = ""
+
+    @property
+    def text(self) -> str:
+        """The unit, the action, and what was read or written, in words."""
+        if not self._text:
+            unit = "" if self.unit is None else f"unit {self.unit}"
+            items = ", ".join(map(item_text, self.items)) or self.summary
+            self._text = "  ".join(filter(None, (unit, self.action, items)))
+        return self._text
+
+
+class Exchange(NamedTuple):
+    """A request with its answer, one of them alone, or a frame that nobody answers, and its content.
+
+    `place` is who asks, where that is known; `took` is in seconds.
     """
 
     time: float | None
     place: str
-    unit: int | None
-    device: Device | None
-    action: str
-    request: FrameResult | None
-    reply: FrameResult | None
+    content: Content
     cuts: tuple[Cut, ...]
     faults: tuple[str, ...] = ()
     took: float | None = None
 
     @property
-    def main(self) -> FrameResult | None:
-        """The frame that says most."""
-        return self.request if self.reply is None or (self.request and not self.reply.items) else self.reply
-
-    @property
-    def items(self) -> Sequence[Item]:
-        """What was read or written."""
-        return self.main.items if self.main else ()
-
-    @property
-    def remark(self) -> str:
-        """What is said of frames without items; the bytes of those that are foreign, or none."""
-        return self.main.summary if self.main else spaced(self.cuts[0].data[:_MOST_BYTES])
-
-    @cached_property
-    def findings(self) -> dict[str, str]:
-        """What is against the manual and which numbers are outside their range, by point; and what was refused."""
-        found: dict[str, str] = {}
-        for result in (self.request, self.reply):
-            if result is not None:
-                found.update(dict.fromkeys(result.findings, ""))
-                for item in result.items:
-                    if item.findings or item.doubts:
-                        found[item.about] = ", ".join((*item.findings, *item.doubts))
-        if self.reply is not None and self.reply.refusal:
-            found[self.reply.refusal] = ""
-        return found
+    def text(self) -> str:
+        """The unit, the action, and what was read or written, in words; the bytes of what is foreign, or no frame."""
+        text = self.content.text
+        return text if self.content.action else "  ".join(filter(None, (text, spaced(self.cuts[0].data[:_MOST_BYTES]))))
 
     @property
     def frames(self) -> Iterator[tuple[str, FrameResult | None]]:
         """The frames in the notation of their users, each with what it is."""
-        results = [result for result in (self.request, self.reply) if result is not None]
+        results = [result for result in (self.content.request, self.content.reply) if result is not None]
         for place, cut in enumerate(self.cuts):
-            result = results[place] if place < len(results) else None
-            captured = None if result is None else result.captured
-            yield spaced(cut.data) if captured is None else captured.text, result
+            text = spaced(cut.data) if isinstance(cut.frame, bytes) else cut.frame.text
+            yield text, results[place] if place < len(results) else None
 
     def as_data(self) -> dict[str, object]:
         """Return the same for JSON."""
-        plain = ("point", "code", "raw", "value")
-        items = [{**{key: getattr(item, key) for key in plain}, "text": item_text(item)} for item in self.items]
+        content, plain = self.content, ("point", "code", "raw", "value")
+        items = [{**{key: getattr(item, key) for key in plain}, "text": item_text(item)} for item in content.items]
         return {
             "time": self.time,
             "who": self.place or None,
-            "unit": self.unit,
-            "device": None if self.device is None else self.device.id,
-            "action": self.action,
+            "unit": content.unit,
+            "device": None if content.device is None else content.device.id,
+            "action": content.action,
             "items": items,
             "took": self.took,
-            "exception": None if self.reply is None else self.reply.exception,
+            "exception": None if content.reply is None else content.reply.exception,
             "faults": list(self.faults),
-            "findings": [finding_text(*finding) for finding in self.findings.items()],
+            "findings": [finding_text(*finding) for finding in content.findings.items()],
         }
 
 
 def item_text(item: Item) -> str:
     """Return a point with its value, short: `output_frequency = 5 Hz`."""
+    if item.meaning:
+        return f"{item.point} = {item.meaning}"
     if item.bit_texts is not None and item.raw is not None:
         return f"{item.point} = {item.bit_texts.true(item.raw)}"
     if item.point is None:
         return item.summary
     if item.carries:
         return f"{item.point}: {item.carries}"
-    return f"{item.point} = {item.meaning}" if item.meaning or item.raw is not None else item.point
+    return item.point if item.raw is None else f"{item.point} = "
 
 
 def finding_text(key: str, text: str) -> str:
@@ -150,7 +165,7 @@ class Poll:
         self.count += 1
         self.first = exchange.time if self.first is None else self.first
         self.last = exchange.time
-        self.answered += exchange.reply is not None and not exchange.faults
+        self.answered += exchange.content.reply is not None and not exchange.faults
         if exchange.took is not None:
             self.took = round(self.took + exchange.took, 6)
             self.timed += 1
@@ -185,18 +200,20 @@ class Statistics:
     def add(self, exchange: Exchange) -> None:
         """Count an exchange."""
         self.exchanges += 1
-        unit = "" if exchange.unit is None else f"unit {exchange.unit}: "
-        for fault in exchange.faults:
-            _count(self._errors, (unit, fault), fault)
-        for key, text in exchange.findings.items():
-            _count(self._findings, (unit, key), finding_text(key, text))
-        asked = exchange.request or (None if exchange.faults else exchange.reply)
-        if asked is not None and exchange.device is not None:
-            place: tuple[str, int | None, str] = exchange.place, exchange.unit, asked.summary
+        content = exchange.content
+        if exchange.faults or content.findings:
+            unit = "" if content.unit is None else f"unit {content.unit}: "
+            for fault in exchange.faults:
+                _count(self._errors, (unit, fault), fault)
+            for key, text in content.findings.items():
+                _count(self._findings, (unit, key), finding_text(key, text))
+        asked = content.request or (None if exchange.faults else content.reply)
+        if asked is not None and content.device is not None:
+            place: tuple[str, int | None, str] = exchange.place, content.unit, asked.summary
             if place not in self._polls:
                 full = len(self._polls) >= _MOST_ROWS
                 place = _REST if full else place
-                new = Poll(exchange.place, exchange.unit, exchange.device.id, exchange.action, _what(exchange))
+                new = Poll(exchange.place, content.unit, content.device.id, content.action, _what(exchange))
                 self._polls.setdefault(place, Poll() if full else new)
             self._polls[place].add(exchange)
 
@@ -233,9 +250,9 @@ class Statistics:
 
 def _what(exchange: Exchange) -> str:
     """Return the names of what is asked for; addresses where there is no name."""
-    named = [*dict.fromkeys(item.about for item in exchange.items)]
+    named = [*dict.fromkeys(item.about for item in exchange.content.items)]
     more = len(named) - _MOST_NAMES
-    return ", ".join(named[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "") or exchange.remark
+    return ", ".join(named[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "") or exchange.content.summary
 
 
 def _count(table: dict[tuple[str, str], tuple[int, str]], key: tuple[str, str], text: str) -> None:

@@ -11,13 +11,13 @@ from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.listening.chunks import SILENT, Chunk, Cut, Packet
-from fieldscribe.listening.exchanges import Exchange
+from fieldscribe.listening.exchanges import Content, Exchange
 from fieldscribe.model import Device
 from fieldscribe.user_errors import UnclearError
 
 _ASKS, _ANSWERS = ("request", "request_or_reply"), ("reply", "exception")
 _MOST_OPEN = 1024
-"""How many requests may wait for an answer at the same time."""
+"""How many requests may wait for an answer at the same time; also for how many frames it is kept what they say."""
 NO_ANSWER = "no answer"
 ALONE = "an answer without a request before it"
 NOISE = "bytes that are no frame"
@@ -60,18 +60,19 @@ class Listener:
         self._decoders: dict[tuple[int, str | None], StreamDecoder] = {}
         self._open: OrderedDict[Hashable, _Open] = OrderedDict()
         self._requests: OrderedDict[Hashable, OpenRequests] = OrderedDict()
+        self._contents: dict[tuple[int, int], Content] = {}
+        """By the identity of request and answer, what they say: decoders return the same for frames that come again."""
         self._units: set[int | None] = set()
         """The units that a sound frame was for or from."""
         self.others = 0
         """Chunks that cannot be frames of this family."""
 
-    def take(self, chunk: Chunk) -> Iterator[Exchange]:
+    def take(self, chunk: Chunk) -> list[Exchange]:
         """Return the exchanges that end with this chunk."""
         if chunk.kind not in self.part.KINDS:
             self.others += chunk.kind != SILENT
-            return
-        for cut in self._cutter.take(chunk):
-            yield from self._frame(cut)
+            return []
+        return [exchange for cut in self._cutter.take(chunk) for exchange in self._frame(cut)]
 
     def rest(self) -> Iterator[Exchange]:
         """Return what is left at the end; requests at the very end may have been answered."""
@@ -85,7 +86,7 @@ class Listener:
         if self.each is not None:
             self.each(self.part.packet(cut))
         if cut.damaged and cut.unit not in self._units:
-            yield Exchange(cut.time, cut.place, None, None, "", None, None, (cut,), (NOISE,))
+            yield Exchange(cut.time, cut.place, Content(), (cut,), (NOISE,))
             return
         key: tuple[Hashable, ...] = cut.place, cut.exchange
         if cut.sent and key in self._open:  # the client gave up waiting
@@ -93,7 +94,7 @@ class Listener:
             self._requests.pop(key, None)
         station, result = self._decoded(cut, self._open_requests(key))
         if result is None or station is None:
-            yield Exchange(cut.time, cut.place, cut.unit, None, "", None, None, (cut,), (FOREIGN,))
+            yield Exchange(cut.time, cut.place, Content(cut.unit), (cut,), (FOREIGN,))
             return
         if not cut.damaged:
             self._units.add(result.unit)
@@ -101,15 +102,17 @@ class Listener:
 
     def _open_requests(self, key: Hashable) -> OpenRequests:
         """Return the open requests of an exchange; those used last are kept."""
-        requests = self._requests.pop(key, None) or OpenRequests()
-        self._requests[key] = requests
+        requests = self._requests.setdefault(key, OpenRequests()) if key not in self._requests else self._requests[key]
+        self._requests.move_to_end(key)
         if len(self._requests) > _MOST_OPEN:
             self._requests.popitem(last=False)
         return requests
 
     def _paired(self, cut: Cut, key: Hashable, station: Station, result: FrameResult) -> Iterator[Exchange]:
         waiting = self._open.get(key)
-        if result.kind in _ASKS and cut.sent is not False:
+        if result.kind == "cyclic":
+            yield Exchange(cut.time, cut.place, self._content(station, None, result), (cut,), result.faults)
+        elif result.kind in _ASKS and cut.sent is not False:
             if waiting is not None:
                 yield self._unanswered(key)
             self._open[key] = _Open(cut, result, station)
@@ -121,10 +124,8 @@ class Listener:
         else:
             lonely = (ALONE,) if result.kind in _ANSWERS or result.kind in _ASKS else ()
             asks = result.kind == "broadcast"
-            yield Exchange(
-                cut.time, cut.place, result.unit, station.device, self.part.action(result),
-                result if asks else None, None if asks else result, (cut,), (*result.faults, *lonely),
-            )  # fmt: skip
+            content = self._content(station, *((result, None) if asks else (None, result)))
+            yield Exchange(cut.time, cut.place, content, (cut,), (*result.faults, *lonely))
 
     def _unanswered(self, key: Hashable) -> Exchange:
         waiting = self._open.pop(key)
@@ -164,7 +165,14 @@ class Listener:
         took = None if cut is None or cut.time is None or first.time is None else round(cut.time - first.time, 6)
         faults = (*request.faults, *(reply.faults if reply else ()), *faults)
         cuts = (first,) if cut is None else (first, cut)
-        action = self.part.action(request)
-        return Exchange(
-            first.time, first.place, request.unit, station.device, action, request, reply, cuts, faults, took
-        )
+        return Exchange(first.time, first.place, self._content(station, request, reply), cuts, faults, took)
+
+    def _content(self, station: Station, request: FrameResult | None, reply: FrameResult | None) -> Content:
+        key = id(request), id(reply)
+        if key not in self._contents:
+            if len(self._contents) >= _MOST_OPEN:
+                self._contents.clear()
+            main = request or reply
+            unit, action = (None, "") if main is None else (main.unit, self.part.action(main))
+            self._contents[key] = Content(unit, station.device, action, request, reply)
+        return self._contents[key]

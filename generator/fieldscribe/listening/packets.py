@@ -5,7 +5,7 @@ Captures come from anywhere: lengths that cannot be are an error that names the 
 
 import struct
 from collections import OrderedDict
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import BinaryIO
 
@@ -165,22 +165,23 @@ class Packets:
         self._ports = ports
         self._directions: OrderedDict[tuple[bytes, bytes], _Direction] = OrderedDict()
 
-    def chunks(self, packet: Packet) -> Iterator[Chunk]:
+    def chunks(self, packet: Packet) -> Iterable[Chunk]:
         """Return what a packet brings; any bytes are safe."""
         link, data = packet.link, packet.data
+        if link == BUS_SOCKET:
+            return _message(packet.time, data)
         if link in _USERS:
-            yield Chunk(packet.time, BYTES, data)
-        elif link == BUS_SOCKET:
-            yield from _message(packet.time, data)
-        elif link in _HEADS:
+            return (Chunk(packet.time, BYTES, data),)
+        if link in _HEADS:
             size, place = _HEADS[link]
             protocol = _ip_of(data[size:]) if place < 0 else int.from_bytes(data[place : place + 2], "big")
             while protocol in _VLAN:
                 protocol, size = int.from_bytes(data[size + 2 : size + 4], "big"), size + 4
             if protocol in _BUS:
-                yield from _message(packet.time, data[size:])
-            elif protocol in (_IP4, _IP6):
-                yield from self._internet(packet.time, data[size:], protocol)
+                return _message(packet.time, data[size:])
+            if protocol in (_IP4, _IP6):
+                return self._internet(packet.time, data[size:], protocol)
+        return ()
 
     def _internet(self, time: float | None, data: bytes, protocol: int) -> Iterator[Chunk]:
         if len(data) < 40:
@@ -243,16 +244,17 @@ def _in_order(way: _Direction, number: int, data: bytes) -> Iterator[tuple[bool,
     way.due = due
 
 
-def _message(time: float | None, data: bytes) -> Iterator[Chunk]:
-    """Yield the message of a packet of SocketCAN; error frames are no messages."""
+def _message(time: float | None, data: bytes) -> tuple[Chunk, ...]:
+    """Return the message of a packet of SocketCAN; error frames are no messages."""
     if len(data) < 8:
-        return
+        return ()
     identifier, size = int.from_bytes(data[:4], "big"), data[4]
-    if not identifier & 0x20000000 and size <= len(data) - 8:
-        mask = 0x1FFFFFFF if identifier & 0x80000000 else 0x7FF
-        remote = bool(identifier & 0x40000000)
-        content = b"" if remote else data[8 : 8 + size]
-        yield Chunk(time, MESSAGE, content, identifier=identifier & mask, remote=remote)
+    if identifier & 0x20000000 or size > len(data) - 8:
+        return ()
+    mask = 0x1FFFFFFF if identifier & 0x80000000 else 0x7FF
+    remote = bool(identifier & 0x40000000)
+    content = b"" if remote else data[8 : 8 + size]
+    return (Chunk(time, MESSAGE, content, "", None, False, identifier & mask, remote),)
 
 
 def _ip_of(data: bytes) -> int:

@@ -35,9 +35,12 @@ _KINDS = {"request": "request", "response": "reply"}
 
 
 class CanFrameDecoder:
-    """Decodes the frames of one device; keeps the words of telegrams that span several frames."""
+    """Decodes the frames of one device; keeps the words of telegrams that span several frames.
 
-    remembers = False
+    Most frames of telegrams come again as they were, so what was decoded last is kept.
+    """
+
+    remembers = True
 
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
@@ -47,6 +50,15 @@ class CanFrameDecoder:
         )
         self._firsts = sorted({place for message in device.messages for place in places(message, "constant")[:1]})
         self._words = {message.name: message.words for message in device.messages}
+        self._decoded: dict[CanFrame, DecodedFrame] = {}
+        """By frame, what depends on nothing but the frame."""
+        self._crossed = {
+            message.name: _crossed(device, telegram, max(1, message.words))
+            for telegram in device.telegrams
+            for message in device.messages
+            if telegram.message == message.name
+        }
+        """By message, the multiplexers with a part of a number whose other part comes with another one."""
         self._telling: dict[tuple[int, bytes], tuple[int, ...]] = {}
         self._heads: dict[tuple[int, bytes, bytes], tuple[Head, FrameResult] | None] = {}
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
@@ -64,6 +76,8 @@ class CanFrameDecoder:
     def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
         del expecting  # the messages themselves say which frame answers which
+        if not frame.remote and frame.frame in self._decoded:
+            return self._decoded[frame.frame]
         for message in () if frame.remote else self._carrying:
             if frames.is_of(message, self._device.bus.units, frame.frame):
                 return self._signals(message, frame)
@@ -71,7 +85,7 @@ class CanFrameDecoder:
         if known is None:
             return self._unknown(frame)
         head, result = known
-        result = result.captured_as(frame.frame.data, frame)
+        result = result._replace(data=frame.frame.data)
         telegram = self._telegrams.get(head.message.name)
         if telegram is None:
             return self._parameter(head, result, frame, requests)
@@ -148,7 +162,11 @@ class CanFrameDecoder:
             return DecodedFrame(result._replace(notes=(_DAMAGED,)))
         receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
-        return DecodedFrame(result, (piece,), head.unit)
+        decoded = DecodedFrame(result, (piece,), head.unit)
+        if head.slot not in self._crossed[message.name]:
+            self._decoded[pasted.frame] = decoded
+            _forget_many(self._decoded)
+        return decoded
 
     def _signals(self, message: Message, pasted: Pasted) -> DecodedFrame:
         """Return the result for the signals of a message."""
@@ -159,11 +177,13 @@ class CanFrameDecoder:
         kind = _KINDS.get(message.direction, "cyclic")
         details = {"can_id": frame.id, "message": message.name}
         text = line(f"{name}: {message.title['en']}")
-        result = FrameResult(frame.data, "can", kind, unit, None, text, details=details, captured=pasted)
+        result = FrameResult(frame.data, "can", kind, unit, None, text, details=details)
         pieces = Gathered(words)
         parts = [part for part, when in signals.parts(message) if signals.comes(message, when, words)]
         contents = tuple(Piece(telegram, part, words[part.start : part.stop], pieces) for part in parts)
-        return DecodedFrame(result, contents, unit)
+        decoded = self._decoded[frame] = DecodedFrame(result, contents, unit)
+        _forget_many(self._decoded)
+        return decoded
 
     def _parameter(self, head: Head, result: FrameResult, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
         frame = pasted.frame
@@ -192,7 +212,7 @@ class CanFrameDecoder:
         frame = pasted.frame
         text = f"CAN {hex_text(frame.id, 3)}"
         details = {"can_id": frame.id}
-        result = FrameResult(frame.data, "can", "other", None, None, text, details=details, captured=pasted)
+        result = FrameResult(frame.data, "can", "other", None, None, text, details=details)
         senders = list(_senders(self._device, frame))
         if senders:
             fault = _unknown_kind(pasted, [message for message, _ in senders])
@@ -214,6 +234,13 @@ class Gathered:
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
         """Return ("ok", the words at these positions)."""
         return "ok", tuple(self.carried[position] for position in positions)
+
+
+def _crossed(device: Device, telegram: Telegram, words: int) -> set[int]:
+    """Return the multiplexers with a part of a point whose other part comes with another one."""
+    points = (point for point in device.points if point.telegram == telegram.name)
+    slots = ({address // words for address in point.addresses} for point in points)
+    return {slot for here in slots if len(here) > 1 for slot in here}
 
 
 def _forget_many(kept: dict[Any, Any]) -> None:

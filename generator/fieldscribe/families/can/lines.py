@@ -66,14 +66,14 @@ _LONG, _REMOTE, _SHORT = 0x80000000, 0x40000000, 0x7FF
 class CanCutter:
     """Makes frames of messages."""
 
-    def take(self, chunk: Chunk) -> Iterator[Cut]:
+    def take(self, chunk: Chunk) -> tuple[Cut, ...]:
         """Return the frame of a message."""
-        frame = Pasted(CanFrame(chunk.identifier, chunk.data), remote=chunk.remote)
-        yield Cut(chunk.time, frame, chunk.data, None)
+        frame = Pasted(CanFrame(chunk.identifier, chunk.data), "", "", chunk.remote)
+        return (Cut(chunk.time, frame, chunk.data, None),)
 
-    def rest(self) -> Iterator[Cut]:
+    def rest(self) -> tuple[Cut, ...]:
         """Return nothing: each message is whole."""
-        return iter(())
+        return ()
 
 
 def cutter() -> CanCutter:
