@@ -125,7 +125,7 @@ def add_descriptions(parser: ArgumentParser) -> None:
         "--descriptions",
         type=Path,
         metavar="DIR",
-        help=f"where device ids are searched (default: this folder, {LOCAL}, then what comes with fieldscribe)",
+        help=f"where device ids are searched (default: this folder, {LOCAL}, then the shipped devices)",
     )
 
 

@@ -22,7 +22,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.add_argument("first", type=Path, metavar="FILE", help="a snapshot")
     parser.add_argument("second", nargs="?", type=Path, metavar="OTHER", help="another one (default: the defaults)")
-    parser.add_argument("--all", action="store_true", help="compare what is only read, too")
+    parser.add_argument("--all", action="store_true", help="compare read-only points too")
     add_descriptions(parser)
     add_format(parser)
 

@@ -44,7 +44,7 @@ ends with 0 when no frame is wrong; notes do not count, and neither do raw numbe
 ends with 1 when a frame
   - is damaged or foreign (length, checksum, header), or does not answer the request before it
   - asks for what the device does not have: unit, function, task, count, multiplexer, address
-  - writes what the device does not take: out of range, read only, or against bits that are always written
+  - writes what the device does not accept: out of range, read only, or against bits that are always written
 ends with 2 when a line of a stream is not a frame; the other lines are decoded"""
 
 _GC_THRESHOLD = 100_000

@@ -27,7 +27,7 @@ EXAMPLE = """examples:
 a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
 several devices as html have an index.html, which lists and searches all that the command names
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
-ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
+also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
 _DEVICES = "ids of devices, or paths: of a device.yaml, its folder, or a folder of such folders"
@@ -42,7 +42,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--format", choices=tuple(FORMATS), required=True, help=forms)
     add("--pages", action="store_true", help="html: the pages of fieldscribe itself, too: language, keys, using")
     add("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
-    add("--check", action="store_true", help="write nothing; say what is not as it should be")
+    add("--check", action="store_true", help="write nothing; list what is missing, stale or edited")
     add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
 
 

@@ -14,7 +14,7 @@ from fieldscribe.user_errors import RefusedError, UnclearError
 
 def add_with(parser: ArgumentParser) -> None:
     """Add `--with`, the values of other points; `settings_of` reads it."""
-    what = "what another point holds, where a scale or range depends on it; a number that an address depends on: slot=3"
+    what = "the value of another point on which a scale or range depends; a number that an address depends on: slot=3"
     add_repeated(parser, "--with", "POINT=VALUE", what, dest="settings")
 
 

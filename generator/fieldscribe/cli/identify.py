@@ -25,11 +25,11 @@ EXAMPLE = f"""examples:
   fieldscribe identify fronius_datamanager --line tcp://192.168.0.20 --unit 1
   fieldscribe identify pump
 
-reads what the descriptions name under `identify`: those of all devices that such a line can have, or of DEVICE alone
+reads what the descriptions name under `identify`: those of all devices that such a line can have, or only of DEVICE
 
 {LINES}
 
-ends with 1 when the unit is none of them"""
+ends with 1 when no description fits the unit"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

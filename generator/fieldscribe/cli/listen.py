@@ -38,7 +38,7 @@ EXAMPLE = """examples:
   candump -L can0 | fieldscribe listen woodward_mpu2s --capture - --summary
   fieldscribe listen woodward_mpu2s --capture candump.log --format jsonl
 
-DEVICE=N is the device with unit N; without N it stands for all other units. Captures are pcap and pcapng (a network, a
+DEVICE=N is the device with unit N; without N it covers all other units. Captures are pcap and pcapng (a network, a
 serial line as DLT 147 to 162, SocketCAN), BLF and ASC, logs of candump, and lines of hexadecimal bytes, each perhaps
 with a time.
 On a line nothing is sent; Ctrl-C ends it, and the summary follows.

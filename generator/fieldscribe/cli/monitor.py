@@ -38,7 +38,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_unit(parser)
     add = parser.add_argument
     add("--every", type=period, default=1.0, metavar="SECONDS", help="how often they are read (default: 1)")
-    add("--count", type=times, metavar="N", help="so often (default: until Ctrl-C)")
+    add("--count", type=times, metavar="N", help="number of readings (default: until Ctrl-C)")
     add("--all", action="store_true", help="print all points each time, not only what changed")
     add("--format", choices=("text", "csv", "jsonl"), default="text", help="how to print (default: text)")
 

@@ -26,9 +26,9 @@ EXAMPLE = f"""examples:
   fieldscribe restore before.json --keep --yes --line rtu:///dev/ttyUSB0 --unit 3
   fieldscribe restore before.json pump --only A020 --only standard_a --yes   (a station of fieldscribe.toml)
 
-first reads the device, and writes only what differs: settings, by what the description says of how they are kept, that
-they never change by themselves, or their defaults. --only names others, --all takes all that can be written, commands
-and setpoints too. Limits, conditions and scales order the writes.
+reads the device first, and writes only settings that differ. By the description, a setting is kept, never changes by
+itself, or has a default. --only names other points, --all takes everything that can be written, also commands and
+setpoints. Limits, conditions and scales order the writes.
 FILE.journal notes each write before and after it; after an early end the next start says what was written
 
 {LINES}

@@ -13,8 +13,8 @@ EXAMPLE = f"""examples:
   fieldscribe scan --line rtu:///dev/ttyUSB0 --units 1-4,247 --timeout 0.5
   fieldscribe scan hitachi_l200 --line tcp://192.168.0.20
 
-Each unit is asked once for something that is only read; a refusal is an answer, too. With DEVICE it is what tells the
-device from others, or its first point that is only read.
+Each unit is asked once for something that is only read; a refusal counts as an answer. With DEVICE, that is what
+`identify` of its description names, or its first point that is only read.
 
 {LINES}
 

@@ -42,7 +42,7 @@ EXAMPLE = """examples:
 a point is named by its code or its name (a code with a comma in it by its name), several by their group or by a
 pattern; what they need comes with them
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
-ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
+also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -55,13 +55,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
     points = "codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)"
     add("--points", metavar="LIST", help=points)
-    add("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
+    add("--as", dest="name", metavar="NAME", help="the name of the device in code (default: its id)")
     add("--single-file", action="store_true", help="c: all in one header")
     add("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
     add("--rows", action="store_true", help="c: Modbus points as rows of tables, in a header of their own")
     add("--no-frames", action="store_true", help="c: points and constants, without the code that builds frames")
     add("--project", type=some_path, metavar="FILE", help="the project file (default: fieldscribe.toml)")
-    add("--check", action="store_true", help="write nothing; say what is not as it should be")
+    add("--check", action="store_true", help="write nothing; list what is missing, stale or edited")
     add("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     add("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")

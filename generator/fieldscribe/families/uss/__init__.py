@@ -29,17 +29,17 @@ FAMILY = Family(
         Option("pzd", "words of process data (P2012; default: 2)", _ALL, int, "N"),
         Option(
             "single_first",
-            "single words stand in the first value word although --pkw is 4 (some firmware)",
+            "single words are in the first value word although --pkw is 4 (some firmware)",
             _ALL,
         ),
         Option(
             "direction",
-            "what frames are (default: an answer follows a request to the same unit)",
+            "direction of the frames (default: an answer follows a request to the same unit)",
             ("decode",),
             str,
             choices=("request", "response"),
         ),
-        Option("keep", "write to the EEPROM, not to the RAM alone", ("encode",)),
+        Option("keep", "write to the EEPROM, not only to the RAM", ("encode",)),
     ),
 )
 
