@@ -10,6 +10,7 @@
  */
 #include "fronius_datamanager.h"
 #include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus_identify.h"
 #include "fieldscribe_modbus_steps.h"
 
 #ifndef FRONIUS_DATAMANAGER_MODBUS_H
@@ -729,14 +730,29 @@ static const fieldscribe_layout fronius_datamanager_layout_u64_order_0123 =
 
 static const fieldscribe_modbus_text_r fronius_datamanager_manufacturer_frame =
     {{fronius_datamanager_manufacturer_addresses, 0x0002U, 16U}, {3U, 0x0002U, 16U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_manufacturer(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[33])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x0002U, 16U, (void)fronius_datamanager_manufacturer_decode(words, text)) }
 static const fieldscribe_modbus_text_r fronius_datamanager_model_frame =
     {{fronius_datamanager_model_addresses, 0x0012U, 16U}, {3U, 0x0012U, 16U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_model(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[33])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x0012U, 16U, (void)fronius_datamanager_model_decode(words, text)) }
 static const fieldscribe_modbus_text_r fronius_datamanager_options_frame =
     {{fronius_datamanager_options_addresses, 0x0022U, 8U}, {3U, 0x0022U, 8U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_options(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[17])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x0022U, 8U, (void)fronius_datamanager_options_decode(words, text)) }
 static const fieldscribe_modbus_text_r fronius_datamanager_version_frame =
     {{fronius_datamanager_version_addresses, 0x002AU, 8U}, {3U, 0x002AU, 8U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_version(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[17])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x002AU, 8U, (void)fronius_datamanager_version_decode(words, text)) }
 static const fieldscribe_modbus_text_r fronius_datamanager_serial_number_frame =
     {{fronius_datamanager_serial_number_addresses, 0x0032U, 16U}, {3U, 0x0032U, 16U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_serial_number(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[33])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x0032U, 16U, (void)fronius_datamanager_serial_number_decode(words, text)) }
 static const fieldscribe_modbus_r fronius_datamanager_device_address_frame =
     {&fronius_datamanager_layout_u16, {3U, 0x0042U, 1U}};
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_device_address(
@@ -1561,6 +1577,9 @@ FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_active_controls(
 }
 static const fieldscribe_modbus_text_r fronius_datamanager_time_source_frame =
     {{fronius_datamanager_time_source_addresses, 0x0025U, 4U}, {3U, 0x0025U, 4U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_time_source(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[9])
+{ FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x0025U, 4U, (void)fronius_datamanager_time_source_decode(words, text)) }
 static const fieldscribe_modbus_r fronius_datamanager_time_frame =
     {&fronius_datamanager_layout_u32_order_01, {3U, 0x0029U, 2U}};
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_time(
@@ -1901,8 +1920,20 @@ FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_module_input_index_2(
 { FIELDSCRIBE_MODBUS_BASED_DECODE_WORD(3U, 0x001EU, fronius_datamanager_module_input_index_2_decode(word, value)) }
 static const fieldscribe_modbus_text_r fronius_datamanager_module_name_index_1_frame =
     {{fronius_datamanager_module_name_index_1_addresses, 0x000BU, 8U}, {3U, 0x000BU, 8U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_module_name_index_1(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[17])
+{
+    FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x000BU, 8U,
+        (void)fronius_datamanager_module_name_index_1_decode(words, text))
+}
 static const fieldscribe_modbus_text_r fronius_datamanager_module_name_index_2_frame =
     {{fronius_datamanager_module_name_index_2_addresses, 0x001FU, 8U}, {3U, 0x001FU, 8U}};
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_module_name_index_2(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, char text[17])
+{
+    FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(3U, 0x001FU, 8U,
+        (void)fronius_datamanager_module_name_index_2_decode(words, text))
+}
 static const fieldscribe_modbus_r fronius_datamanager_module_current_index_1_frame =
     {&fronius_datamanager_layout_u16, {3U, 0x0013U, 1U}};
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_module_current_index_1(
@@ -2273,6 +2304,33 @@ FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_site_energy_total(fronius_datam
 {
     FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x01FDU, 4U, value,
         fronius_datamanager_site_energy_total_decode(fronius_datamanager_site_energy_total_from_words(words)))
+}
+
+/* ---- Which device answers, and which of its variants ---- */
+
+typedef struct fronius_datamanager_identity {
+    bool is_described; /* it is the device of this description; else no variant is told */
+} fronius_datamanager_identity;
+
+static inline fieldscribe_status fronius_datamanager_identify_holds_1(const uint16_t *words)
+{
+    char text[33];
+    (void)fronius_datamanager_manufacturer_decode(words, text);
+    return fieldscribe_is_same_text(text, FRONIUS_DATAMANAGER_IDENTIFY_MANUFACTURER) ? FIELDSCRIBE_OK
+        : FIELDSCRIBE_UNKNOWN_VALUE;
+}
+/* Reads what tells them, in the order of the description. */
+FIELDSCRIBE_MODBUS_CALL fronius_datamanager_identify(
+    fronius_datamanager_device *device, fieldscribe_modbus_base base, fronius_datamanager_identity *identity)
+{
+    static const fieldscribe_modbus_expectation rows[] = {
+        {0U, 1U, {3U, 0x0002U, 16U}, &fronius_datamanager_identify_holds_1}
+    };
+    uint8_t found[1];
+    const fieldscribe_modbus_status status = fieldscribe_modbus_identify(
+        &device->unit, base, rows, sizeof rows / sizeof rows[0], found, sizeof found);
+    identity->is_described = found[0] != 0U;
+    return status;
 }
 
 #endif

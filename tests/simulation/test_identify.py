@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import simulated
+from support.c_device import WARNINGS, write_headers
+from support.described import kitchen_sink
 from support.places import TESTS
 from support.quick import full_but
 from support.rust_workspace import rust_program
-from support.toolchains import succeed
+from support.toolchains import compiled, succeed
 
 SINK = TESTS / "devices/kitchen_sink"
 TOLD = ("fronius_datamanager",)
@@ -70,3 +72,40 @@ def test_rust_knows_another_device(in_rust: Callable[[int], list[str]]) -> None:
         assert in_rust(device.port) == 3 * ["2 it is another device by its model_name"]
     with simulated("hitachi_l200", on="tcp") as device:
         assert in_rust(device.port) == 3 * ["1 it is another device by its maker"]
+
+
+@pytest.fixture(scope="module")
+def in_c(tmp_path_factory: pytest.TempPathFactory) -> Callable[[int], str]:
+    """What the call in C says of the device at a port: requests, status, if it is the one, variants, and a text."""
+    folder = tmp_path_factory.mktemp("c")
+    includes = write_headers(kitchen_sink(), folder) / "c"
+    flags = ("-std=gnu99", *WARNINGS, f"-I{includes}")
+    identify = compiled("gcc", flags, TESTS / "targets/c/programs/identify.c", folder / "identify")
+    return lambda port: succeed([identify, str(port)])
+
+
+@pytest.mark.parametrize(
+    ("variants", "holds", "said"),
+    [
+        (("230V", "small"), {}, "4 ok 1 1 1 ok KS-1\n"),
+        (("230V", "large"), {}, "4 ok 1 1 2 ok KS-2\n"),
+        (("400V", "large"), {}, "5 ok 1 2 2 ok KS-2\n"),
+        (("400V", "large"), {"control_mode": "idle"}, "5 ok 1 0 2 ok KS-2\n"),
+        (("400V", "large"), {"model_name": "KS-3"}, "2 ok 0 0 0 ok KS-3\n"),
+    ],
+)
+def test_c_finds_variants(
+    in_c: Callable[[int], str], variants: tuple[str, str], holds: dict[str, str], said: str
+) -> None:
+    """In one call, as the clients in Python and Rust do."""
+    voltage, model = variants
+    with simulated(SINK, on="tcp", variants=[f"voltage={voltage}", f"model={model}"]) as device:
+        for name, value in holds.items():
+            device.values[name] = value
+        assert in_c(device.port) == said
+
+
+def test_c_knows_another_device(in_c: Callable[[int], str]) -> None:
+    """By its refusal to read a point."""
+    with simulated("hitachi_l200", on="tcp") as device:
+        assert in_c(device.port) == "1 ok 0 0 0 exception \n"

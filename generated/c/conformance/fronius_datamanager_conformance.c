@@ -19,6 +19,8 @@ static void point_manufacturer(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_manufacturer_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 16U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_manufacturer, char, 33,
+        FIELDSCRIBE_BASE("models_1") , (length = fronius_datamanager_manufacturer_decode(words, held), 0))
 }
 
 static void point_model(fieldscribe_vector *v)
@@ -30,6 +32,8 @@ static void point_model(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_model_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 16U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_model, char, 33,
+        FIELDSCRIBE_BASE("models_1") , (length = fronius_datamanager_model_decode(words, held), 0))
 }
 
 static void point_options(fieldscribe_vector *v)
@@ -42,6 +46,8 @@ static void point_options(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_options_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 8U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_options, char, 17,
+        FIELDSCRIBE_BASE("models_1") , (length = fronius_datamanager_options_decode(words, held), 0))
 }
 
 static void point_version(fieldscribe_vector *v)
@@ -54,6 +60,8 @@ static void point_version(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_version_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 8U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_version, char, 17,
+        FIELDSCRIBE_BASE("models_1") , (length = fronius_datamanager_version_decode(words, held), 0))
 }
 
 static void point_serial_number(fieldscribe_vector *v)
@@ -66,6 +74,8 @@ static void point_serial_number(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_serial_number_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 16U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_serial_number, char, 33,
+        FIELDSCRIBE_BASE("models_1") , (length = fronius_datamanager_serial_number_decode(words, held), 0))
 }
 
 static void point_device_address(fieldscribe_vector *v)
@@ -2475,6 +2485,8 @@ static void point_time_source(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_time_source_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 4U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_time_source, char, 9,
+        FIELDSCRIBE_BASE("models_122") , (length = fronius_datamanager_time_source_decode(words, held), 0))
 }
 
 static void point_time(fieldscribe_vector *v)
@@ -3398,6 +3410,8 @@ static void point_module_name_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_module_name_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 8U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_module_name_index_1, char, 17,
+        FIELDSCRIBE_BASE("models_160") , (length = fronius_datamanager_module_name_index_1_decode(words, held), 0))
 }
 
 static void point_module_name_index_2(fieldscribe_vector *v)
@@ -3410,6 +3424,8 @@ static void point_module_name_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_module_name_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_READ_TEXT(moved, 8U)
+    FIELDSCRIBE_CALL_READ_TEXT(fronius_datamanager_device, fronius_datamanager_read_module_name_index_2, char, 17,
+        FIELDSCRIBE_BASE("models_160") , (length = fronius_datamanager_module_name_index_2_decode(words, held), 0))
 }
 
 static void point_module_current_index_1(fieldscribe_vector *v)

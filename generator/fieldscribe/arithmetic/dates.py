@@ -37,6 +37,18 @@ def words_of_date(layout: Text, text: str) -> list[int]:
     return words
 
 
+def first_date(layout: Text) -> str | None:
+    """Return a date or time that the parts can hold: of 2000 if they can; None if there is none."""
+    starts = [part.base for part in layout.parts if part.name == "year"]
+    for text in ["00:00"] if layout.encoding == TIME else [f"{year:04}-01-01" for year in (2000, *starts, 1)]:
+        try:
+            words_of_date(layout, text)
+        except ValueError:
+            continue
+        return text
+    return None
+
+
 def _greatest(layout: Text, part: DatePart) -> int:
     return coded_ends(part.width, BCD)[1] if layout.bcd else mask_of(part.width)
 

@@ -11,6 +11,7 @@ from typing import Protocol, TypeVar
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings, setting_of
+from fieldscribe.arithmetic.dates import first_date
 from fieldscribe.arithmetic.texts import pattern_of_text, text_of
 from fieldscribe.arithmetic.words import insert, joined, with_fixed, words_of
 from fieldscribe.conversation.selection import choose_point
@@ -30,9 +31,6 @@ _NUMBERS = 100
 _WIDE = 20_000
 """The width of a range that is no more than what the bits can hold."""
 
-_FIRST_DATES = {"date": "2000-01-01", "time": "00:00", "date and time": "2000-01-01"}
-"""What a date or time is at the start."""
-
 
 def starting_raw(layout: Layout, point: Point, settings: Settings, random: Random) -> int:
     """Return the raw number that a point holds at the start, with the settings that it depends on."""
@@ -42,8 +40,8 @@ def starting_raw(layout: Layout, point: Point, settings: Settings, random: Rando
     if point.default_raw is not None:
         return point.default_raw
     if point.text is not None:
-        first = _FIRST_DATES.get(point.text.encoding, point.name[: point.text.characters])
-        return 0 if point.text.is_bytes else pattern_of_text(point.text, first)
+        first = first_date(point.text) if point.text.parts else point.name[: point.text.characters]
+        return 0 if point.text.is_bytes or first is None else pattern_of_text(point.text, first)
     try:
         if point.default is not None:
             return codec.encode(point, point.default, settings)

@@ -1213,6 +1213,37 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         FIELDSCRIBE_DECODE_##means(device##_##item, type))                                       \
     FIELDSCRIBE_CALL_WRITE_BY("write", device##_device, device##_write_##item, type, raw_type, , \
         FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
+/* A text, bytes or a date in one call: `decoded` fills `held` from `words`, and is a status. */
+#define FIELDSCRIBE_CALL_TEXT(device_type, type, size)                                           \
+    device_type device = {fieldscribe_called_unit(v)};                                           \
+    uint16_t words[FIELDSCRIBE_ROOM];                                                            \
+    type held[size];                                                                             \
+    size_t length = 0U;                                                                          \
+    int status = 0;                                                                              \
+    (void)length;                                                                                \
+    fieldscribe_fill(held, sizeof held);                                                         \
+    (void)fieldscribe_numbers(v, "words", words, FIELDSCRIBE_ROOM);
+#define FIELDSCRIBE_LENGTH , length
+#define FIELDSCRIBE_CALL_READ_TEXT(device_type, call, type, size, with, decoded)                 \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        FIELDSCRIBE_CALL_TEXT(device_type, type, size)                                           \
+        type read[size];                                                                         \
+        int converted = 0;                                                                       \
+        fieldscribe_fill(read, sizeof read);                                                     \
+        status = (int)call(&device with, read);                                                  \
+        if (fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {                          \
+            converted = decoded;                                                                 \
+        }                                                                                        \
+        fieldscribe_is_called(v, &device.unit, status, converted);                               \
+        fieldscribe_agree(v, memcmp(read, held, sizeof read) == 0);                              \
+    }
+#define FIELDSCRIBE_CALL_WRITE_TEXT(device_type, call, type, size, with, beside, decoded)        \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        FIELDSCRIBE_CALL_TEXT(device_type, type, size)                                           \
+        fieldscribe_agree(v, decoded == 0);                                                      \
+        status = (int)call(&device with, held beside);                                           \
+        fieldscribe_is_called(v, &device.unit, status, 0);                                       \
+    }
 #define FIELDSCRIBE_DECODE_RAW(point, type) (number = (type)raw, 0)
 #define FIELDSCRIBE_DECODE_PLAIN(point, type) (number = (type)point##_decode(raw), 0)
 #define FIELDSCRIBE_DECODE_COUNT_OF(point, type) (number = (type)point##_decode_count(raw), 0)

@@ -380,6 +380,24 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
         fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
 
+/* Of texts, bytes and dates: `taken` fills them from `words`, `put` fills these; both may set `status`. */
+#define FIELDSCRIBE_MODBUS_TAKE_WORDS(function, address, count, taken) \
+    static const fieldscribe_modbus_reading what = {function, address, count}; \
+    uint16_t words[count] = {0}; \
+    fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        taken; \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_PUT_WORDS(function, address, count, put) \
+    static const fieldscribe_modbus_writing what = {function, address, count}; \
+    uint16_t words[count] = {0}; \
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK; \
+    put; \
+    return (status == FIELDSCRIBE_MODBUS_OK) \
+        ? fieldscribe_modbus_write_words(&device->unit, &what, words, count) : status;
+
 #define FIELDSCRIBE_MODBUS_WRITE_WORD(function, address, type, encoded, bits) \
     type raw = (type)0; \
     const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
@@ -481,6 +499,25 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_find(fieldscrib
     const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
     const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, words, count); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
+#define FIELDSCRIBE_MODBUS_BASED_TAKE_WORDS(function, address, number, taken) \
+    uint16_t words[number] = {0}; \
+    const fieldscribe_modbus_reading what = {function, address, number}; \
+    const fieldscribe_modbus_reading at = fieldscribe_modbus_reading_at(base, &what); \
+    fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &at, words, at.count); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        taken; \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_BASED_PUT_WORDS(function, address, number, put) \
+    uint16_t words[number] = {0}; \
+    const fieldscribe_modbus_writing what = {function, address, number}; \
+    const fieldscribe_modbus_writing at = fieldscribe_modbus_writing_at(base, &what); \
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK; \
+    put; \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_words(&device->unit, &at, words, at.count) \
+                                             : status;
 
 #define FIELDSCRIBE_MODBUS_BASED_WRITE_WORD(function, address, type, encoded, bits) \
     type raw = (type)0; \

@@ -69,6 +69,8 @@ def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -
     names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
     names += [f"fieldscribe_{device.family}_steps.h"] * bool(device.stepped_commands)
     names += [f"fieldscribe_{device.family}.h"] * (frames != "constants")
+    identifies = frames != "constants" and frames_of(device).identifies(device)
+    names += [f"fieldscribe_{device.family}_identify.h"] * identifies
     names += ["fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"] * tests
     for name in names:
         yield f"c/{name}", f"c/runtime/{name}"

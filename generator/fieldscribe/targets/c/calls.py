@@ -20,17 +20,20 @@ class Transfer(NamedTuple):
     store: str = ""
     base: str = ""
     """The name of the base of the addresses; empty if they count from 0."""
+    texts: bool = False
+    """Whether the requests carry the words of a text, too, for which the family has macros."""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
     """Return the names of the functions that read and write a point under that name."""
     ways = [way for way in ("read", "write", "store") if getattr(transfer, way)]
-    return [f"{scope.prefix}_{way}_{item}" for way in ways if view.shape != "text"]
+    return [f"{scope.prefix}_{way}_{item}" for way in ways if view.shape != "text" or _has_text_calls(view, transfer)]
 
 
 def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[Function]:
     """Yield the functions that read and write a point."""
     if view.shape == "text":
+        yield from _text_calls(view, transfer, scope) if _has_text_calls(view, transfer) else ()
         return
     start, point = f"FIELDSCRIBE_{upper(transfer.family)}_", view.point
     handle, (value, kind, tail) = [f"{scope.prefix}_device *device"], _value(view)
@@ -63,6 +66,7 @@ def call_cases(
     and not raw have no such test, nor do counts of floating-point numbers, which not every pattern has.
     """
     if view.shape == "text":
+        yield from _text_cases(view, transfer, scope) if _has_text_calls(view, transfer) else ()
         return
     point, item, (value, kind, tail) = view.point, view.fields.item, _value(view)
     fails = tail is not None and _decoding(view, value, tail, ())[0] == "DECODE"
@@ -95,6 +99,81 @@ def call_cases(
         yield f'CALL_WRITE_BY("{verb}", {handle}, {call}, {types}, {base}{arguments(names)}, {decode}, {encode})'
 
 
+class _Held(NamedTuple):
+    """What a program has for a text: its type and size, what is beside it when it is written, and the conversions."""
+
+    kind: str
+    size: int
+    beside: str
+    decoded: str
+    encoded: str
+
+
+def _has_text_calls(view: PointView, transfer: Transfer) -> bool:
+    """Return True if requests carry the words of a text in their order."""
+    return transfer.texts and list(view.point.addresses) == sorted(view.point.addresses)
+
+
+def _held(view: PointView, value: str) -> _Held:
+    """Return what a program has; the conversions take `words` and `value`, and give a status if they may fail."""
+    text, name = view.point.text, view.function
+    assert text is not None
+    decoded, encoded = f"{name}_decode(words, {value})", f"{name}_encode({value}, words)"
+    if text.is_bytes:
+        return _Held("uint8_t", text.characters, "", decoded, encoded)
+    if text.parts:
+        return _Held("fieldscribe_date_time", 0, "", decoded, encoded)
+    more = ", &length" if text.is_unicode else ""
+    encoded = f"{name}_encode({value}, length, words)"
+    return _Held("char", text.most_bytes + 1, "size_t length", f"{name}_decode(words, {value}{more})", encoded)
+
+
+def _text_calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[Function]:
+    """Yield the functions that read and write a text, bytes or a date."""
+    text = view.point.text
+    assert text is not None
+    name = "bytes" if text.is_bytes else "time" if text.parts else "text"
+    held, fails = _held(view, name), text.is_unicode or bool(text.parts)
+    family = transfer.family
+    call, start = (f"FIELDSCRIBE_{upper(family)}_{what}" for what in ("CALL", "BASED_" if transfer.base else ""))
+    handle = [f"{scope.prefix}_device *device", *[f"fieldscribe_{family}_base base"] * bool(transfer.base)]
+    count = ", 1U" if view.point.words == 1 else ""
+    if transfer.read:
+        taken = f"status = fieldscribe_{family}_converted({held.decoded})" if fails else held.decoded
+        taken = {"size_t": "(void)", "unicode": "size_t length = 0U; "}.get(_returned(view), "") + taken
+        body = called(f"{start}TAKE_WORDS", transfer.read + count, taken)
+        parameters = [*handle, f"{held.kind} {name}[{held.size}]" if held.size else f"{held.kind} *{name}"]
+        yield function(call, f"{scope.prefix}_read_{view.fields.item}", parameters, body)
+    if transfer.write:
+        put = held.encoded if text.is_bytes else f"status = fieldscribe_{family}_converted({held.encoded})"
+        body = called(f"{start}PUT_WORDS", transfer.write + count, put)
+        given = f"const {held.kind} {name}[{held.size}]" if text.is_bytes else f"const {held.kind} *{name}"
+        parameters = [*handle, given, *[held.beside] * bool(held.beside)]
+        yield function(call, f"{scope.prefix}_write_{view.fields.item}", parameters, body)
+
+
+def _returned(view: PointView) -> str:
+    """Return what decoding a text gives beside it: `size_t`, or of `unicode` its length and a status."""
+    text = view.point.text
+    assert text is not None
+    return "unicode" if text.is_unicode else "" if text.is_bytes or text.parts else "size_t"
+
+
+def _text_cases(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[str]:
+    """Yield the macros of the conformance program that call them."""
+    held, item, text = _held(view, "held"), view.fields.item, view.point.text
+    assert text is not None
+    decoded = f"({'' if text.is_bytes else 'length = '}{held.decoded}, 0)"
+    decoded = f"(int){held.decoded}" if text.is_unicode or text.parts else decoded
+    base = f'FIELDSCRIBE_BASE("{transfer.base}") ' if transfer.base else ""
+    length = "FIELDSCRIBE_LENGTH" if held.beside else ""
+    for way in ("read", "write"):
+        if getattr(transfer, way):
+            call = f"{scope.prefix}_device, {scope.prefix}_{way}_{item}, {held.kind}, {held.size or 1}"
+            beside = f"{length}, " if way == "write" else ""
+            yield f"CALL_{way.upper()}_TEXT({call}, {base}, {beside}{decoded})"
+
+
 def _several(view: PointView) -> str:
     return "S" if view.point.words > 1 else ""
 
@@ -110,7 +189,7 @@ def _value(view: PointView) -> tuple[str, str, str | None]:
 
 def _decoding(view: PointView, value: str, tail: str | None, passed: tuple[str, ...]) -> tuple[str, ...]:
     """Return the macro that turns the words into the value, and its arguments."""
-    raw = _raw_of_words(view)
+    raw = raw_of_words(view)
     if tail is None:
         return "READ", value, raw
     if view.special is not None or view.shape in ("ruled", "float") or (view.scale and view.scale.count_fits):
@@ -126,7 +205,8 @@ def _encoding(view: PointView, kind: str, value: str, tail: str | None, passed: 
     return called(f"{view.function}_encode{tail}", f"{value} ? 1 : 0" if kind == "bool" else value, *passed, "&raw")
 
 
-def _raw_of_words(view: PointView) -> str:
+def raw_of_words(view: PointView) -> str:
+    """Return the raw number of a point in `word`, or in several `words`."""
     if view.point.bits is not None:
         return f"{view.function}_extract(word)"
     if has_words(view.point):

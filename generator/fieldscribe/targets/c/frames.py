@@ -163,6 +163,9 @@ class CFamily(Protocol):
     def header(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
         """Return the header of frames, `<family>.h.j2`."""
 
+    def identifies(self, device: Device) -> bool:
+        """Return True if a call tells the device and its variants, for which the runtime has a header of its own."""
+
 
 def frames_of(device: Device) -> CFamily:
     """Return the part `targets.c` of the device's family."""

@@ -23,6 +23,12 @@ NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = False
 
 
+def identifies(device: Device) -> bool:
+    """Return False: the program reads what tells the device."""
+    del device
+    return False
+
+
 @dataclass(frozen=True, slots=True)
 class MessageView:
     """The layout of a message; `roles` are kinds and numbers."""

@@ -4,8 +4,10 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 from fieldscribe.families.modbus import FUNCTIONS, SPACES, Profile, profile_of
+from fieldscribe.families.modbus.targets.identification import IdentifyView, can_identify, names_of_call
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.frames import (
@@ -99,6 +101,14 @@ NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = True
 
 
+def identifies(device: Device) -> bool:
+    """Return True if a call tells the device and its variants."""
+    most = profile_of(device.bus).most
+    return can_identify(
+        device, lambda point: point.space in SPACES and most.get(SPACES[point.space].read, 0) >= point.words
+    )
+
+
 _LAST = 0xFFFF
 _MOVED = {"r": "READ", "w": "WRITE", "u": "UPDATE"}
 
@@ -173,6 +183,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     most = [unsigned(profile.most.get(number, 0)) for number in range(max(FUNCTIONS) + 1)] if profile.most else []
     to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
 
+    identify = _identify(device, placed, scope)
+
     def identifiers() -> Iterator[Named]:
         target = [f"{scope.prefix}_{name}" for name in ("modbus_profile", "device")]
         yield Owner("target", "what the header of frames needs"), [*target, f"{scope.upper}_ROWS_H"]
@@ -195,7 +207,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         device,
         layouts,
         {"frames": frames},
-        identifiers(),
+        chain(identifiers(), names_of_call(identify)),
         most=", ".join(most),
         to_all=hexadecimal(to_all),
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if profile.broadcast is None else f"{profile.broadcast}U",
@@ -210,8 +222,16 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         block_most=block_most,
         commands=commands,
         stepped=stepped,
+        identify=identify,
         exceptions=exceptions_of(device, scope),
     )
+
+
+def _identify(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> IdentifyView | None:
+    def read_of(point: Point) -> str:
+        return f"{{{unsigned(SPACES[point.space].read)}, {hexadecimal(min(point.addresses))}, {point.words}U}}"
+
+    return IdentifyView(device, scope, placed, read_of) if identifies(device) else None
 
 
 def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
@@ -266,7 +286,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     name, text = f"{view.function}_frame", point.text is not None
     address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
-    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or ""
+    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or "", True
     if layouts.scope.calls_only and not text:
         return Frame((), (), Transfer("modbus", *transfers))
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"

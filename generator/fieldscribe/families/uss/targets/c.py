@@ -19,6 +19,12 @@ NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
 HAS_FACTS = False
 
 
+def identifies(device: Device) -> bool:
+    """Return False: the program reads what tells the device."""
+    del device
+    return False
+
+
 def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
     """Return the header of frames, `<device>_uss.h`; `frames` read and write parameters, `words` are process data."""
     bus = device.bus
@@ -110,7 +116,8 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
             cases.append(f'UPDATE("{kind}", {name}.read, {view.function}{tail}, {what})')
     changes_word = bool(reading) or point.bits is None
     calls = ((reading, "_frame"), (writing and changes_word, "_frame"), (storing and changes_word, "_eeprom_frame"))
-    transfer = Transfer("uss", *(f"{view.function}{tail}" if tasks else "" for tasks, tail in calls))
+    read, write, store = (f"{view.function}{tail}" if tasks else "" for tasks, tail in calls)
+    transfer = Transfer("uss", read, write, store)
     return Frame(tuple(descriptors), tuple(cases), transfer)
 
 

@@ -1,0 +1,147 @@
+"""The call that says which device answers, and which of its variants: rows of what points hold, in reading order."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby
+
+from fieldscribe.model import Device, Identification, Point
+from fieldscribe.targets.c.calls import raw_of_words
+from fieldscribe.targets.c.header import identification_defines
+from fieldscribe.targets.c.layout import INLINE, function
+from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import PointView
+from fieldscribe.targets.identifiers import Named, Owner
+from fieldscribe.text import upper
+
+_MOST = 255
+"""A byte numbers the axes of variants, and the values of each."""
+
+
+@dataclass(frozen=True)
+class IdentifyView:
+    """The call of a device: `rows` and functions are made when the header is written."""
+
+    device: Device
+    scope: HeaderScope
+    points: Sequence[GeneratedPoint]
+    read_of: Callable[[Point], str]
+    """Returns the request that reads a point: `{3U, 0x0000U, 1U}`."""
+
+    @cached_property
+    def axes(self) -> dict[str, list[str]]:
+        """The axes of variants that are told, with all their values."""
+        told = [row.variant.axis for row in self.device.identifications if row.variant is not None]
+        return {axis: list(self.device.variants[axis]) for axis in dict.fromkeys(told)}
+
+    @property
+    def name(self) -> str:
+        """The name of the function."""
+        return f"{self.scope.prefix}_identify"
+
+    @property
+    def base(self) -> str:
+        """The name of the base of the addresses of its points; empty if they count from 0."""
+        first = self.device.identifications[0].point
+        return next(each.point.base or "" for each in self.points if each.point.name == first)
+
+    @property
+    def struct(self) -> str:
+        """The name of what it fills in."""
+        return f"{self.scope.prefix}_identity"
+
+    @property
+    def values(self) -> Iterator[tuple[str, int]]:
+        """The macros of the values of all axes, with their numbers."""
+        for axis, values in self.axes.items():
+            for number, value in enumerate(values, 1):
+                yield f"{self.scope.upper}_VARIANT_{upper(axis)}_{upper(value)}", number
+
+    @property
+    def named(self) -> Named:
+        """All identifiers."""
+        holds = [self._holds(number) for number in range(1, len(self.device.identifications) + 1)]
+        return Owner("target", "what identifies the device"), [
+            self.name,
+            self.struct,
+            *holds,
+            *(macro for macro, _ in self.values),
+        ]
+
+    @property
+    def functions(self) -> Iterator[str]:
+        """The functions that say if words are what is expected."""
+        points = {each.point.name: each for each in self.points}
+        defines = groupby(identification_defines(self.device, self.scope), lambda one: (one.variant, one.point))
+        for number, (row, (_, wanted)) in enumerate(zip(self.device.identifications, defines, strict=True), 1):
+            literals = [_literal(row, place, one.macro) for place, one in enumerate(wanted)]
+            point, view, _ = points[row.point]
+            body = _text_body(view, literals) if row.texts else _raw_body(view, literals)
+            named = [text.replace(view.function, f"{self.scope.prefix}_{point.item}") for text in body]
+            yield function(f"{INLINE} fieldscribe_status", self._holds(number), ("const uint16_t *words",), *named).text
+
+    @property
+    def rows(self) -> Iterator[str]:
+        """The rows of the table."""
+        points, axes = {each.point.name: each.point for each in self.points}, [*self.axes]
+        for number, row in enumerate(self.device.identifications, 1):
+            axis = value = 0
+            if row.variant is not None:
+                axis = 1 + axes.index(row.variant.axis)
+                value = 1 + self.axes[row.variant.axis].index(row.variant.value)
+            yield f"{{{axis}U, {value or 1}U, {self.read_of(points[row.point])}, &{self._holds(number)}}}"
+
+    def _holds(self, number: int) -> str:
+        return f"{self.name}_holds_{number}"
+
+
+def names_of_call(view: IdentifyView | None) -> list[Named]:
+    """Return all identifiers of the call, if there is one."""
+    return [] if view is None else [view.named]
+
+
+def can_identify(device: Device, is_read: Callable[[Point], bool]) -> bool:
+    """Return True if requests alone tell the device: all points that do are read by one each, in their order."""
+    told = {row.point for row in device.identifications}
+    points = [point for point in device.points if point.name in told]
+    few = len(device.variants) < _MOST and all(len(values) <= _MOST for values in device.variants.values())
+    bases = {point.base for point in points}
+    return bool(told) and few and len(bases) == 1 and all(_is_plain(point) and is_read(point) for point in points)
+
+
+def _is_plain(point: Point) -> bool:
+    ordered = point.text is None or list(point.place.addresses) == sorted(point.place.addresses)
+    return point.generated and not point.place.is_scattered and ordered
+
+
+def _literal(row: Identification, place: int, macro: str) -> str:
+    """Return the macro, or of a text beyond ASCII the bytes of Latin-1."""
+    if not row.texts or row.texts[place].isascii():
+        return macro
+    return '"' + "".join(f"\\{byte:03o}" for byte in row.texts[place].encode("latin-1", "replace")) + '"'
+
+
+def _raw_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
+    if view.point.words == 1:
+        yield "const uint16_t word = words[0];"
+    yield f"const {view.raw_type} raw = {raw_of_words(view)};"
+    yield _status([f"(raw == {literal})" for literal in literals])
+
+
+def _text_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
+    text = view.point.text
+    assert text is not None
+    yield f"char text[{text.most_bytes + 1}];"
+    if text.is_unicode:
+        yield "size_t length = 0U;"
+        yield f"const fieldscribe_status status = {view.function}_decode(words, text, &length);"
+        yield "if (status != FIELDSCRIBE_OK) { return status; }"
+    else:
+        yield f"(void){view.function}_decode(words, text);"
+    yield _status([f"fieldscribe_is_same_text(text, {literal})" for literal in literals])
+
+
+def _status(tests: Sequence[str]) -> str:
+    tested = f"({' || '.join(tests)})" if len(tests) > 1 else tests[0]
+    return f"return {tested} ? FIELDSCRIBE_OK : FIELDSCRIBE_UNKNOWN_VALUE;"

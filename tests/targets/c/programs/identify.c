@@ -1,0 +1,54 @@
+/* What the device at a port says that it is: `identify PORT`; prints how many requests it took, and who it is. */
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+
+static int wire;
+static unsigned requests;
+
+static void put(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    ++requests;
+    (void)!write(wire, bytes, length);
+}
+
+static bool get(void *context, uint32_t milliseconds, uint8_t *byte)
+{
+    (void)context;
+    (void)milliseconds;
+    return read(wire, byte, 1U) == 1;
+}
+
+int main(int count, char **arguments)
+{
+    static uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
+    static const fieldscribe_modbus_line line = {
+        &kitchen_sink_modbus_profile, buffer, sizeof buffer, &put, &get, NULL, 1000U, 100U};
+    kitchen_sink_device device = {FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_modbus_ask_tcp, 1U)};
+    kitchen_sink_identity identity = {false, 9U, 9U};
+    struct sockaddr_in place;
+    char name[KITCHEN_SINK_MODEL_NAME_CHARACTERS + 1U] = "";
+    fieldscribe_modbus_status status;
+    memset(&place, 0, sizeof place);
+    place.sin_family = AF_INET;
+    place.sin_port = htons((uint16_t)atoi(arguments[count - 1]));
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    wire = socket(AF_INET, SOCK_STREAM, 0);
+    if (connect(wire, (const struct sockaddr *)&place, sizeof place) != 0) {
+        return 2;
+    }
+    status = kitchen_sink_identify(&device, &identity);
+    printf("%u %s %d %u %u", requests, fieldscribe_modbus_status_name(status), identity.is_described,
+        identity.voltage_variant, identity.model_variant);
+    status = kitchen_sink_read_model_name(&device, name);
+    printf(" %s %s\n", fieldscribe_modbus_status_name(status), name);
+    return close(wire);
+}
