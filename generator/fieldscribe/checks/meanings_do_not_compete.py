@@ -64,6 +64,8 @@ def check(analysis: Analysis) -> None:
 
 def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:
     """Return the keys that a text or a floating-point number cannot have, what it is, and why; None for others."""
+    if facts.layer("type") is None and facts.layer("parts") is None:
+        return None  # without a type it is a whole number
     if facts.floating:
         return _OF_INTEGERS, "a floating-point number", "the device sends the value itself in the unit"
     if facts.pattern_bits:

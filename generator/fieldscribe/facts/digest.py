@@ -5,7 +5,7 @@ a change of data structures in the compiler nor an optional key that nobody uses
 """
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from hashlib import sha256
@@ -54,9 +54,9 @@ def _digest(
 
 def _points(device: Device, context: Context, facts: FactTable) -> Iterator[bytes]:
     """Return the facts of the points: shared facts point by point, the others fact by fact."""
-    shapes = {id(point.shape): kind_of(point.shape) for point in device.points}
-    numbers = {kind: number for number, kind in enumerate(dict.fromkeys(shapes.values()))}
-    kinds = {shape: numbers[kind] for shape, kind in shapes.items()}
+    shapes = {id(point.shape): point.shape for point in device.points}
+    numbers: dict[Hashable, int] = {}
+    kinds = {key: numbers.setdefault(kind_of(shape), len(numbers)) for key, shape in shapes.items()}
     for shared, holder in _HOLDERS.items():
         table = tuple(fact for fact in facts if fact.holder == shared)
         if not table:
