@@ -49,7 +49,7 @@ Reader = Callable[[Analysis, "LocatedFrame", dict[str, Seen]], Seen]
 
 def check(analysis: Analysis) -> None:
     """Report frames with a wrong checksum, count or length, wrong answers, and meanings that the bytes do not have."""
-    if not analysis.bus_is_whole:
+    if not (analysis.bus_is_whole and analysis.located_frames):
         return
     family_part = analysis.scope.family.part("checks")
     read: Reader = _unread if family_part is None else family_part.read

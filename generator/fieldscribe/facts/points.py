@@ -273,7 +273,7 @@ POINT: FactTable = (
         WIRE,
         refers="point",
     )
-    .of(lambda point, context: values.scale_of(point, context.by_name), shared="shape")
+    .of(lambda point, context: values.scale_of(point, context.by_name if point.scale_arguments else {}), shared="shape")
     .says(rows=texts.scale_rows),
     Fact("bits", "Its bits in a shared word; null if it has whole words.", null_or(ref("bits")), WIRE).says(
         text=lambda point, _: wording.shared_text(point), remark="{}"

@@ -72,8 +72,8 @@ def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
             continue
         known.append(facts)
         symbols.by_items.setdefault(facts.item, facts)
-        if facts.code is not None:
-            symbols.by_code.setdefault(facts.code, []).append(facts)
+        if (code := facts.code) is not None:
+            symbols.by_code.setdefault(code, []).append(facts)
         kept.append(facts)
     points[:] = kept
     return symbols
