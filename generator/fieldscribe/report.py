@@ -77,10 +77,10 @@ def visible(text: str) -> str:
     """Return the text with its control, format and unassigned characters written as their numbers."""
     if text.isprintable():
         return text
-    return "".join(_shown(char) for char in text)
+    return "".join(_escaped(char) for char in text)
 
 
-def _shown(char: str) -> str:
+def _escaped(char: str) -> str:
     if char == "\t":
         return "    "
     return f"<U+{ord(char):04X}>" if unicodedata.category(char) in _HIDDEN else char

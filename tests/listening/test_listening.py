@@ -237,7 +237,7 @@ def test_a_serial_line_that_others_talk_on() -> None:
     """The first chunk says that nothing came, so the line is open then."""
     ours, theirs = os.openpty()
     try:
-        chunks = family("modbus").part("lines").hear(read_line(f"rtu://{os.ttyname(theirs)}?baud=19200"))
+        chunks = family("modbus").part("lines").receive(read_line(f"rtu://{os.ttyname(theirs)}?baud=19200"))
         assert next(chunks).data == b""
         os.write(ours, ASKED + CAME)
         listener, exchanges = Listener([Station(shipped("hitachi_l200"))], Options()), list[Exchange]()
@@ -253,7 +253,7 @@ def test_a_serial_line_that_others_talk_on() -> None:
 
 
 def test_a_bus_that_others_talk_on() -> None:
-    chunks = family("can").part("lines").hear(read_line("can://virtual/heard"))
+    chunks = family("can").part("lines").receive(read_line("can://virtual/heard"))
     assert next(chunks).data == b""
     with can.Bus("heard", interface="virtual") as bus:
         bus.send(can.Message(arbitration_id=0x321, is_extended_id=False, data=bytes.fromhex("DD00051513880064")))
@@ -281,11 +281,11 @@ def test_lines_and_stations_of_a_project(
         assert main(["listen", *words]) == 2
         assert expected in capsys.readouterr().err
 
-    def hear(_: object) -> Iterator[Chunk]:
+    def receive(_: object) -> Iterator[Chunk]:
         yield Chunk(0.0, BYTES, ASKED + CAME)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(family("modbus").part("lines"), "hear", hear)
+    monkeypatch.setattr(family("modbus").part("lines"), "receive", receive)
     assert main(["listen", "pump"]) == 0
     assert f"{READ}\n\n1 exchange\n" in capsys.readouterr().out
 

@@ -86,7 +86,7 @@ class Held:
                 fact = "flags" if claim.fact == "flag values" else claim.fact
                 lists.setdefault((claim.subject, fact, *(cited.lines for cited in claim.cited)), []).append(claim)
             else:
-                self.places[claim] = [self._place(claim, extent) for extent in self._cited_by(claim)]
+                self.places[claim] = [self._place(claim, extent) for extent in self._extents_of(claim)]
         for claims in lists.values():
             self._hold_labels(claims)
         self._not_for_each = self._labels_not_for_each()
@@ -96,7 +96,7 @@ class Held:
         labels = [claim.evidence for claim in claims if isinstance(claim.evidence, Label)]
         for claim in claims:
             self.places[claim] = []
-        first, *_ = [self._cited_by(claim) for claim in claims]
+        first, *_ = [self._extents_of(claim) for claim in claims]
         for extent in first:
             there = labels_found(labels, self.passage(extent))
             for claim in claims:
@@ -114,7 +114,7 @@ class Held:
         self._use(tokens)
         return Place(extent, here)
 
-    def _cited_by(self, claim: Claim) -> list[Extent]:
+    def _extents_of(self, claim: Claim) -> list[Extent]:
         extents = [extent for cited in claim.cited if (extent := self.extent(cited)) is not None]
         for extent in extents:
             self.extents.setdefault(extent, {}).setdefault(claim.subject, claim.where)

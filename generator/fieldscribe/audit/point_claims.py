@@ -47,7 +47,7 @@ class _PointClaims:
         code = None if self.point.code is None else _INDEX_AFTER_CODE.sub("", self.point.code).strip()
         if code:
             yield from self.maker.word("code", (*self._codes(code), str(self.point.code)), facts.span("code"))
-        if self._says("section"):
+        if self._states("section"):
             yield from self.maker.word("section", (str(facts.get("section")),), facts.span("section"))
         yield from self._address(code or "", shared)
         yield from self.maker.label("title", self.notation.label(self._titles()), facts.span("title"))
@@ -61,7 +61,7 @@ class _PointClaims:
         yield from claims_of_flags(self.maker, self.point, facts, self.enums, self.notation)
         yield from self._printed()
 
-    def _says(self, key: str) -> bool:
+    def _states(self, key: str) -> bool:
         """Return True if the point (or its format, record, set) states a fact: facts of its group cite no line."""
         layer = self.facts.layer(key)
         return layer is not None and layer is not self.facts.group
@@ -132,19 +132,19 @@ class _PointClaims:
 
     def _ranges(self) -> Iterator[Claim]:
         for key in ("range", "range_in_units"):
-            if self._says(key) and not self.point.flags:  # the flags of a word decide which numbers it holds
+            if self._states(key) and not self.point.flags:  # the flags of a word decide which numbers it holds
                 spread = _is_spread(self.facts.get(key))
                 for shown, numbers in _runs_of(self.facts.get(key)):
                     ways = self._in_both_units(numbers, in_units=key == "range_in_units")
                     yield from self.maker.run("range", shown, ways, self.facts.span(key), spread=spread)
-        if self.point.text is not None and self._says("characters"):
+        if self.point.text is not None and self._states("characters"):
             characters = Fraction(self.point.text.characters)
             yield from self.maker.number("characters", characters, self.facts.span("characters"), key="range")
 
     def _in_both_units(self, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
         """Return limits as written, and also raw or in the unit, unless `printed` or the scale forbids that."""
         printed, cases = self.facts.get("printed"), self.point.scale or ()
-        prints_units = isinstance(printed, Map) and "range_in_units" in printed and self._says("range")
+        prints_units = isinstance(printed, Map) and "range_in_units" in printed and self._states("range")
         if prints_units or len(cases) != 1 or cases[0].rule.factors:
             return [numbers]
         rule = cases[0].rule
@@ -161,7 +161,7 @@ class _PointClaims:
                 evidence, place = Number(frozenset((Fraction(numbers.number(bit)),)), words), self.facts.span("bits")
                 yield from self.maker.claim("bits", str(bit), evidence, place, optional=bit not in bits)
         numbers = bit_numbers(self.facts, self.point.width if bits is None else WORD_BITS)
-        fixed: Any = self.facts.get("fixed") if self._says("fixed") else None
+        fixed: Any = self.facts.get("fixed") if self._states("fixed") else None
         for run, constant in fixed.items() if isinstance(fixed, Map) else ():
             place, ends = fixed.key_span(run), numbers_in(run)
             for end in ends:
@@ -173,7 +173,7 @@ class _PointClaims:
 
     def _scale_and_default(self) -> Iterator[Claim]:
         """Yield the claims of the factors of the scale, and of the default."""
-        scale: Any = self.facts.get("scale") if self._says("scale") else None
+        scale: Any = self.facts.get("scale") if self._states("scale") else None
         for rule in [scale] if isinstance(scale, str) else [case["rule"] for case in scale or ()]:
             for number in numbers_in(rule):
                 if number not in (0, 1):
@@ -193,7 +193,7 @@ class _PointClaims:
         """Yield the claims of the numbers and labels of the enum, except entries of a shared enum that cite a line."""
         key = "digits" if self.point.digits else "enum"
         value: Any = self.facts.get(key)
-        if not self._says(key) or value is None:
+        if not self._states(key) or value is None:
             return
         value = value["enum"] if self.point.digits else value
         entries: Map = self.enums[value] if isinstance(value, str) else value
@@ -214,7 +214,7 @@ class _PointClaims:
 
     def _special_codes(self) -> Iterator[Claim]:
         """Yield the claims of special codes, each with its name."""
-        codes: Any = self.facts.get("special") if self._says("special") else None
+        codes: Any = self.facts.get("special") if self._states("special") else None
         for number, entry in codes.items() if isinstance(codes, Map) else ():
             label = self.notation.label(entry) if isinstance(entry, Map) else ()
             yield from self.maker.label("special", label, codes.key_span(number), beside=(numbers_in(number),))

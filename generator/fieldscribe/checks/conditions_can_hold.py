@@ -56,11 +56,11 @@ def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, coexistence:
     text = wording.clause_text(clause if alone is None else (alone,), points)
     hint = "a point has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
-        hint = f"`{alone.of}` can be {_shown(coexistence.domain(alone.of))}"
+        hint = f"`{alone.of}` can be {_domain_text(coexistence.domain(alone.of))}"
     analysis.report.error("never-true", f"`{text}` is never true", resolved.facts.span("when"), hint)
 
 
-def _shown(domain: Domain) -> str:
+def _domain_text(domain: Domain) -> str:
     parts = [part if isinstance(part, str) else band_text(part) for part in domain[:_MOST_SHOWN]]
     raw = "" if isinstance(domain[0], str) else " (raw)"
     return ", ".join(parts) + (", ..." if len(domain) > _MOST_SHOWN else "") + raw

@@ -44,8 +44,8 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
         for clash in clashes(listed):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", reported)
-        for alike in resemblances(listed):
-            _warn(analysis, alike, owners.thing(alike.first), owners.thing(alike.second), warned)
+        for resemblance in resemblances(listed):
+            _warn(analysis, resemblance, owners.thing(resemblance.first), owners.thing(resemblance.second), warned)
 
 
 def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reported: set[frozenset[Thing]]) -> None:
@@ -64,12 +64,16 @@ def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reporte
     analysis.report.error("name-clash", message, second.place, hint, related)
 
 
-def _warn(analysis: Analysis, alike: Resemblance, first: Thing, second: Thing, warned: set[tuple[str, int]]) -> None:
+def _warn(
+    analysis: Analysis, resemblance: Resemblance, first: Thing, second: Thing, warned: set[tuple[str, int]]
+) -> None:
     """Warn of names that a compiler need not distinguish; once for all names of one place in the description."""
     place = second.place or first.place
     if place is None or (place.file, place.line) in warned:
         return
     warned.add((place.file, place.line))
-    names = " and ".join(f"`{name}`" for name in alike.names)
-    message = f"{names} are equal in their first {alike.significant} characters, and C compilers need not compare more"
+    names = " and ".join(f"`{name}`" for name in resemblance.names)
+    message = (
+        f"{names} are equal in their first {resemblance.significant} characters, and C compilers need not compare more"
+    )
     analysis.report.warning("long-names", message, place, "give it a shorter name")

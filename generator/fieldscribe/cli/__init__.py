@@ -151,7 +151,7 @@ def _run(argv: list[str]) -> int:
     try:
         return command.run(arguments)
     except StopError as stop:
-        return stop.tell()
+        return stop.report()
     except UnclearError as error:
         return usage_error(error.message, error.hint)
 

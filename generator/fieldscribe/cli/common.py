@@ -41,7 +41,7 @@ class StopError(UnclearError):
         super().__init__(message, hint)
         self.code = code
 
-    def tell(self) -> int:
+    def report(self) -> int:
         """Print the message and return the exit code."""
         if self.message:
             usage_error(self.message, self.hint)

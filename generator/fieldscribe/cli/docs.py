@@ -58,7 +58,7 @@ def run(arguments: Namespace) -> int:
         try:
             device = open_device(Namespace(device=name, descriptions=arguments.descriptions))
         except StopError as stop:
-            code = max(code, stop.tell())
+            code = max(code, stop.report())
             continue
         if device not in devices:  # it may be named by its id, and in its folder
             devices.append(device)

@@ -163,7 +163,7 @@ class _Output:
         self._listener.each = None if self._writer is None else self._writer.write
         end = None if duration is None else time.monotonic() + duration
         try:
-            for chunk in self._listener.part.hear(line):
+            for chunk in self._listener.part.receive(line):
                 self._take(chunk)
                 sys.stdout.flush()
                 if end is not None and time.monotonic() >= end:

@@ -159,7 +159,7 @@ class Live(NamedTuple):
 
     def progress(self) -> AbstractContextManager[None]:
         """Show the number of requests sent if it takes long."""
-        return Progress().shown(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
+        return Progress().showing(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
 
 
 def model_of(arguments: Namespace) -> Device:
@@ -248,7 +248,7 @@ class Progress:
         self._width = 0
 
     @contextmanager
-    def shown(self, text: Callable[[], str]) -> Iterator[None]:
+    def showing(self, text: Callable[[], str]) -> Iterator[None]:
         """Show a text repeatedly while the context is open."""
         is_done = Event()
 

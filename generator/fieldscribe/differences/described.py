@@ -100,7 +100,7 @@ class Described:
             return self._of_point(name, names, fact) if name in self.analysis.symbols.by_items else None
         node = next((node for node in self._nodes(kind) if name in (node.get("name"), node.get("id"))), None)
         if node is not None:
-            return _said(node, fact) or node.span("name" if "name" in node else "id")
+            return _fact_span(node, fact) or node.span("name" if "name" in node else "id")
         return None if parts else self._of_key(kind, name, fact)
 
     def _of_point(self, item: str, names: tuple[tuple[str, str], ...], fact: str) -> Span:
@@ -128,7 +128,7 @@ class Described:
         scope = self.analysis.scope
         if kind == "group":
             return next(
-                (_said(node, fact) or node.span("group") for node in scope.groups if node["group"] == name), None
+                (_fact_span(node, fact) or node.span("group") for node in scope.groups if node["group"] == name), None
             )
         if kind in _OF_BUS or kind == "base":
             owner = Owner(kind, name)
@@ -154,7 +154,7 @@ class Described:
         return "" if point is None else point.shared_codes
 
 
-def _said(node: Map, fact: str) -> Span | None:
+def _fact_span(node: Map, fact: str) -> Span | None:
     return next((node.span(key) for key in _yaml_keys(fact) if key in node), None)
 
 

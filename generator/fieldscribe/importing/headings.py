@@ -170,7 +170,7 @@ def _headings(table: Table, named: Iterable[str]) -> tuple[str, tuple[str, ...],
     for row in table.rows[:_MOST_HEADING_ROWS]:
         if len(row.filled) == 1 and table.width > 2 and not any(headings) and same_heading(row.filled[0]) not in named:
             title = one_line(row.filled[0])
-        elif _is_heading_row(row.cells, named) or (any(headings) and _goes_on(row)):
+        elif _is_heading_row(row.cells, named) or (any(headings) and _continues_headings(row)):
             for place, cell in enumerate(row.cells):
                 headings[place] = one_line(cell) or headings[place]
         else:
@@ -179,7 +179,7 @@ def _headings(table: Table, named: Iterable[str]) -> tuple[str, tuple[str, ...],
     return title, tuple(headings), first if any(headings) else 0
 
 
-def _goes_on(row: Row) -> bool:
+def _continues_headings(row: Row) -> bool:
     """Return True for a second row of headings, below headings that span several columns."""
     filled = [one_line(cell) for cell in row.filled]
     has_digits = any(char.isdigit() for cell in filled for char in cell)

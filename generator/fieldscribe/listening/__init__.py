@@ -5,8 +5,8 @@
 - `chunks.py` has what all sources give, listens on a serial line, reads lines of a log, and cuts bytes into frames
   where only a check tells where a frame ends.
 - A family's `lines.py` has its kinds of chunks (`KINDS`) and ports (`PORTS`), reads a line of a log (`chunk_of_text`),
-  listens (`hear`), and cuts chunks into frames: `take` and `rest` of what `cutter` returns. `action` says what a frame
-  does, `packet` writes it.
+  listens (`receive`), and cuts chunks into frames: `take` and `rest` of what `cutter` returns. `action` names what a
+  frame does, `packet` writes it.
 - `listener.py` gives each frame to the decoder of its device, and pairs requests with their answers.
 - `exchanges.py` says what an exchange is, and counts who polls what, how often, and what is wrong.
 

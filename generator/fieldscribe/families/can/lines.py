@@ -89,7 +89,7 @@ def packet(cut: Cut) -> Packet:
     return Packet(cut.time, BUS_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
 
 
-def hear(line: LineAddress) -> Iterator[Chunk]:
+def receive(line: LineAddress) -> Iterator[Chunk]:
     """Yield the messages on a bus; silence is a message without data. Raises UnclearError."""
     try:
         bus = open_bus(line)

@@ -139,17 +139,17 @@ class _Unit:
                 self.device.complain("checksum", f"a {request.name} has a wrong checksum", request.source)
                 return Answer(self.device, b"", refused="wrong checksum")
             if parsed.status == "ok":
-                return self._asked(parsed.address, parsed.raw if writes else None, answer)
+                return self._parameter(parsed.address, parsed.raw if writes else None, answer)
         for name, message in self._taken:
             fits = frame.id == identifier(message, self.device.unit) and len(frame.data) == message.length
             if fits and extended == self._is_extended(message):
-                return self._told(name, message, frame)
+                return self._received(name, message, frame)
         return None
 
     def _is_extended(self, message: Message) -> bool:
         return (message.bits or identifier_bits(self.device.device.bus)) > _STANDARD_BITS
 
-    def _asked(self, address: int, raw: int | None, answer: Message | None) -> Answer:
+    def _parameter(self, address: int, raw: int | None, answer: Message | None) -> Answer:
         """Read a word of a parameter, or write it: then the answer has what the device holds after that."""
         try:
             if raw is not None:
@@ -171,7 +171,7 @@ class _Unit:
         cells = {at: held[at] for point in points for at in point.addresses} | {address: raw}
         self.device.write(_PARAMETERS, cells)
 
-    def _told(self, name: str, message: Message, frame: CanFrame) -> Answer:
+    def _received(self, name: str, message: Message, frame: CanFrame) -> Answer:
         """Take the signals, or the words, of a message."""
         if message.fields:
             words = dict(enumerate(signals.words_of(message, frame.data)))

@@ -68,7 +68,7 @@ def probe(device: ModbusDevice) -> str:
     return f"holding register 0 is {device.read_at('holding', 0)[0]}"
 
 
-__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "packet", "receive"]
 
 KINDS = (BYTES, STREAM)
 PORTS = frozenset({502})
@@ -151,7 +151,7 @@ def chunk_of_text(text: str) -> Chunk:
     return chunk._replace(kind=STREAM)
 
 
-def hear(line: LineAddress) -> Iterator[Chunk]:
+def receive(line: LineAddress) -> Iterator[Chunk]:
     """Yield the chunks received on a line. Raises UnclearError."""
     if line.scheme == "tcp":
         message = "a network does not bring what others say"

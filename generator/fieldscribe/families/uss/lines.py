@@ -68,7 +68,7 @@ def probe(device: UssDevice) -> str:
     return f"word 1 of its process data is {device.read_at('reply', 0)[0]:04X}h"
 
 
-__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "hear", "packet"]
+__all__ = ["KINDS", "PORTS", "action", "chunk_of_text", "cutter", "packet", "receive"]
 
 KINDS = (BYTES,)
 PORTS: frozenset[int] = frozenset()
@@ -90,7 +90,7 @@ def cutter() -> ByteCutter:
     return ByteCutter(_size_at, _LONGEST, None, 2)
 
 
-def hear(line: LineAddress) -> Iterator[Chunk]:
+def receive(line: LineAddress) -> Iterator[Chunk]:
     """Yield the chunks received on a line. Raises UnclearError."""
     return serial_chunks(line, "8E1")
 

@@ -55,14 +55,14 @@ def _parts(
     by_step: dict[tuple[int, int], list[DraftPoint]] = {}
     left = {id(point): point for point in group.points}
     for place in (0, -1):
-        for rows in _alike((point for point in left.values() if point.name not in single), place):
+        for rows in _foldable((point for point in left.values() if point.name not in single), place):
             run = {_number(point.title, place): point for point in rows}
             places = [point.wire or 0 for point in run.values()]
             steps = {second - first for first, second in pairwise(places)}
             if len(run) == len(rows) and list(run) == list(range(min(run), min(run) + len(run))) and len(steps) == 1:
                 step = steps.pop()
                 if step > 0:
-                    by_step.setdefault((min(run), step), []).append(_one(run, place, points, renamed))
+                    by_step.setdefault((min(run), step), []).append(_array_row(run, place, points, renamed))
                     for point in rows:
                         del left[id(point)]
     group.points = list(left.values())
@@ -74,7 +74,7 @@ def _parts(
         yield replace(group, points=rows, name=name, comments=[], facts=group.facts | rule)
 
 
-def _alike(points: Iterable[DraftPoint], place: int) -> list[list[DraftPoint]]:
+def _foldable(points: Iterable[DraftPoint], place: int) -> list[list[DraftPoint]]:
     """Return the points that differ only in one number of their titles, and in what may differ."""
     alike: dict[object, list[DraftPoint]] = {}
     for point in points:
@@ -103,7 +103,7 @@ def _without(title: str, place: int) -> str:
     return rest.strip(" -–:.,#") or title
 
 
-def _one(run: dict[int, DraftPoint], place: int, points: Names, renamed: dict[str, str]) -> DraftPoint:
+def _array_row(run: dict[int, DraftPoint], place: int, points: Names, renamed: dict[str, str]) -> DraftPoint:
     """Return the row of an array for the points by index."""
     first = next(iter(run.values()))
     title = _without(first.title, place)

@@ -30,7 +30,7 @@ def dates(lines: Lines, shape: Shape, layout: Text) -> None:
         words = _words(layout, held)
         if shape.readable and words is not None:
             read = _decoded(layout, held)
-            for received in (words, _beside(layout, words)):
+            for received in (words, _with_other_bits(layout, words)):
                 lines.add("date_decode", received, "malformed" if read is None else "ok", read)
         if shape.writable:
             good = words is not None and _is_real(layout, numbers)
@@ -94,7 +94,7 @@ def _swapped(layout: Text, words: Sequence[int]) -> list[int]:
     return [word % 256 * 256 + word // 256 for word in words] if layout.low_first else [*words]
 
 
-def _beside(layout: Text, words: Sequence[int]) -> list[int]:
+def _with_other_bits(layout: Text, words: Sequence[int]) -> list[int]:
     """Return the words with ones in all bits outside the parts, and in those of the weekday."""
     beside = [0xFFFF] * layout.words
     for part in layout.parts:

@@ -85,7 +85,7 @@ class Exchanges:
                     put = words_of(encoding, ascending(encoding.shape, point.write_place.addresses), raw)
                 script = self.wire.writes(point, put, keep=kind == "store")
                 if script is not None and encoding.bits is not None:
-                    script = self._beside(point, encoding, raw, script)
+                    script = self._read_and_write(point, encoding, raw, script)
                 self._add(kind, point, typical, (raw, words), script)
 
     def _of_encoding(self, encoding: PointEncoding) -> _Typical | None:
@@ -103,7 +103,7 @@ class Exchanges:
         received = [words_of(encoding, order, put, received=True) for put, _ in sent]
         return _Typical(encoding, settings, needs, received, sent)
 
-    def _beside(self, point: Point, encoding: PointEncoding, raw: int, script: Script) -> Script | None:
+    def _read_and_write(self, point: Point, encoding: PointEncoding, raw: int, script: Script) -> Script | None:
         """Return the exchange that writes a bit group after reading its word."""
         if not encoding.shape.readable:
             return None
@@ -132,7 +132,7 @@ class Exchanges:
             other = self.points[name]
             encoding = self.encodings.of(other)
             written = self.wire.writes(other, words_of(encoding, encoding.order or (), raw), keep=False) or []
-            script += written if encoding.bits is None else self._beside(other, encoding, raw, written) or []
+            script += written if encoding.bits is None else self._read_and_write(other, encoding, raw, written) or []
         return script
 
     def _add(

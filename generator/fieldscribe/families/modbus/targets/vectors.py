@@ -49,9 +49,9 @@ class ModbusWire:
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """Return one request for all words, which must be consecutive."""
-        return self.script(SPACES[point.space].read, self._counted(point, point.addresses), words)
+        return self.script(SPACES[point.space].read, self._on_wire(point, point.addresses), words)
 
-    def _counted(self, point: Point, addresses: tuple[int, ...]) -> tuple[int, ...]:
+    def _on_wire(self, point: Point, addresses: tuple[int, ...]) -> tuple[int, ...]:
         """Return addresses on the wire."""
         start = self.starts.get(point.base or "", 0)
         return tuple([start + address for address in addresses]) if start else addresses
@@ -59,7 +59,7 @@ class ModbusWire:
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """Return one request for all words, with the function for this count."""
         function = None if keep else self.profile.write_function(point.space, len(words))
-        return None if function is None else self.script(function, self._counted(point, point.written.addresses), words)
+        return None if function is None else self.script(function, self._on_wire(point, point.written.addresses), words)
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """Return one request for consecutive addresses and its reply; None if the device does not allow it.
