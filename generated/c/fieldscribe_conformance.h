@@ -283,7 +283,9 @@ typedef struct fieldscribe_stream {
     size_t count;
     size_t given;
     bool endless;
-    size_t silence; /* 0 for none */
+    size_t silence;    /* 0 for none */
+    bool is_silent;    /* it has just been, so the next wait is... */
+    uint32_t patience; /* ...this */
     uint32_t waited; /* for the last byte, or for one that did not come */
     uint8_t sent[FIELDSCRIBE_BYTES_MOST];
     size_t sent_count;
@@ -333,8 +335,11 @@ static inline bool fieldscribe_stream_receive(void *context, uint32_t millisecon
     fieldscribe_stream *const stream = (fieldscribe_stream *)context;
     const bool more = stream->given < stream->count;
     stream->waited = milliseconds;
+    stream->patience = stream->is_silent ? milliseconds : stream->patience;
+    stream->is_silent = false;
     if (stream->silence != 0U && stream->silence == stream->given) {
         stream->silence = 0U;
+        stream->is_silent = true;
         return false;
     }
     if (more || stream->endless) {

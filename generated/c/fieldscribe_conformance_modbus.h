@@ -872,6 +872,11 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_frami
             (kind == 0U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_NOISE));
         fieldscribe_agree(v, kind != 0U || stream.waited == FIELDSCRIBE_PAUSE_MS);
     }
+    (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, hurt);
+    fieldscribe_stream_add(&stream, bytes, length);
+    stream.silence = 1U; /* after noise that is followed by silence, an answer has its time once more */
+    fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == parsed &&
+        stream.patience == FIELDSCRIBE_ANSWER_MS);
     if (parsed == FIELDSCRIBE_MODBUS_OK) {
         fieldscribe_asks_with_care(v, framing, request, bytes, length);
     } else if (framing == FIELDSCRIBE_MODBUS_RTU) {

@@ -1429,7 +1429,7 @@ fieldscribe_modbus_status fieldscribe_modbus_find(fieldscribe_modbus_unit *unit,
         } else if ((status != FIELDSCRIBE_MODBUS_OK) && (status != FIELDSCRIBE_MODBUS_EXCEPTION)) {
             return status;
         } else {
-            status = FIELDSCRIBE_MODBUS_UNKNOWN_VALUE;
+            /* it is not there */
         }
     }
     if (place == 0x10000U) {

@@ -285,6 +285,10 @@ FIELDSCRIBE_ONCE fieldscribe_can_status fieldscribe_takes_signals(
     const size_t length = fieldscribe_hex(fieldscribe_field(v, "bytes"), data, FIELDSCRIBE_BYTES_MOST);
     const size_t count = message->words;
     fieldscribe_can_status status;
+    size_t at;
+    for (at = 0U; at < message->count; ++at) {
+        fieldscribe_agree(v, (message->signals[at].when == NULL) == (message->signals[at].choices == 0U));
+    }
     fieldscribe_fill(words, FIELDSCRIBE_SIGNAL_WORDS * sizeof words[0]);
     status = fieldscribe_can_take_signals(message, unit, id, data, length, words, count);
     if (status != FIELDSCRIBE_CAN_OK) {

@@ -427,7 +427,8 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_li
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
     fieldscribe_stream_add(&stream, bytes, length);
     stream.silence = 1U;
-    fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_OK);
+    fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_OK &&
+        stream.patience == FIELDSCRIBE_ANSWER_MS);
     memset(&stream, 0, sizeof stream);
     reply.room = link->pzd - 1U;
     fieldscribe_agree(v, link->pzd == 0U ||
