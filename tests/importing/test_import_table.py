@@ -302,7 +302,7 @@ def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
         (["table", "a.csv", "--lines", "one"], "is no range of lines"),
         (["table", "a.csv", "--base", "-1"], "is neither the number printed for wire address 0 nor `modicon`"),
         (["table", "a.csv", "--address-part", "0"], "invalid choice"),
-        (["table", "a.csv", "--device", "../x"], "is no name"),
+        (["table", "a.csv", "--device", "../x"], "fieldscribe: --device: `../x` is no name"),
         (["table", "a.csv", "--language", "deutsch"], "is no code of a language"),
         (["table", "a.docx"], "no reader takes such a file"),
         (["table", "missing.csv"], "missing.csv"),

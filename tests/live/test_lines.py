@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import termios
+from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from fieldscribe.cli.live_options import line_of
 from fieldscribe.diagnostics import Report
 from fieldscribe.live.lines import Station, families_of, read_line, read_project
 from fieldscribe.user_errors import UnclearError
@@ -91,6 +93,16 @@ def test_wrong_settings_of_a_serial_line(text: str, message: str) -> None:
 def test_what_is_no_host(text: str) -> None:
     with pytest.raises(UnclearError, match="it takes a host and a port"):
         read_line(text).host_and_port(502)
+
+
+def test_a_station_says_what_the_command_line_does_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = '[lines]\nbench = "tcp://a"\n[stations.pump]\ndescription = "hitachi_l200"\nline = "bench"\nunit = 3\n'
+    (tmp_path / "fieldscribe.toml").write_text(text, "utf-8")
+    monkeypatch.chdir(tmp_path)
+    given = Namespace(device="pump", line=None, unit=None, variant=[], settings=[])
+    assert (line_of(given), given.device, given.unit) == (read_line("tcp://a"), "hitachi_l200", 3)
+    given = Namespace(device="pump", line="tcp://b", unit=4, variant=[], settings=[])
+    assert (line_of(given), given.device, given.unit) == (read_line("tcp://b"), "hitachi_l200", 4)
 
 
 def test_a_project_names_lines_and_stations(tmp_path: Path) -> None:
