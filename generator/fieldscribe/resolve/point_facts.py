@@ -134,9 +134,9 @@ class PointFacts:
         for layer in reversed(self.layers):
             keys = layer if layer is self.node or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
-            for stated in _RIVALS.keys() & keys:
-                if _RIVALS[stated] not in keys:
-                    where.pop(_RIVALS[stated], None)
+            for stated, rival in _RIVALS.items():
+                if stated in keys and rival not in keys:
+                    where.pop(rival, None)
             if self.failed:
                 self.failed.difference_update(keys)
             self.failed.update(layer.broken)
