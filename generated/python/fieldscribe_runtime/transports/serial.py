@@ -147,12 +147,13 @@ class SerialLine(Line):
 
     def _rest(self, request: bytes) -> None:
         """Wait until the line is free: silent, after a broadcast, and after a reply of this unit that is late."""
-        free = max(self._rests_until, time.monotonic() + self._silence)
+        now = time.monotonic()
+        free = max(self._rests_until, now + self._silence)
         if self._late is not None and self._late[0] == self._framing.address(request):
             free = max(free, self._late[1])
             self._late = None
-        if (left := free - time.monotonic()) > 0:
-            time.sleep(left)
+        if free > now:
+            time.sleep(free - now)
 
     def _echoed(self, size: int) -> bytes:
         assert self._open is not None

@@ -43,7 +43,9 @@ class ReadHandle(Handle, Decoding[R_co]):
 
     def read(self) -> R_co:
         """Ask the device for the value (and for other points that its scale needs)."""
-        return self._device._run(self._device._read_steps(self))
+        if self._form.needs:
+            return self._device._run(self._device._read_steps(self))
+        return self.decode(self._device._run(self._device._read_raw_steps(self)))
 
     def read_raw(self) -> int:
         """Ask the device for the raw number."""
@@ -71,7 +73,9 @@ class AsyncReadHandle(AsyncHandle, Decoding[R_co]):
 
     async def read(self) -> R_co:
         """Ask the device for the value (and for other points that its scale needs)."""
-        return await self._device._run(self._device._read_steps(self))
+        if self._form.needs:
+            return await self._device._run(self._device._read_steps(self))
+        return self.decode(await self._device._run(self._device._read_raw_steps(self)))
 
     async def read_raw(self) -> int:
         """Ask the device for the raw number."""

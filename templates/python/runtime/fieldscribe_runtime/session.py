@@ -287,8 +287,8 @@ class Session(NamedPoints, ABC):
         return raws
 
     def _read_steps(self, point: Decoding[T]) -> Steps[T]:
-        """Read a point's value."""
-        raws = (yield from self._raws_steps(point, point.scale_needs)) if point.scale_needs else NO_RAWS
+        """Read a point's value, and before it what its scale needs."""
+        raws = yield from self._raws_steps(point, point.scale_needs)
         raw = yield from self._read_raw_steps(point)
         return point.decode(raw, raws)
 
