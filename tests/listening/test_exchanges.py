@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
-from fieldscribe.conversation.decoder import decode
+from fieldscribe.arithmetic.codec import encode
+from fieldscribe.conversation.decoder import StreamDecoder, decode, frame_decoder
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
@@ -78,3 +81,15 @@ def test_what_was_refused_is_a_finding(name: str, frames: tuple[str, str], refus
     assert reply.refusal.startswith(refusal)
     assert reply.refusal in Content(1, device, "read", request, reply).findings
     assert request.refusal == ""
+
+
+@pytest.mark.parametrize(("volts", "is_wrong"), [(354, False), (700, False), (500, True)])
+def test_a_number_that_one_of_the_variants_allows_is_in_range(volts: int, is_wrong: bool) -> None:
+    """Nobody has said whether this is the drive for 200 V (330..395 V) or the one for 400 V (660..780 V)."""
+    drive = shipped("hitachi_l200")
+    point = next(point for point in drive.points if point.name == "overvoltage_deceleration_level" and point.variant)
+    raw = encode(point, Fraction(volts), {})
+    decoder = StreamDecoder(drive, {}, frame_decoder(drive, Options()), doubting=True)
+    frames = rtu(f"01 03 {point.addresses[0]:04X} 0001"), rtu(f"01 03 02 {raw:04X}")
+    reply = [decoder.decode(bytes.fromhex(frame)) for frame in frames][1]
+    assert [bool(item.doubts) for item in reply.items] == [is_wrong, is_wrong]

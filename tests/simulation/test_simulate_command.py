@@ -26,11 +26,13 @@ def ends(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int,
     return main(["simulate", *arguments, "--for", "0"]), "".join(capsys.readouterr())
 
 
-def test_a_port_that_is_taken_ends_with_the_reason(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_port_that_is_taken_ends_with_the_reason(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    trace = tmp_path / "trace"
+    trace.write_text("of the simulator that has the port", "utf-8")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        code, printed = ends([L200, "--tcp", str(port)], capsys)
-    assert code == 2
+        code, printed = ends([L200, "--tcp", str(port), "--trace", str(trace)], capsys)
+    assert (code, trace.read_text("utf-8")) == (2, "of the simulator that has the port")
     assert f"port {port} of 127.0.0.1 cannot be served: it is taken" in printed
 
 
@@ -137,6 +139,7 @@ def test_the_console_reads_writes_and_spoils() -> None:
 @pytest.mark.full(seconds=2)
 def test_the_command_serves_until_a_signal(tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
+    trace.write_text("an older one\n", "utf-8")
     words = [L200, "--tcp", "0", "--strict", "--trace", str(trace), "--fault", "exception x1"]
     command = [sys.executable, "-m", "fieldscribe", "simulate", *words]
     with subprocess.Popen(

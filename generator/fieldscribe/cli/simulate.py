@@ -7,9 +7,10 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from signal import SIGINT, SIGTERM
-from typing import Any
+from typing import Any, TextIO
 
 from fieldscribe.cli.common import (
     StopError,
@@ -26,7 +27,6 @@ from fieldscribe.report import visible
 from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
 from fieldscribe.simulation.device import Complaint
 from fieldscribe.simulation.faults import KINDS
-from fieldscribe.simulation.line import Trace
 from fieldscribe.simulation.servers import serve
 from fieldscribe.user_errors import UnclearError
 
@@ -84,10 +84,11 @@ def run(arguments: Namespace) -> int:
     if file is not None and arguments.devices:
         raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
     try:
-        with _trace(arguments.trace) as trace:
+        with _trace(arguments.trace) as stream:
             settings = _settings(arguments) if file is None else read_bench(file)
+            trace = None if stream is None else partial(print, file=stream, flush=True)
             bench = Bench(settings, Path() if file is None else file.parent, trace)
-            return asyncio.run(_serve(bench, arguments.seconds))
+            return asyncio.run(_serve(bench, arguments.seconds, stream))
     except BrokenError as error:
         report_findings(error.report, "text")
         return FINDINGS
@@ -121,20 +122,21 @@ def _pair(option: str, text: str) -> tuple[str, str]:
 
 
 @contextmanager
-def _trace(file: Path | None) -> Iterator[Trace | None]:
-    if file is None:
-        yield None
-    elif str(file) == "-":
-        yield lambda entry: print(entry, flush=True)
+def _trace(file: Path | None) -> Iterator[TextIO | None]:
+    """Return the stream of the trace; an older trace stays in its file until the lines are served."""
+    if file is None or str(file) == "-":
+        yield None if file is None else sys.stdout
     else:
-        with open(file, "w", encoding="utf-8", newline="\n", buffering=1) as stream:  # others read it while it grows
-            yield lambda entry: print(entry, file=stream)
+        with open(file, "a", encoding="utf-8", newline="\n") as stream:
+            yield stream
 
 
-async def _serve(bench: Bench, seconds: float | None) -> int:
+async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> int:
     """Serve the lines until a signal, `quit`, or the end of the time."""
     stop, loop = asyncio.Event(), asyncio.get_running_loop()
     servers = [await serve(line) for line in bench.lines]
+    if trace not in (None, sys.stdout) and trace.seekable():
+        trace.truncate(0)
     devices = [
         (device, server) for line, server in zip(bench.lines, servers, strict=True) for device in line.core.devices
     ]

@@ -299,6 +299,9 @@ class Doubts:
         self._read, self._swaps = reader_of(point), point.words > 1
         self._is_limited, self._is_signed = _is_limited(point), not point.info.floating
         first = point.addresses[0] if point.addresses else 0
+        if point.variant is not None and point.addresses:  # which variant this is, nobody may have said
+            tests = [_range_test(other) for other in neighbours(first) if other.variant and other.words == point.words]
+            self.fits = lambda raw, settings: any(test(raw, settings) for test in tests)
         others = [
             (f"one address {name}, {label(other)},", other)
             for name, address in ((("up", first + 1), ("down", first - 1)) if point.addresses else ())
