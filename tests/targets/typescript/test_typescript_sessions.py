@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -191,6 +192,9 @@ def test_a_broadcast_counts_for_the_words_of_its_mask(folder: Path) -> None:
     """Bit 10 of the control word is always 1, so the mask may not leave it out."""
     with running(folder, MM4, link={"pkw": 127, "pzd": 2}) as (drive, node):
         node(None, "broadcast", [4, 0xFFFF, 0, 0], [0x0400, 0x2000])
+        until = time.monotonic() + 5
+        while drive.values["main_setpoint"] != 25 and time.monotonic() < until:  # no reply says that it has come
+            time.sleep(0.01)
         assert (drive.values["control_word"], drive.values["main_setpoint"]) == (0x0400, 25)
         for mask, words in (([6, 0xFBFF, 0, 0], [0x0400, 0x1000]), ([6, 0xFFFF, 0, 0], [0, 0x1000])):
             assert status_of(node, None, "broadcast", mask, words) == "bad_value"
