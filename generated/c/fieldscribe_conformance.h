@@ -70,6 +70,7 @@ typedef struct fieldscribe_vector {
     bool answered;
     bool differs;
     uint16_t base; /* the addresses of the point count from here */
+    size_t selecting; /* so many steps of the script select the point */
     size_t matched; /* pairs of a map that were found */
     const void *receiver; /* of a telegram, as its family has it */
 } fieldscribe_vector;
@@ -1178,13 +1179,15 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
  */
 #define FIELDSCRIBE_CALL_READ_BY(device_type, call, type, raw_type, with, decode)                \
     if (fieldscribe_asks(v, "read")) {                                                           \
-        device_type device = {fieldscribe_called_unit(v)};                                       \
+        device_type device;                                                                      \
         int converted = 0;                                                                       \
         int status;                                                                              \
         type read;                                                                               \
         type number;                                                                             \
         fieldscribe_fill(&read, sizeof read);                                                    \
         fieldscribe_fill(&number, sizeof number);                                                \
+        memset(&device, 0, sizeof device);                                                       \
+        device.unit = fieldscribe_called_unit(v);                                                \
         status = (int)call(&device with, &read);                                                 \
         if (fieldscribe_spells(fieldscribe_field(v, "status"), "ok")) {                          \
             const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                           \
@@ -1196,10 +1199,12 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 
 #define FIELDSCRIBE_CALL_WRITE_BY(kind, device_type, call, type, raw_type, with, decode, encode) \
     if (fieldscribe_asks(v, kind)) {                                                             \
-        device_type device = {fieldscribe_called_unit(v)};                                       \
+        device_type device;                                                                      \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
         raw_type again = (raw_type)0;                                                            \
         type number = (type)0;                                                                   \
+        memset(&device, 0, sizeof device);                                                       \
+        device.unit = fieldscribe_called_unit(v);                                                \
         if (decode == 0 && encode == 0 && again == raw) {                                        \
             const int status = (int)call(&device with, number);                                  \
             fieldscribe_is_called(v, &device.unit, status, 0);                                   \
@@ -1220,12 +1225,14 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
 /* A text, bytes or a date in one call: `decoded` fills `held` from `words`, and is a status. */
 #define FIELDSCRIBE_CALL_TEXT(device_type, type, size)                                           \
-    device_type device = {fieldscribe_called_unit(v)};                                           \
+    device_type device;                                                                          \
     uint16_t words[FIELDSCRIBE_ROOM];                                                            \
     type held[size];                                                                             \
     size_t length = 0U;                                                                          \
     int status = 0;                                                                              \
     (void)length;                                                                                \
+    memset(&device, 0, sizeof device);                                                           \
+    device.unit = fieldscribe_called_unit(v);                                                    \
     fieldscribe_fill(held, sizeof held);                                                         \
     (void)fieldscribe_numbers(v, "words", words, FIELDSCRIBE_ROOM);
 #define FIELDSCRIBE_LENGTH , length
@@ -1486,6 +1493,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->answered = false;
     v->differs = false;
     v->base = 0U;
+    v->selecting = 0U;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||

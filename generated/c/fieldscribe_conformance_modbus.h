@@ -154,7 +154,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_exchange(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
 {
     fieldscribe_modbus_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_ROOM);
-    return fieldscribe_ask(v, place, request, &reply) == FIELDSCRIBE_MODBUS_OK;
+    return fieldscribe_ask(v, place + v->selecting, request, &reply) == FIELDSCRIBE_MODBUS_OK;
 }
 
 /* The vector whose exchange a call does, and how many of its steps were done. */
@@ -180,6 +180,17 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vec
     fieldscribe_done = 0U;
     return unit;
 }
+
+/* The steps of the script that select the point; what stands is not written again. */
+#define FIELDSCRIBE_SELECTED(selection)                                                          \
+    if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
+        fieldscribe_modbus_selected selected = FIELDSCRIBE_MODBUS_NOTHING_SELECTED;              \
+        fieldscribe_modbus_unit unit = fieldscribe_called_unit(v);                               \
+        fieldscribe_agree(v, fieldscribe_modbus_select(&unit, &selected, selection) == FIELDSCRIBE_MODBUS_OK); \
+        v->selecting = fieldscribe_done;                                                         \
+        fieldscribe_agree(v, fieldscribe_modbus_select(&unit, &selected, selection) == FIELDSCRIBE_MODBUS_OK); \
+        fieldscribe_agree(v, v->selecting == fieldscribe_done && selected.rows == (selection));  \
+    }
 
 /* A call does the whole script, says what its exchange or its conversion says, and whether an answer is still due. */
 FIELDSCRIBE_ONCE void fieldscribe_is_called(
@@ -397,7 +408,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
-            fieldscribe_agree(v, fieldscribe_is_in_blocks(&(frame).read));                       \
+            fieldscribe_agree(v, v->selecting != 0U || fieldscribe_is_in_blocks(&(frame).read)); \
             fieldscribe_fills_groups(v, &(frame).read, words);                                   \
         }                                                                                        \
     }

@@ -319,6 +319,30 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count);
 
 /*
+ * What was selected last. It stands until a call fails, or anything else is asked that does not go by these functions:
+ * `next` is then not the next request of the unit.
+ */
+typedef struct fieldscribe_modbus_selected {
+    const fieldscribe_modbus_selection *rows;
+    uint16_t next;
+} fieldscribe_modbus_selected;
+#define FIELDSCRIBE_MODBUS_NOTHING_SELECTED {NULL, 0U}
+
+/* Writes the rows of a selection that do not stand; none if `rows` is NULL. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_select(
+    fieldscribe_modbus_unit *unit, fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows);
+
+/* Reads the words of a point after what selects it was written. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_selected(fieldscribe_modbus_unit *unit,
+    fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
+    const fieldscribe_modbus_reading *what, uint16_t *words);
+
+/* Writes them. What was selected stands no longer if nothing selects the point: it may be a page itself. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_selected(fieldscribe_modbus_unit *unit,
+    fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
+    const fieldscribe_modbus_writing *what, const uint16_t *words);
+
+/*
  * Reads the number of a row. BAD_FUNCTION says that nothing was sent, because the row is of another device than the
  * unit, or cannot be read, or written; OUT_OF_RANGE that the number may not be written.
  */
@@ -422,6 +446,73 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     } \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
                                              : status;
+
+/* The same in a device with pages: `rows` are what selects the point, or NULL. */
+
+#define FIELDSCRIBE_MODBUS_SELECTED_READ_WORD(rows, function, address, to, number) \
+    static const fieldscribe_modbus_reading what = {function, address, 1U}; \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_selected(&device->unit, &device->selected, rows, &what, &word); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_DECODE_WORD(rows, function, address, decoded) \
+    static const fieldscribe_modbus_reading what = {function, address, 1U}; \
+    uint16_t word = 0U; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_selected(&device->unit, &device->selected, rows, &what, &word); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_READ_WORDS(rows, function, address, count, to, number) \
+    static const fieldscribe_modbus_reading what = {function, address, count}; \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_selected(&device->unit, &device->selected, rows, &what, words); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_DECODE_WORDS(rows, function, address, count, decoded) \
+    static const fieldscribe_modbus_reading what = {function, address, count}; \
+    uint16_t words[count] = {0}; \
+    const fieldscribe_modbus_status status = \
+        fieldscribe_modbus_read_selected(&device->unit, &device->selected, rows, &what, words); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_WRITE_WORD(rows, function, address, type, encoded, bits) \
+    static const fieldscribe_modbus_writing what = {function, address, 1U}; \
+    type raw = (type)0; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    const uint16_t word = bits; \
+    return (status == FIELDSCRIBE_MODBUS_OK) \
+        ? fieldscribe_modbus_write_selected(&device->unit, &device->selected, rows, &what, &word) : status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_WRITE_WORDS(rows, function, address, count, type, encoded, split) \
+    static const fieldscribe_modbus_writing what = {function, address, count}; \
+    type raw = (type)0; \
+    uint16_t words[count]; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    split; \
+    return (status == FIELDSCRIBE_MODBUS_OK) \
+        ? fieldscribe_modbus_write_selected(&device->unit, &device->selected, rows, &what, words) : status;
+
+#define FIELDSCRIBE_MODBUS_SELECTED_UPDATE_WORD( \
+    rows, from, from_address, function, address, type, encoded, bits) \
+    static const fieldscribe_modbus_reading before = {from, from_address, 1U}; \
+    static const fieldscribe_modbus_writing what = {function, address, 1U}; \
+    type raw = (type)0; \
+    uint16_t word = 0U; \
+    fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        status = fieldscribe_modbus_read_selected(&device->unit, &device->selected, rows, &before, &word); \
+    } \
+    word = bits; \
+    return (status == FIELDSCRIBE_MODBUS_OK) \
+        ? fieldscribe_modbus_write_selected(&device->unit, &device->selected, rows, &what, &word) : status;
 
 /* Whether so many addresses count from a base. */
 static inline bool fieldscribe_modbus_is_within(fieldscribe_modbus_base base, uint16_t address, uint16_t count)
@@ -1292,6 +1383,88 @@ fieldscribe_modbus_status fieldscribe_modbus_write_word(
 {
     const fieldscribe_modbus_writing what = {function, address, 1U};
     return fieldscribe_modbus_write_words(unit, &what, &word, 1U);
+}
+
+/* Whether a row is one of those that stand. */
+static bool fieldscribe_modbus_stands(
+    const fieldscribe_modbus_selection *standing, const fieldscribe_modbus_selection *row)
+{
+    const fieldscribe_modbus_selection *at = standing;
+    bool more = at != NULL;
+    bool stands = false;
+    while (more && !stands) {
+        stands = (at->address == row->address) && (at->mask == row->mask) && (at->word == row->word);
+        more = !at->last;
+        ++at;
+    }
+    return stands;
+}
+
+/* Writes a row, into the bits that it has. */
+static fieldscribe_modbus_status fieldscribe_modbus_write_selection(
+    fieldscribe_modbus_unit *unit, const fieldscribe_modbus_selection *row)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
+    uint16_t word = 0U;
+    if (row->read != 0U) {
+        status = fieldscribe_modbus_read_word(unit, row->read, row->address, &word);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        word = (uint16_t)((word & (uint16_t)~row->mask) | row->word);
+        status = fieldscribe_modbus_write_word(unit, row->write, row->address, word);
+    }
+    return status;
+}
+
+/* Notes what stands after a call. */
+static fieldscribe_modbus_status fieldscribe_modbus_selects(const fieldscribe_modbus_unit *unit,
+    fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows, fieldscribe_modbus_status status)
+{
+    selected->rows = (status == FIELDSCRIBE_MODBUS_OK) ? rows : NULL;
+    selected->next = unit->transaction;
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_select(
+    fieldscribe_modbus_unit *unit, fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows)
+{
+    const fieldscribe_modbus_selection *const standing =
+        (selected->next == unit->transaction) ? selected->rows : NULL;
+    const fieldscribe_modbus_selection *row = rows;
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
+    bool more = rows != NULL;
+    while (more && (status == FIELDSCRIBE_MODBUS_OK)) {
+        if (!fieldscribe_modbus_stands(standing, row)) {
+            status = fieldscribe_modbus_write_selection(unit, row);
+        }
+        more = !row->last;
+        ++row;
+    }
+    return fieldscribe_modbus_selects(unit, selected, (rows != NULL) ? rows : standing, status);
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_read_selected(fieldscribe_modbus_unit *unit,
+    fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
+    const fieldscribe_modbus_reading *what, uint16_t *words)
+{
+    fieldscribe_modbus_status status = fieldscribe_modbus_select(unit, selected, rows);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        status = fieldscribe_modbus_read_words(unit, what, words, what->count);
+        status = fieldscribe_modbus_selects(unit, selected, selected->rows, status);
+    }
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_write_selected(fieldscribe_modbus_unit *unit,
+    fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
+    const fieldscribe_modbus_writing *what, const uint16_t *words)
+{
+    fieldscribe_modbus_status status = fieldscribe_modbus_select(unit, selected, rows);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        status = fieldscribe_modbus_write_words(unit, what, words, what->count);
+        status = fieldscribe_modbus_selects(unit, selected, rows, status);
+    }
+    return status;
 }
 
 /* True if raw numbers of the layout, which has up to 32 bits, have a sign. */

@@ -68,6 +68,19 @@ typedef struct fieldscribe_modbus_chain {
     uint8_t function;
 } fieldscribe_modbus_chain;
 
+/*
+ * What is written before an address means a point, such as a page and an index: rows up to the `last` one. The bits of
+ * `mask` in the word (or coil) at `address` become `word`; if these are not all, the function `read` reads the others.
+ */
+typedef struct fieldscribe_modbus_selection {
+    uint16_t address;
+    uint16_t mask;
+    uint16_t word;
+    uint8_t read;
+    uint8_t write;
+    bool last;
+} fieldscribe_modbus_selection;
+
 /* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
 typedef struct fieldscribe_modbus_r {
     const fieldscribe_layout *layout;

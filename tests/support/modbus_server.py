@@ -7,6 +7,7 @@ import socket
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from pymodbus import FramerType
 from pymodbus.server import ModbusTcpServer
@@ -14,11 +15,16 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 
 
 @contextmanager
-def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7, addresses: int = 0x1400) -> Iterator[int]:
-    """A server of pymodbus in a thread of its own, of units 1 and 2, with that number in each register; its port."""
+def server(
+    framer: FramerType = FramerType.SOCKET, *, word: int = 7, addresses: int = 0x1400, action: Any = None
+) -> Iterator[int]:
+    """A server of pymodbus in a thread of its own, of units 1 and 2, with that number in each register; its port.
+
+    The action is what pymodbus calls before it answers a request.
+    """
     words = [SimData(0, count=addresses, values=word, datatype=DataType.REGISTERS)]
     bits = [SimData(0, count=64, values=False, datatype=DataType.BITS)]
-    devices = [SimDevice(id=unit, simdata=(bits, bits, words, words)) for unit in (1, 2)]
+    devices = [SimDevice(id=unit, simdata=(bits, bits, words, words), action=action) for unit in (1, 2)]
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

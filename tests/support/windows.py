@@ -1,10 +1,39 @@
-"""The registers of the kitchen sink whose meaning a page and an index select."""
+"""Registers of the kitchen sink whose meaning a page and an index select, and what clients do with them in order."""
 
 from __future__ import annotations
 
-from support.blocks import Registers
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from support.blocks import Registers, served
+from support.modbus_server import server
 
 PAGE, INDEX, WINDOW = 0x7500, 0x7501, 0x7510
+HELD = [
+    *("ok 20", "ok 102", "ok 1", "ok 20", "ok", "ok 1", "ok 45", "ok", "ok 45", "out_of_range", "ok 45"),
+    *("exception", "ok 45"),
+]
+"""What programs print: reads in counts, writes, one of a number beyond the range, and a read of what is not there."""
+VALUES = [
+    *("ok 2", "ok 102", "ok inputs", "ok 2", "ok", "ok on", "ok 4.5", "ok", "ok 4.5", "out_of_range", "ok 4.5"),
+    *("exception", "ok 4.5"),
+]
+"""The same in values."""
+SENT = [
+    *((PAGE, 1), (INDEX, 11)),
+    *((INDEX, 12), (WINDOW, 45)),
+    (PAGE, 2),
+    *((PAGE, 1), (INDEX, 12)),
+    *((PAGE, 0), (PAGE, 1), (INDEX, 12)),
+    *((PAGE, 1), (INDEX, 12)),
+]
+"""What they write meanwhile: whatever does not stand by what was selected last, and again after a failure."""
+
+
+def registers() -> dict[tuple[int, int], list[int]]:
+    """Return what is behind the window by page and index, which counts on the page of the inputs alone."""
+    return {(1, 9 + index): [10 * index, 0, 100 + index] for index in (1, 2, 3)} | {(2, 0): [1, 0, 0]}
 
 
 class Windowed(Registers):
@@ -12,7 +41,7 @@ class Windowed(Registers):
 
     def __init__(self) -> None:
         super().__init__({PAGE: 0, INDEX: 0})
-        self.behind = {(1, 9 + index): [10 * index, 0, 100 + index] for index in (1, 2, 3)} | {(2, 0): [1, 0, 0]}
+        self.behind = registers()
         self.sent: list[tuple[int, int]] = []
         self.is_dead = False
 
@@ -28,3 +57,31 @@ class Windowed(Registers):
             if address == WINDOW:
                 words[0] = value
         return super()._answer(pdu)
+
+
+@contextmanager
+def over_tcp() -> Iterator[tuple[int, list[tuple[int, int]]]]:
+    """Yield the port of such registers, and what was written."""
+    line = Windowed()
+    line.framing = "tcp"
+    with served(line) as port:
+        yield port, line.sent
+
+
+@contextmanager
+def by_pymodbus() -> Iterator[tuple[int, list[tuple[int, int]]]]:
+    """Yield the port of a server of pymodbus with such registers, and what was written."""
+    behind, sent = registers(), list[tuple[int, int]]()
+
+    async def follow(_function: int, start: int, address: int, *rest: Any) -> None:
+        _count, held, new = rest
+        page, index = held[PAGE - start], held[INDEX - start]
+        words = behind.get((page, index if page == 1 else 0), [0, 0, 0])
+        if new is not None:
+            sent.append((address, int(new[0])))
+            if address == WINDOW:
+                words[0] = int(new[0])
+        held[WINDOW - start : WINDOW - start + 3] = words
+
+    with server(word=0, addresses=0x7600, action=follow) as port:
+        yield port, sent

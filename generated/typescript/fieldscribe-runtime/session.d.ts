@@ -25,9 +25,9 @@ export class Session {
     _profile: any;
     /** @type {PointRaws} */
     _kept: PointRaws;
-    /** What points hold that select the meaning of addresses, as far as it was written and stands.
-     * @type {Map<AnyPoint, number>} */
-    _selected: Map<AnyPoint, number>;
+    /** What was selected last, by point; forgotten when an exchange fails, or something else is written.
+     * @type {Map<string, number>} */
+    _selected: Map<string, number>;
     /** What `readMany` does not request again. @type {Refusals} */
     _refused: Refusals;
     _isFirstDue: boolean;

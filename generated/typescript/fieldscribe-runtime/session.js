@@ -71,8 +71,8 @@ export class Session {
     this._profile = this.table.facts.profile;
     /** @type {PointRaws} */
     this._kept = new Map();
-    /** What points hold that select the meaning of addresses, as far as it was written and stands.
-     * @type {Map<AnyPoint, number>} */
+    /** What was selected last, by point; forgotten when an exchange fails, or something else is written.
+     * @type {Map<string, number>} */
     this._selected = new Map();
     /** What `readMany` does not request again. @type {Refusals} */
     this._refused = new Map();
@@ -285,6 +285,7 @@ export class Session {
         throw new EchoError(text, error.written, error.answered);
       }
     });
+    this._selected = new Map(point.facts.selects);
   }
 
   /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
@@ -302,7 +303,7 @@ export class Session {
       const places = [kept, ...changing].flatMap((point) => [point.at, point.facts.writeAt ?? point.at]);
       if (places.some((one) => placesOverlap(at, one))) this._kept.delete(kept);
     }
-    for (const one of [...this._selected.keys()]) if (placesOverlap(at, one.at)) this._selected.delete(one);
+    this._selected.clear();
     for (const point of [...this._refused.keys()]) if (point.facts.when) this._refused.delete(point); // it may exist now
     await this._store(at, words);
   }
@@ -310,12 +311,11 @@ export class Session {
   /** Write what other points must hold before the address of this one means it, unless they hold it.
    * @param {AnyPoint} point */
   async _select(point) {
+    const selected = new Map(this._selected);
     for (const [name, raw] of point.facts.selects ?? []) {
-      const other = this.table.resolved(name, this.variants);
-      if (this._selected.get(other) === raw) continue;
-      await this._putRaw(other, raw, {});
-      this._selected.set(other, raw);
+      if (selected.get(name) !== raw) await this._putRaw(this.table.resolved(name, this.variants), raw, {});
     }
+    if (point.facts.selects) this._selected = new Map(point.facts.selects);
   }
 
   /** Read the raw numbers of several points, those together whose addresses mean them at the same time.

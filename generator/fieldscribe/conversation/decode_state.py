@@ -96,9 +96,8 @@ class Directory:
         places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
         for point in device.points:
             places.setdefault(point.name, set()).add((point.addresses, point.index))
-        selecting = {name for point in device.points for name, _ in point.selects}
-        self.has_selections = bool(selecting)
-        rules = selecting.union(*(point.arguments for point in device.points))
+        self.has_selections = bool(device.selecting)
+        rules = device.selecting.union(*(point.arguments for point in device.points))
         self._settings = {name for name in rules if len(places.get(name, ())) == 1}
         named = ((point.telegram or "", point) for point in device.points if point.addresses)
         self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}

@@ -84,14 +84,17 @@ class Snapshot:
 
 
 def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
-    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that is lost."""
+    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that is lost.
+
+    What selects the meaning of addresses is left out: reading what it selects writes it.
+    """
     raws: dict[str, int] = {}
     missing: dict[str, str] = {}
-    reads = PartialReads(device)
+    reads, left_out = PartialReads(device), model.selecting
     for number, group in enumerate(device.GROUPS, 1):
         progress(f"reading group {number} of {len(device.GROUPS)}: {group}")
-        inside = [point.item for point in model.points if point.group == group and may_be_read(model, point)]
-        values = reads.read(group, inside)
+        points = [point for point in model.points if point.group == group and point.name not in left_out]
+        values = reads.read(group, [point.item for point in points if may_be_read(model, point)])
         if reads.gone is not None:
             raise reads.gone
         for row, value in zip(device.rows(values), values.values(), strict=True):
@@ -105,8 +108,8 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
                 missing[row["name"]] = in_words(error)
     variants = {axis: value for axis, value in device.variants.items() if value is not None}
     taken = datetime.now(UTC).isoformat(timespec="seconds")
-    points = dict(_held(model, raws))
-    return Snapshot(model.id, model.version, model.digest, line, device.unit, taken, variants, [], points, missing)
+    held = dict(_held(model, raws))
+    return Snapshot(model.id, model.version, model.digest, line, device.unit, taken, variants, [], held, missing)
 
 
 def defaults(model: Device) -> Snapshot:

@@ -5,7 +5,7 @@ A command may be several requests in order, each with the words that follow from
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, Self
 
@@ -445,6 +445,17 @@ class Device:
     def all_commands(self) -> tuple[Command | SteppedCommand, ...]:
         """The commands, those with steps last."""
         return *self.commands, *self.stepped_commands
+
+    def selections(self, point: Point) -> Iterator[tuple[Point, int]]:
+        """Yield the points that select a point, those of its variant, with the raw numbers that they must hold."""
+        for name, raw in point.selects:
+            others = (other for other in self.points if other.name == name)
+            yield min(others, key=lambda other: other.variant != point.variant), raw
+
+    @property
+    def selecting(self) -> frozenset[str]:
+        """The names of the points that select what addresses mean."""
+        return frozenset(name for point in self.points for name, _ in point.selects)
 
     @property
     def doubts(self) -> tuple[Erratum, ...]:

@@ -114,7 +114,8 @@ class Analysis:
         scope, header = self.scope, self.scope.header
         variants = {axis: tuple(entry["values"]) for axis, entry in scope.axes.items()}
         ids = {about: tuple(dict.fromkeys(each.erratum.id for each in errata)) for about, errata in self.cited.items()}
-        points = tuple([replace(point, errata=ids[point.name]) if point.name in ids else point for point in resolved])
+        named = (replace(point, errata=ids[point.name]) if point.name in ids else point for point in resolved)
+        points = _written_both_ways(tuple(named))
         return Device(
             id=str(header["device"]),
             version=str(header.get("version", _NO_VERSION)),
@@ -151,6 +152,20 @@ class Analysis:
         reader = reader_of(self.scope)
         planned = {group: reader.blocks(self.bus, members, variants) for group, members in by_group.items()}
         return {group: blocks for group, blocks in planned.items() if blocks is not None}
+
+
+def _written_both_ways(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the points, of which those that another one is written with name that one, too."""
+    by_partner: dict[str, dict[str, None]] = {}
+    for point in points:
+        for name in point.write_with:
+            by_partner.setdefault(name, {})[point.name] = None
+    return tuple([_written_with(point, by_partner.get(point.name, {})) for point in points]) if by_partner else points
+
+
+def _written_with(point: Point, others: Iterable[str]) -> Point:
+    together = tuple(dict.fromkeys((*point.write_with, *others)))
+    return point if together == point.write_with else replace(point, terms=replace(point.terms, write_with=together))
 
 
 def _groups(scope: Scope) -> Iterator[Group]:

@@ -153,8 +153,7 @@ class SimulatedDevice:
         if self.strict:
             self._look_at_conditions(area, addresses)
             self._look_at_parts(area, addresses)
-        held = self.memory.areas.get(area, {})
-        return [held[address] for address in addresses]
+        return self.memory.held(area, addresses)
 
     def write(self, area: Area, cells: Mapping[int, int], *, keep: bool | None = None) -> list[Point]:
         """Write cells by address and return the points that they touch; nothing is written if one point refuses.
@@ -321,7 +320,7 @@ class SimulatedDevice:
     def _look_at_parts(self, area: Area, addresses: Sequence[int]) -> None:
         inside = set(addresses)
         for point in {p.name: p for a in addresses for p in self.layout.readers.get(area, {}).get(a, ())}.values():
-            if not inside.issuperset(self.layout.cells[point.name].addresses):
+            if self.memory.exists(point) and not inside.issuperset(self.layout.cells[point.name].addresses):
                 self.complain("a part of a number", f"a read has a part of {label(point)}", point.source)
 
 

@@ -81,6 +81,9 @@ class Layout:
         """The points that have a part in a cell when it is read."""
         self.writers: dict[Area, dict[int, tuple[Point, ...]]] = {}
         """The points that have a part in a cell when it is written."""
+        self.windows: dict[Area, dict[int, tuple[Point, ...]]] = {}
+        """The points that have a cell only while others select them; each selection has an area of its own."""
+        self._selections: dict[tuple[tuple[str, int], ...], int] = {(): 0}
         for point in self.points.values():
             self._place(point)
         self.commands: dict[tuple[Area, int], Command] = {
@@ -121,10 +124,15 @@ class Layout:
 
     def _place(self, point: Point) -> None:
         name = point.name
-        self.cells[name] = cells = self._cells(point, point.place)
-        self._share(self.readers, cells, point)
-        self.written[name] = written = cells if point.write_place is None else self._cells(point, point.write_place)
-        self._share(self.writers, written, point)
+        cells = self._cells(point, point.place)
+        written = cells if point.write_place is None else self._cells(point, point.write_place)
+        for of, shared in ((self.readers, cells), (self.writers, written)):
+            self._share(of, shared, point)
+        if point.selects:
+            self._share(self.windows, cells, point)
+            space, number = cells.area[0], self._selections.setdefault(point.selects, len(self._selections))
+            cells, written = cells._replace(area=(space, number)), written._replace(area=(space, number))
+        self.cells[name], self.written[name] = cells, written
 
     @staticmethod
     def _share(of: dict[Area, dict[int, tuple[Point, ...]]], cells: Cells, point: Point) -> None:

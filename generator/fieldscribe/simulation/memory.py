@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, MutableMapping
+from collections import ChainMap
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping
 from decimal import Decimal
 from fractions import Fraction
 from random import Random
@@ -155,6 +156,21 @@ class Memory:
         """Return True if the condition of the point holds now."""
         return point.when is None or point.when.holds(self.facts)
 
+    def held(self, area: Area, addresses: Iterable[int]) -> list[int]:
+        """Return the cells at these addresses as a master sees them: those behind a window follow what is selected."""
+        here, windows = self.areas.get(area, {}), self.layout.windows.get(area)
+        if windows is None:
+            return [here[address] for address in addresses]
+        return [self._behind(here, windows.get(address, ()))[address] for address in addresses]
+
+    def _behind(self, here: Mapping[int, int], window: Iterable[Point]) -> Mapping[int, int]:
+        """Return the cells among which one of a window is now; those of the area where nothing is selected."""
+        return next((self.areas[self.layout.cells[p.name].area] for p in window if self.exists(p)), here)
+
+    def starts(self, point: Point) -> bool:
+        """Return True if a point has a number from the start: one in a window, whatever is selected first."""
+        return point.when is None or point.when.holds(ChainMap(dict(point.selects), self.facts))  # type: ignore[arg-type]  # read only
+
     def _put(self, point: Point, cells: Cells, raw: int) -> None:
         held = self.areas[cells.area]
         if point.bits is not None:
@@ -204,16 +220,18 @@ def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
     for cells in (*layout.cells.values(), *layout.written.values()):
         for address in cells.addresses:
             areas.setdefault(cells.area, {}).setdefault(address, 0)
+    for area, window in layout.windows.items():
+        areas[area] = dict.fromkeys(window, 0) | areas.get(area, {})
     reached = [(area, address) for area, addresses in layout.steps.items() for address in addresses]
     for area, address in (*layout.commands, *reached):
         areas.setdefault(area, {}).setdefault(address, 0)
     memory = Memory(layout, areas)
     for point in layout.order:
-        if point.view_of is None and memory.exists(point):
+        if point.view_of is None and memory.starts(point):
             random = Random(f"{seed} {point.name}")  # noqa: S311  # no secret
             memory.put(point.name, starting_raw(layout, point, memory.settings, random))
     for point in layout.order:
-        if point.writable and memory.exists(point):
+        if point.writable and memory.starts(point):
             memory.put(point.name, corrected_raw(point, memory.raw(point.name), memory.settings))
     return memory.areas
 

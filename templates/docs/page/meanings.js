@@ -28,7 +28,8 @@ class Places {
   /** @param {any} point @param {Record<string, number>} known @param {Record<string, number>} lasts */
   add(point, known, lasts) {
     const codec = codecOf(point);
-    for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? [])] : []) this.needed.add(name);
+    const selecting = selectionOf(codec).map(([name]) => name);
+    for (const name of codec ? [...codec.scaleNeeds, ...(codec.limitNeeds ?? []), ...selecting] : []) this.needed.add(name);
     const given = known[point.name] ?? known[point.code];
     if (codec && given !== undefined && (isFloat(codec) || Number.isInteger(given))) this.given[generatedCode().camelName(codec.name)] = codec.form.wire.raw(isFloat(codec) ? codec.form.converted(given, {}) : given);
     const { base } = point.shared;
@@ -64,11 +65,23 @@ class Places {
     return this.spots.get(`${space} ${address}${index}`) ?? [];
   }
 
-  /** Keep a number that the device reported, if a scale or a limit needs it. @param {UnitState} state @param {any} codec @param {any} raw */
+  /** The points that an address means by what the unit is known to have selected. @param {UnitState} state @param {string} space
+   * @param {number} address @returns {Spot[]} */
+  meant(state, space, address) {
+    const isHeld = (/** @type {[string, number]} */ [name, raw]) => Number(state.raws[name] ?? raw) === raw;
+    return this.at(space, address).filter(({ codec }) => selectionOf(codec).every(isHeld));
+  }
+
+  /** Keep a number that the device reported, if a scale, a limit or a selection needs it. @param {UnitState} state @param {any} codec @param {any} raw */
   learn(state, codec, raw) {
     const name = codec && generatedCode().camelName(codec.name);
     if (this.needed.has(name) && !(name in this.given)) state.raws[name] = raw;
   }
+}
+
+/** Return what other points must hold before an address means the point. @param {any} codec @returns {[string, number][]} */
+function selectionOf(codec) {
+  return (codec?.facts.selects ?? []).map((/** @type {[string, number]} */ [name, raw]) => [generatedCode().camelName(name), raw]);
 }
 
 /** Return the label of a point: `A020 base_frequency`. @param {any} point */
@@ -226,7 +239,7 @@ function spanSaid(places, state, { space, address, count, words, written = false
       ? spot.codec.fromWords(sorted.map((at) => words[at - address])) : undefined;
   };
   for (let at = address; at < address + count; at += 1) {
-    for (const spot of places.at(space, at)) {
+    for (const spot of places.meant(own, space, at)) {
       const raw = Math.min(...spot.addresses) === at ? rawOf(spot) : undefined;
       if (raw !== undefined) places.learn(own, spot.codec, raw);
     }
@@ -236,7 +249,7 @@ function spanSaid(places, state, { space, address, count, words, written = false
     unknown = [];
   };
   for (let at = address; at < address + count; at += 1) {
-    const spots = places.at(space, at);
+    const spots = places.meant(own, space, at);
     if (!spots.length) { unknown.push(at); continue; }
     flush();
     const here = spots.filter((spot) => Math.min(...spot.addresses.filter(isInside)) === at);

@@ -31,7 +31,7 @@ def lines_of(device: Device, folder: Path) -> list[str]:
     lines = []
     for verb, item, kind in re.findall(call, header):
         point, name = points[item], f"{device.id}_{item}"
-        if has_form(point):  # no layout takes or puts it; the conformance program holds its calls
+        if has_form(point) or point.selects:  # no layout, or several requests; the conformance program holds its calls
             continue
         types = f"{wire_kind(point)}, {raw_type(point)}, {kind}"
         tail = "_count" if point.has_counts else "" if point.form in PLAIN else None
@@ -61,9 +61,9 @@ def check(device: Device, way: str, out: Path) -> None:
     text = program("calls").replace("@ASK@", program(f"calls_{device.family}")).replace("LINES", "\n".join(lines))
     text = text.replace("@SAMPLES@", ", ".join(f"{number}U" for number in samples))
     text = text.replace("@VALUES@", ", ".join(f"INT64_C({value})" for value in VALUES))
-    text = (
-        text.replace("@HANDLE@", HANDLES[device.family]).replace("FAMILY", device.family).replace("DEVICE", device.id)
-    )
+    selected = ", FIELDSCRIBE_MODBUS_NOTHING_SELECTED}" if device.selecting else "}"
+    text = text.replace("@HANDLE@", HANDLES[device.family][:-1] + selected)
+    text = text.replace("FAMILY", device.family).replace("DEVICE", device.id)
     run_program(text, way, folder, out, "-Wno-unused-function")
 
 

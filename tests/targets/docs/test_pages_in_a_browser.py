@@ -10,9 +10,10 @@ from random import Random
 from typing import Any, NamedTuple
 
 import pytest
+from fieldscribe.cli import main
 from support.described import SHIPPED, shipped
 from support.made_once import made_once
-from support.places import ROOT
+from support.places import ROOT, TESTS
 from support.quick import full_but
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool
 from support.vector_file import File, Vector, counts_of
@@ -78,6 +79,10 @@ TYPED = (
     ("woodward_mpu2s", NOISE, "without a frame"),
 )
 """Device, what is pasted, and what the page says then: of all lines, and of single ones."""
+SINK = TESTS / "devices/kitchen_sink"
+PAGE, INDEX, WRITE = "0106750000015206", "01067501000b83c1", "01067510002d521e"
+WINDOW = ((PAGE, PAGE, WRITE), (PAGE, PAGE, INDEX, INDEX, WRITE))
+"""A write to a window whose page, and then whose index too, the device has taken before."""
 SNIPPETS = {
     "c": (r"\b(?:{0}|fieldscribe)_(?!\w+\.h)\w+", ("{}*.h", "fieldscribe*.h")),
     "python": (r"(?:device\.|point = \w+\.|import )(\w+)", ("{}/*.py",)),
@@ -112,10 +117,14 @@ def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
             str(ROOT / f"generated/docs/{device}.html"): {
                 "jobs": [{"text": "\n".join(job.frames), "settings": job.settings} for job in _jobs(device)],
                 "typed": [text for of, text, *_ in TYPED if of == device],
-                "spoil": _spoiled_line(device),
+                "spoil": _spoiled_line(_vectors(device)),
             }
             for device in SHIPPED
         }
+        assert main(["generate", str(SINK), "--target", "docs,vectors", "--out", str(folder)]) == 0
+        spoiled = _spoiled_line((folder / "vectors/kitchen_sink.txt").read_text("utf-8"))
+        jobs = [{"text": "\n".join(frames), "settings": {}} for frames in WINDOW]
+        texts[str(folder / "docs/kitchen_sink.html")] = {"jobs": jobs, "typed": [], "spoil": spoiled}
         (folder / "jobs.json").write_text(json.dumps(texts), "utf-8")
         program = Path(__file__).with_name("try_pages.mjs")
         browser = tool("chromium-headless-shell")
@@ -132,9 +141,9 @@ def _vectors(device: str) -> str:
     return (ROOT / f"generated/vectors/{device}.txt").read_text("utf-8")
 
 
-def _spoiled_line(device: str) -> tuple[str, str]:
+def _spoiled_line(vectors: str) -> tuple[str, str]:
     """A line of the vectors, and the same with another address."""
-    line = next(line for line in _vectors(device).split("\n") if line.startswith("address\t"))
+    line = next(line for line in vectors.split("\n") if line.startswith("address\t"))
     kind, space, address, *others = line.split("\t")
     return line, "\t".join((kind, space, str(int(address) + 1), *others))
 
@@ -232,6 +241,13 @@ def test_every_frame_of_the_vectors(device: str, heard: dict[str, Any]) -> None:
     assert len(jobs) > 100
     pairs = zip(jobs, heard[device]["decoded"], strict=True)
     assert [(why, job, frames[-1]) for job, frames in pairs if (why := _wrong(job, frames))] == []
+
+
+def test_an_address_means_what_is_selected(heard: dict[str, Any]) -> None:
+    """Of a write to the window: behind its page alone, and behind page and index."""
+    early, late = (frames[-1]["said"] for frames in heard["kitchen_sink"]["decoded"])
+    assert [each["name"] for each in late] == ["input_delay_index_2"]
+    assert {each["name"] for each in early} == {f"input_delay_index_{index}" for index in (1, 2, 3)}
 
 
 @pytest.mark.parametrize("place", range(len(TYPED)))

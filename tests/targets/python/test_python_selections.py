@@ -46,7 +46,7 @@ def test_what_may_have_changed_is_written_again(package: Any) -> None:
     device.input_delay_index_1.read()
     device.page.write(0)
     assert device.input_delay_index_1.read() == 1.0
-    assert line.sent == [(PAGE, 1), (INDEX, 10), (PAGE, 0), (PAGE, 1)]
+    assert line.sent == [(PAGE, 1), (INDEX, 10), (PAGE, 0), (PAGE, 1), (INDEX, 10)]
     line.is_dead = True
     assert status(device.input_delay_index_1.read)[0] == "timeout"
     line.is_dead, line.sent = False, []

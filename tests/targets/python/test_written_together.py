@@ -14,10 +14,10 @@ from support.python_package import Slave
 
 POINTS = """\
 - {name: low, at: 0, range: 0..high, write_with: [high]}
-- {name: high, at: 1, range: low..100, write_with: [low]}
+- {name: high, at: 1, range: low..100}
 - {name: mode, at: 5, bits: 3..0, write_with: [gain, wide]}
 - {name: gain, at: 5, bits: 11..8, write_with: [mode]}
-- {name: wide, at: 6, type: u32, write_with: [mode]}
+- {name: wide, at: 6, type: u32}
 - {name: seen, at: 8, access: r}
 - {name: far, at: 20}
 """
@@ -61,6 +61,8 @@ def test_the_async_device_does_the_same(tmp_path: Path) -> None:
     ("values", "kind", "message"),
     [
         ({"low": 1}, RequestError, "low is written in one request with high"),
+        ({"high": 2}, RequestError, "high is written in one request with low"),
+        ({"gain": 1, "wide": 2}, RequestError, "gain is written in one request with mode"),
         ({"mode": 1, "gain": 2}, RequestError, "mode is written in one request with wide"),
         ({"low": 1, "high": 2, "far": 3}, RequestError, "takes points that one request can write: side by side"),
         ({}, RequestError, "takes points that one request can write"),

@@ -37,7 +37,7 @@ def test_what_does_not_stand_is_written_before(line: Windowed, node: NodeDevice)
     assert line.sent == [(PAGE, 1), (INDEX, 11), (INDEX, 12), (WINDOW, 45)]
     node("page", "write", 0)
     assert node("input_delay_index_3", "read") == 4.5
-    assert line.sent[4:] == [(PAGE, 0), (PAGE, 1)]
+    assert line.sent[4:] == [(PAGE, 0), (PAGE, 1), (INDEX, 12)]
     line.sent.clear()
     counted = {f"inputCounterIndex{index}": 100 + index for index in (1, 2, 3)}
     delays = {"inputDelayIndex1": 1, "inputDelayIndex2": 2, "inputDelayIndex3": 4.5}

@@ -1152,10 +1152,12 @@ where
     vector.expect(P::encode(Reading::Value(digits)), "raw", true)
 }
 
-/// A transport that expects what the script of a vector says is sent, in any order, and answers as it says.
+/// A transport that expects what the script of a vector says is sent, and answers as it says.
 pub struct Script {
     /// The bytes of the transaction, which is the same in all steps.
     head: usize,
+    /// Whether all came in the order of the script so far.
+    in_order: bool,
     steps: Vec<(Vec<u8>, Vec<u8>)>,
     fault: Option<String>,
 }
@@ -1169,6 +1171,7 @@ impl Script {
         let is_tcp = vector.said("framing").as_deref() == Some("tcp");
         Self {
             head: if is_tcp { 2 } else { 0 },
+            in_order: true,
             steps: steps.collect(),
             fault: None,
         }
@@ -1184,6 +1187,7 @@ impl Script {
         if place.is_none() {
             self.fault = Some(format!("sent {}", hex(request)));
         }
+        self.in_order &= place == Some(0);
         let (sent, mut answer) = self.steps.remove(place?);
         let own = sent.iter().zip(request).take(self.head);
         for (byte, (one, other)) in answer.iter_mut().zip(own) {
@@ -1197,8 +1201,11 @@ impl Script {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// That all was sent that should be, and nothing else.
+    /// That all was sent that should be, in this order, and nothing else.
     pub fn done(&self) -> Outcome {
+        if !self.in_order {
+            return Err("it was sent in another order".to_owned());
+        }
         let left = self.steps.first();
         let left = left.map(|(sent, _)| format!("{} was not sent", hex(sent)));
         self.fault.clone().or(left).map_or(Ok(()), Err)

@@ -86,7 +86,7 @@ impl<D> PointInfo<D> {
     /// The points whose raw numbers `decode` needs, in this order.
     #[must_use]
     pub fn needs(self) -> Points<D> {
-        Points::new((self.facts.needs)())
+        Points::new((self.facts.others)().needs)
     }
 
     /// The points whose raw numbers `encode` and `check` need, in this order.

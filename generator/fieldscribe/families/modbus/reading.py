@@ -71,7 +71,8 @@ def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[
     A block covers only addresses with a readable point (also a reserved one) and none of the gaps of the bus. It holds
     whole points, and at most as many items as the device allows. A point that some devices lack (by a condition, a
     firmware or a variant) has its own block, because a device refuses a whole read if one address is missing. A point
-    that no single read can fetch (no allowed function, too many words, words that are not neighbours) is in no block.
+    that no single read can fetch (no allowed function, too many words, words that are not neighbours, something to be
+    selected before) is in no block.
     """
     most = profile_of(bus).most
     lanes = _lanes(points, variants)
@@ -98,7 +99,7 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
         if _always_there(point, variants_at, variants):
             lane.crossable.update(addresses)
         low, end = min(addresses), max(addresses) + 1
-        if point.generated and end - low == len(addresses):
+        if point.generated and end - low == len(addresses) and not point.terms.selects:
             lane.spans.append((low, end, point.name))
     return lanes
 

@@ -22,6 +22,8 @@ class Transfer(NamedTuple):
     """The name of the base of the addresses; empty if they count from 0."""
     texts: bool = False
     """Whether the requests carry the words of a text, too, for which the family has macros."""
+    selects: str = ""
+    """The arguments that say what is written before; empty if nothing is."""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
@@ -39,12 +41,13 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
     handle, (value, kind, tail) = [f"{scope.prefix}_device *device"], _value(view)
     if transfer.base:
         handle.append(f"fieldscribe_{transfer.family}_base base")
-    based = f"{start}BASED_" if transfer.base else start
+    based = f"{start}BASED_" if transfer.base else f"{start}SELECTED_" if transfer.selects else start
+    selects = [transfer.selects] if transfer.selects else []
     if transfer.read:
         names = point.scale_arguments if view.shape == "ruled" and tail else ()
         parameters = [*handle, *scope.parameters(point, names), f"{kind} *{value}"]
         way, *arguments = _decoding(view, value, tail, scope.passed(names))
-        body = called(f"{based}{way}_WORD{_several(view)}", transfer.read, *arguments)
+        body = called(f"{based}{way}_WORD{_several(view)}", *selects, transfer.read, *arguments)
         yield function(f"{start}CALL", f"{scope.prefix}_read_{view.fields.item}", parameters, body)
     for verb, to in (("write", transfer.write), ("store", transfer.store)):
         if to:
@@ -53,7 +56,8 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
             where = to if point.bits is None else f"{transfer.read}, {to}"
             way = "WRITE" if point.bits is None else "UPDATE"
             encoded = _encoding(view, kind, value, tail, scope.passed(names))
-            body = called(f"{based}{way}_WORD{_several(view)}", where, view.raw_type, encoded, _bits_of_raw(view))
+            kind_of_raw, bits = view.raw_type, _bits_of_raw(view)
+            body = called(f"{based}{way}_WORD{_several(view)}", *selects, where, kind_of_raw, encoded, bits)
             yield function(f"{start}CALL", f"{scope.prefix}_{verb}_{view.fields.item}", parameters, body)
 
 

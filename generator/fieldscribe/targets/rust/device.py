@@ -86,7 +86,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "uses_with": bool(structs),
         "reads_needs": bool(read),
         "device_type": scope.device_type,
-        "clients": tuple(_clients(device.family, of_family.client_parameter, scope.device_type)),
+        "clients": tuple(_clients(device, of_family.client_parameter, scope.device_type)),
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
         "id_literal": rust_string(device.id),
@@ -113,12 +113,13 @@ _CLIENTS = (
 )
 
 
-def _clients(family: str, parameter: tuple[str, str, str] | None, device: str) -> Iterator[tuple[str, Lines]]:
+def _clients(device: Device, parameter: tuple[str, str, str] | None, of_type: str) -> Iterator[tuple[str, Lines]]:
     """Yield the comment and the lines of each type of client of the device."""
     name, default, _ = parameter or ("", "", "")
     declared, given = (f"T, {name} = {default}", f"T, {name}") if parameter else ("T", "T")
     for name, kind in _CLIENTS:
-        client = f"runtime::{family}::{name}<{given}, {device}>"
+        remembers = f", runtime::{device.family}::Remembers" if device.selecting else ""
+        client = f"runtime::{device.family}::{name}<{given}, {of_type}{remembers}>"
         yield f"A device behind a transport {kind}.", binding(0, Item(f"pub type {name}<{declared}>"), client)
 
 

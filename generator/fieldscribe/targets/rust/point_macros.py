@@ -119,7 +119,7 @@ def _is_long(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> boo
 def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
     """Yield the further facts in the order of the macro."""
     point = subject.point
-    yield from _whereabouts(point, fields)
+    yield from _whereabouts(point, fields, scope)
     if fields.references:
         yield fields.references
     if point.unit.symbol:
@@ -147,10 +147,13 @@ def _names_runtime(subject: CratePoint) -> bool:
     return point.text is not None or bool(point.scale_arguments) or (point.writable and checked)
 
 
-def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
-    """Yield the facts about addresses, index, telegram and constant bits."""
+def _whereabouts(point: Point, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
+    """Yield the facts about addresses, what selects them, index, telegram and constant bits."""
     counted = f" from {rust_string(point.base)}" if point.base else ""
     yield f"at {space_variant(point.space)} {fields.address}{counted};"
+    if point.selects:
+        held = [f"{type_name(other.item)} {integer(raw)}" for other, raw in scope.lowered.device.selections(point)]
+        yield "\n    ".join(filled("selects ", ", ", held, ";"))
     if fields.addresses:
         yield fields.addresses
     if point.words != 1:

@@ -62,7 +62,7 @@ class Exchanges:
         for point in self.points.values():
             kinds = (("read", point.readable), ("write", point.writable))
             new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
-            if new and point.bits is None and point.text is None and not point.arguments:
+            if new and point.bits is None and point.text is None and not (point.arguments or point.selects):
                 self.lines.set("point", point.item)
                 self.of(point, self.encodings.of(point))
 
@@ -126,7 +126,7 @@ class Exchanges:
         return script
 
     def _selecting(self, point: Point) -> Script:
-        """Return the exchanges that write selecting points first; clients send them by themselves."""
+        """Return the exchanges that write what other points must hold before; clients send them first."""
         script: Script = []
         for name, raw in point.selects:
             other = self.points[name]
@@ -143,12 +143,12 @@ class Exchanges:
             return
         is_text, first = typical.encoding.shape.text is not None, (kind, point.space)
         raw, words = (None, sent[1]) if is_text else (sent[0], None)
-        needs = typical.needs + self._selecting(point)
-        if is_text or needs:
-            self.lines.add(kind, script, "ok", raw, words, needs or None)
+        selecting = self._selecting(point) if point.selects else []
+        if is_text or typical.needs:
+            self.lines.add(kind, selecting + script, "ok", raw, words, typical.needs or None)
         else:  # most exchanges
-            self.lines.add_written(kind, (f"{kind}\t{script_text(script)}\tok\t{raw}",))
-        if is_text or typical.encoding.bits is not None or needs or first in self.spoiled:
+            self.lines.add_written(kind, (f"{kind}\t{script_text(selecting + script)}\tok\t{raw}",))
+        if is_text or typical.encoding.bits is not None or typical.needs or selecting or first in self.spoiled:
             return
         self.spoiled.add(first)
         for status, bad in self.wire.bad_answers(point, script, writes=kind != "read"):

@@ -83,7 +83,7 @@ class Session(NamedPoints, ABC):
         self._first = self.AUTOMATIC.get("first", ())
         """Commands that come before all else."""
         self._selected: dict[str, int] = {}
-        """What points hold that select the meaning of addresses, by name, as far as it was written and stands."""
+        """What was selected last, by point; forgotten when an exchange fails, or something else is written."""
         self._gaps: frozenset[tuple[str, int]] = frozenset()
         """What lies between points, and no read may pass over: the space and the address."""
 
@@ -116,7 +116,7 @@ class Session(NamedPoints, ABC):
                 result = yield from ask(*arguments)
             except FieldscribeError as error:
                 is_final = left <= 0 or not error.lost
-                self._selected.clear()
+                self._selected = {}
                 self.traffic.failed(error, is_final=is_final)
                 if is_final:
                     raise
@@ -219,7 +219,7 @@ class Session(NamedPoints, ABC):
         """
         self._first = self.AUTOMATIC.get("first", ())
         self._kept.clear()
-        self._selected.clear()
+        self._selected = {}
         self._refused.clear()
         self._gaps = frozenset()
 
@@ -328,6 +328,7 @@ class Session(NamedPoints, ABC):
             except FieldscribeError as error:
                 self._add_condition(error, point)
                 raise
+        self._selected = dict(point.facts.selects)
 
     def _write_together_steps(self, values: Mapping[Any, Any], *, as_raw: bool = False) -> Steps[None]:
         """Write several points in one request; each is checked with the new numbers of those before it."""
@@ -353,6 +354,7 @@ class Session(NamedPoints, ABC):
                 else:
                     words.update(zip(addresses, point.to_words(raw), strict=True))
             yield from self._put_steps(place, tuple([words[address] for address in place.addresses]))
+        self._selected = dict(next(iter(points)).facts.selects)
 
     def _writable_point(self, one: Any) -> Encoding[Any]:
         point = self._own(one)
@@ -386,16 +388,16 @@ class Session(NamedPoints, ABC):
                 del self._kept[item]
         for item in [item for item in self._refused if self.POINTS[item].facts.when]:
             del self._refused[item]  # perhaps it exists now
-        for name in [name for name in self._selected if place.overlaps(self._resolved(name).facts.at)]:
-            del self._selected[name]
+        self._selected = {}
         yield from self._store_steps(place, values)
 
     def _select_steps(self, point: Point) -> Steps[None]:
         """Write what other points must hold before the address of this one means it, unless they hold it."""
+        selected = self._selected
         for name, raw in point.facts.selects:
-            if self._selected.get(name) != raw:
+            if selected.get(name) != raw:
                 yield from self._put_raw_steps(self._resolved(name), raw, None, NO_RAWS)
-                self._selected[name] = raw
+        self._selected = dict(point.facts.selects) or self._selected
 
     def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.

@@ -41,13 +41,56 @@ pub struct PointFacts {
     /// What can be done with it.
     pub access: Access,
     pub(crate) write_address: u16,
-    pub(crate) needs: fn() -> &'static [&'static Self],
+    pub(crate) others: fn() -> Others,
     pub(crate) writing: Option<Writing>,
     pub(super) form: Form,
     pub(super) raw: RawType,
     pub(super) ends: (i128, i128),
     pub(super) codes: &'static dyn Codes,
     pub(super) fixed: (u32, u32),
+}
+
+/// What a point must hold before an address means another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Selection {
+    /// The point, such as a page or an index.
+    pub point: &'static PointFacts,
+    /// Its raw number.
+    pub raw: i128,
+}
+
+impl Selection {
+    /// That the point holds this raw number.
+    #[must_use]
+    pub const fn of<P: Point>(raw: i128) -> Self {
+        let point = P::FACTS;
+        Self { point, raw }
+    }
+}
+
+/// What a point needs of others before it is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Others {
+    /// The points whose raw numbers decoding needs.
+    pub needs: &'static [&'static PointFacts],
+    /// What is written before the address means the point.
+    pub selects: &'static [Selection],
+}
+
+/// What a point needs of others; points that nothing selects share a function.
+#[must_use]
+pub const fn others<N: Needs, P: Point>() -> fn() -> Others {
+    if P::SELECTS.is_empty() {
+        || Others {
+            needs: N::points(),
+            selects: &[],
+        }
+    } else {
+        || Others {
+            needs: N::points(),
+            selects: P::SELECTS,
+        }
+    }
 }
 
 /// How values are made of raw numbers.
@@ -113,7 +156,7 @@ impl PointFacts {
             display_decimals: P::DISPLAY_DECIMALS,
             access: P::ACCESS,
             write_address: P::WRITE_ADDRESS,
-            needs: <()>::points,
+            others: others::<(), P>(),
             writing: None,
             form: Form::Plain,
             raw: RawType::of::<P>(),
@@ -142,10 +185,15 @@ impl PointFacts {
         Self { codes, ..self }
     }
 
-    /// The same with the points that decoding needs.
+    /// The same with what reading needs of other points.
     #[must_use]
-    pub const fn reading(self, needs: fn() -> &'static [&'static Self]) -> Self {
-        Self { needs, ..self }
+    pub const fn reading(self, others: fn() -> Others) -> Self {
+        Self { others, ..self }
+    }
+
+    /// What is written before the address means the point.
+    pub(crate) fn selects(&self) -> &'static [Selection] {
+        (self.others)().selects
     }
 
     /// The same with what may be written.

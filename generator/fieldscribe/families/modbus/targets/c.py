@@ -7,6 +7,7 @@ from functools import partial
 from itertools import chain
 
 from fieldscribe.families.modbus import FUNCTIONS, SPACES, Profile, profile_of
+from fieldscribe.families.modbus.targets.c_selections import Selections
 from fieldscribe.families.modbus.targets.identification import IdentifyView, can_identify, names_of_call
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
 from fieldscribe.targets.c.calls import Transfer
@@ -175,10 +176,11 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     stepped = stepped_views(device.stepped_commands, scope)
     bases = [_base(base, device, scope) for base in device.bases if base.block is None]
     found = device.found and f"{scope.prefix}_{device.found.name}"
+    selections = Selections(device, profile, scope)
     started = [base for base in device.bases if base.starts_block]
     ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block), base.name) for base in started]
     frames = Frames(
-        placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
+        placed, lambda point, view: _frame(point, view, profile, layouts, selections) if point.place.addresses else None
     )
     most = [unsigned(profile.most.get(number, 0)) for number in range(max(FUNCTIONS) + 1)] if profile.most else []
     to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
@@ -195,6 +197,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
             yield Owner("base", base.name), (of_block[base.block is None],)
         if found:
             yield Owner("target", "how blocks are found"), [found, f"{found}_marker", f"{found}_places"]
+        yield Owner("target", "what is selected"), list(selections.arrays)
         for view in blocks:
             yield Owner("group", view.name), (view.array, *view.values.names)
         for command, command_view in zip(device.commands, commands, strict=True):
@@ -218,6 +221,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         found=found,
         chain=device.found and _chain(device.found),
         block_ids=ids,
+        selections=selections,
         blocks=blocks,
         block_most=block_most,
         commands=commands,
@@ -271,7 +275,7 @@ def _bool(value: bool) -> str:
     return "true" if value else "false"
 
 
-def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) -> Frame | None:
+def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, selections: Selections) -> Frame | None:
     """Return the requests of a point; None if no function of the device reaches it.
 
     A point that shares its word cannot be written if its word cannot be read.
@@ -286,9 +290,11 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     name, text = f"{view.function}_frame", point.text is not None
     address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
-    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or "", True
+    selected, is_plain = selections.of(point), not point.selects
+    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or "", is_plain
+    transfer = Transfer("modbus") if selected is None else Transfer("modbus", *transfers, selected)
     if layouts.scope.calls_only and not text:
-        return Frame((), (), Transfer("modbus", *transfers))
+        return Frame((), (), transfer)
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]
     parts += [
@@ -297,8 +303,9 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
-    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) else None
-    return Frame((descriptor,), tuple(_cases(point, view, access)), Transfer("modbus", *transfers), row)
+    row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) and not point.selects else None
+    cases = () if selected is None else tuple(_cases(point, view, access, selected))
+    return Frame((descriptor,), cases, transfer, row)
 
 
 def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
@@ -317,9 +324,11 @@ def _transfer(function: int | None, address: str, words: int) -> str:
     return f"{unsigned(function)}, {address}{f', {words}U' if words > 1 else ''}"
 
 
-def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
+def _cases(point: Point, view: PointView, access: str, selected: str) -> Iterator[str]:
     """Yield the macros by which the conformance program runs the exchanges of a point."""
     name, text = f"{view.function}_frame", point.text is not None
+    if point.selects:
+        yield f"SELECTED({selected})"
     if point.base:
         yield f'AT_BASE(fieldscribe_modbus_{"text_" if text else ""}{access}, {name}, "{point.base}")'
         yield from (f"{word}_AT_BASE" for letter, word in _MOVED.items() if letter in access)

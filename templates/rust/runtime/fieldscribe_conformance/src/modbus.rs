@@ -92,11 +92,18 @@ fn framing(vector: &Vector) -> Framing {
     }
 }
 
-/// A point that cannot be read is written as it is.
+/// A point that cannot be read is written as it is; one that others select by a client, which writes these first.
 pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Writable<Raw: Number> + Whole,
 {
+    if !P::SELECTS.is_empty() {
+        same(
+            true,
+            crate::written_data_of(vector, P::INFO.any()).is_some(),
+        )?;
+        return write_data(vector, profile, P::INFO.any());
+    }
     let unit = vector.raw("unit");
     let request = Request::write::<P>(unit, vector.raw("raw")).at(&base(vector, P::BASE));
     let mut client = Client::for_profile(Script::new(vector), profile, framing(vector), unit);

@@ -49,7 +49,7 @@ pub mod uss;
 
 pub use client::{AsyncTransport, LocalTransport, Transport};
 pub use client_error::{About, ClientError};
-pub use data::{AnyValue, PointFacts};
+pub use data::{AnyValue, PointFacts, Selection};
 pub use date_time::DateTime;
 pub use device::{Accepts, AnyDevice, Device};
 pub use display::{Displayed, Shown};

@@ -6,8 +6,9 @@
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
-/// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[addresses [...]]` in reading order,
-///   `[words 2]`, `[width 24]`: the bits of a number narrower than its type, `[low_byte_first true]` of each word,
+/// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[selects Page 1]`: what other points
+///   must hold before the address means this one, `[addresses [...]]` in reading order, `[words 2]`,
+///   `[width 24]`: the bits of a number narrower than its type, `[low_byte_first true]` of each word,
 ///   `[coded true]`: a [coding](crate::coding) of its own,
 ///   `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`:
@@ -51,6 +52,7 @@ macro_rules! point {
         $(#[$attribute:meta])*
         $name:ident $(of $device:ty)?: $raw:ty = $item:literal $(, $code:literal)?;
         at $space:ident $(($other:literal))? $address:literal $(from $base:literal)?;
+        $(selects $($selecting:ident $held:literal),+;)?
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
         $(width $width:literal;)?
@@ -86,6 +88,7 @@ macro_rules! point {
             const SPACE: $crate::Space = $crate::Space::$space$(($other))?;
             const ADDRESS: u16 = $address;
             $(const BASE: &'static str = $base;)?
+            $(const SELECTS: &'static [$crate::Selection] = &[$($crate::Selection::of::<$selecting>($held)),+];)?
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
             $(const WIDTH: u32 = $width;)?
@@ -143,7 +146,7 @@ macro_rules! point {
     (@coded $codes:tt) => { &<Self as $crate::Coded>::CODES };
 
     (@reading { $(count $count:ty;)? $(with $factors:ty;)? }) => {
-        <$crate::point!(@first $($factors,)? (),) as $crate::data::Needs>::points
+        $crate::data::others::<$crate::point!(@first $($factors,)? (),), Self>()
     };
 
     (@writing $form:ident {

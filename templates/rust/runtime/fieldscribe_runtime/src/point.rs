@@ -3,7 +3,7 @@
 
 use crate::arithmetic::{extract, extract_signed, insert};
 use crate::coding::{decoded, encoded};
-use crate::data::PointFacts;
+use crate::data::{PointFacts, Selection};
 use crate::info::{Access, PointInfo};
 use crate::scale::Scale;
 use crate::{Error, Raw, Rule};
@@ -88,6 +88,8 @@ pub trait Point: Sized {
     const ADDRESS: u16;
     /// What the addresses count from, by its name; empty for 0.
     const BASE: &'static str = "";
+    /// What other points must hold before the address means this one: clients write it.
+    const SELECTS: &'static [Selection] = &[];
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
     /// How many items the request has that reads the point; of words that are not neighbours more than any request has.

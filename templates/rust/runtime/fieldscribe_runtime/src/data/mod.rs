@@ -9,7 +9,7 @@ mod words;
 
 use core::fmt;
 
-pub use facts::{ByOthers, Codes, Form, PointFacts, Writing};
+pub use facts::{others, ByOthers, Codes, Form, Others, PointFacts, Selection, Writing};
 
 pub use crate::scale::DataScale;
 

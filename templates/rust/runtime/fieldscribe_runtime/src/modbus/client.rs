@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 
 use super::base::MOST_BLOCKS;
 use super::function::read_function;
+use super::memory::{Forgets, Memory};
 use super::reply::wrong_length;
 use super::{Base, Block, Command, FoundBlock, Framing, Profile, Reply, Request, LONGEST};
 use crate::client::{
@@ -20,7 +21,7 @@ use crate::{
 };
 use crate::{
     NeedsNothing, OtherDevice, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError,
-    Variants, Whole, Writable,
+    Selection, Variants, Whole, Writable,
 };
 
 /// One unit of a bus: numbers the requests and keeps the frames.
@@ -55,10 +56,8 @@ impl Unit {
     fn number(&mut self, request: &mut Request<'_>) {
         request.place(&self.base);
         request.framing = self.framing;
-        if self.framing == Framing::Tcp {
-            self.transaction = self.transaction.wrapping_add(1);
-            request.transaction = self.transaction;
-        }
+        self.transaction = self.transaction.wrapping_add(1);
+        request.transaction = self.transaction;
     }
 
     /// The frame to send and the space for its reply: none if the request goes to all units.
@@ -132,16 +131,17 @@ macro_rules! client {
 
         #[doc = $about]
         #[derive(Debug)]
-        pub struct $client<T, D = AnyDevice> {
+        pub struct $client<T, D = AnyDevice, M = Forgets> {
             transport: T,
             unit: Unit,
+            memory: M,
             device: PhantomData<D>,
         }
 
-        impl<T: $transport, D: Device<Profile = Profile>> $client<T, D> {
+        impl<T: $transport, D: Device<Profile = Profile>, M: Memory> $client<T, D, M> {
             /// The unit of that number behind a transport.
             pub const fn new(transport: T, framing: Framing, unit: u8) -> Self {
-                Self { transport, unit: Unit::new(D::PROFILE, framing, unit), device: PhantomData }
+                Self { transport, unit: Unit::new(D::PROFILE, framing, unit), memory: M::NOTHING, device: PhantomData }
             }
         }
 
@@ -153,11 +153,11 @@ macro_rules! client {
                 framing: Framing,
                 unit: u8,
             ) -> Self {
-                Self { transport, unit: Unit::new(profile, framing, unit), device: PhantomData }
+                Self { transport, unit: Unit::new(profile, framing, unit), memory: Forgets, device: PhantomData }
             }
         }
 
-        impl<T, D> $client<T, D> {
+        impl<T, D, M> $client<T, D, M> {
             /// The same unit by another profile, as that of a gateway which translates:
             /// [`Profile::with_framings`].
             #[must_use]
@@ -181,7 +181,7 @@ macro_rules! client {
             }
         }
 
-        impl<T: $transport, D> $client<T, D> {
+        impl<T: $transport, D, M: Memory> $client<T, D, M> {
             /// Says where a base is, and which: addresses of its points count from it until another one is said.
             pub fn set_base(&mut self, base: Base) {
                 self.unit.base = base;
@@ -251,7 +251,12 @@ macro_rules! client {
             /// The words of a point, or its bit.
             $($async)? fn get<P: Readable>(&mut self, words: &mut [u16]) -> Result<(), ClientError<T::Error>> {
                 let mut request = Request::read::<P>(self.unit.number);
+                if !P::SELECTS.is_empty() {
+                    self.select(P::SELECTS)$($wait)*?;
+                }
+                let standing = self.memory.standing(self.unit.transaction);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                self.memory.keep(self.unit.transaction, standing);
                 self.unit.copy(&request, words);
                 Ok(())
             }
@@ -262,7 +267,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_block(&mut self, block: &Block<D>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
                 let mut request = Request::block(self.unit.number, block);
+                let standing = self.memory.standing(self.unit.transaction);
                 $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*?;
+                self.memory.keep(self.unit.transaction, standing);
                 Ok(self.unit.reply(&request))
             }
 
@@ -280,16 +287,45 @@ macro_rules! client {
             $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
                 let mut request = Request::write_words::<P>(self.unit.number, counted::<P>(words.as_ref()));
-                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
+                if !P::SELECTS.is_empty() {
+                    self.select(P::SELECTS)$($wait)*?;
+                }
+                let done = $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*;
+                if !P::SELECTS.is_empty() && done.is_ok() {
+                    self.memory.keep(self.unit.transaction, P::SELECTS);
+                }
+                done
+            }
+
+            /// Writes what other points must hold before the address of one means it, but what stands.
+            $($async)? fn select(&mut self, selects: &'static [Selection]) -> Result<(), ClientError<T::Error>> {
+                let standing = self.memory.standing(self.unit.transaction);
+                for Selection { point, raw } in selects.iter().filter(|row| !standing.contains(row)) {
+                    let written = self.put_here(point, *raw)$($wait)*;
+                    written.map_err(|error| error.named(point.name))?;
+                }
+                self.memory.keep(self.unit.transaction, selects);
+                Ok(())
             }
 
             data_methods! { [$($async)?], [$($wait)*], words_of put_data }
 
             /// Writes a raw number that was checked to a point as data.
             $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
+                let selects = point.selects();
+                if !selects.is_empty() {
+                    self.select(selects)$($wait)*?;
+                }
+                self.put_here(point, raw)$($wait)*?;
+                self.memory.keep(self.unit.transaction, selects);
+                Ok(())
+            }
+
+            /// Writes a raw number of a point that is selected.
+            $($async)? fn put_here(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
                 let mut before = [0; 4];
                 if point.mask.is_some() {
-                    before = self.words_of(point)$($wait)*?;
+                    before = self.words_here(point)$($wait)*?;
                 }
                 let (words, count) = point.words_from_raw(raw, before[0])?;
                 let (function, address) = point.write_place();
@@ -301,6 +337,21 @@ macro_rules! client {
 
             /// The words of a point as data, in reading order.
             $($async)? fn words_of<const N: usize>(
+                &mut self,
+                point: &PointFacts,
+            ) -> Result<[u16; N], ClientError<T::Error>> {
+                let selects = point.selects();
+                if !selects.is_empty() {
+                    self.select(selects)$($wait)*?;
+                }
+                let standing = self.memory.standing(self.unit.transaction);
+                let words = self.words_here(point)$($wait)*?;
+                self.memory.keep(self.unit.transaction, standing);
+                Ok(words)
+            }
+
+            /// The words of a point that is selected, in reading order.
+            $($async)? fn words_here<const N: usize>(
                 &mut self,
                 point: &PointFacts,
             ) -> Result<[u16; N], ClientError<T::Error>> {
@@ -336,7 +387,11 @@ macro_rules! client {
                 self.get::<P>(&mut word)$($wait)*?;
                 let [word] = word;
                 let mut request = Request::update::<P>(self.unit.number, word, raw);
-                $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*
+                let done = $ask(&mut self.transport, &mut self.unit, &mut request)$($wait)*;
+                if !P::SELECTS.is_empty() && done.is_ok() {
+                    self.memory.keep(self.unit.transaction, P::SELECTS);
+                }
+                done
             }
         }
     };

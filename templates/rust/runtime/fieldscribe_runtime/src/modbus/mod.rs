@@ -14,6 +14,7 @@
 mod base;
 mod client;
 mod function;
+mod memory;
 mod profile;
 mod reply;
 mod request;
@@ -22,6 +23,7 @@ mod steps;
 pub use base::{Base, Chain, FoundBlock, Given, GivenBase};
 pub use client::{AsyncClient, Client, LocalClient};
 pub use function::{read_function, write_function};
+pub use memory::{Forgets, Memory, Remembers};
 pub use profile::{Block, Command, Function, Profile};
 pub use reply::{reply_length, Reply};
 pub use request::{framing_of, Request};
