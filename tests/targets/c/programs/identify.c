@@ -32,7 +32,8 @@ int main(int count, char **arguments)
     static uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
     static const fieldscribe_modbus_line line = {
         &kitchen_sink_modbus_profile, buffer, sizeof buffer, &put, &get, NULL, 1000U, 100U};
-    kitchen_sink_device device = {FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_modbus_ask_tcp, 1U)};
+    kitchen_sink_device device = {
+        FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_modbus_ask_tcp, 1U), FIELDSCRIBE_MODBUS_NOTHING_SELECTED};
     kitchen_sink_identity identity = {false, 9U, 9U};
     struct sockaddr_in place;
     char name[KITCHEN_SINK_MODEL_NAME_CHARACTERS + 1U] = "";
