@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from itertools import islice
 from pathlib import Path
 from random import Random
 
@@ -120,18 +121,38 @@ def polls(random: Random, count: int) -> Iterator[bytes]:
         came += len(answer)
 
 
+def messages(lines: Iterator[str], count: int) -> Iterator[bytes]:
+    """The messages of lines of candump, as packets of SocketCAN."""
+    for line in islice(lines, count):
+        identifier, data = line.rpartition(" ")[2].split("#")
+        yield bytes.fromhex(identifier.zfill(8)) + bytes((len(data) // 2, 0, 0, 0)) + bytes.fromhex(data)
+
+
+def captures(packets: int) -> Iterator[tuple[str, str, Iterator[bytes]]]:
+    """What is in a capture, the device, and the bytes of the file."""
+    yield "Modbus, slowly changing", "hitachi_l200", captured.classic_pieces(polls(Random(1), packets))
+    for kind, words in (("slowly changing", slowly), ("random words", at_random)):
+        random = Random(1)
+        sent = messages(telegrams(random, words(random)), packets)
+        yield f"CAN, {kind}", "woodward_mpu2s", captured.classic_pieces(sent, link=227)
+
+
 def print_listening(packets: int) -> None:
-    """Print what `listen` takes for a capture, and `tshark -V` where it is installed."""
-    print(f"\n{f'a capture with {packets:,} packets':<48} {'seconds':>8} {'MiB':>5} {'ratio':>7}")
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "poll.pcap"
-        with file.open("wb") as stream:
-            stream.writelines(captured.classic_pieces(polls(Random(1), packets)))
-        tshark = shutil.which("tshark")
-        peer, memory = measured([tshark, "-V", "-r", str(file)], file) if tshark else (0.0, 0.0)
-        print(f"{'tshark -V':<48} {peer:8.2f} {memory:5.0f}" if tshark else "tshark is not installed")
-        seconds, memory = measured([FIELDSCRIBE, "listen", "hitachi_l200", "--capture", str(file)], file)
-        print(f"{'listen, which may take twice as long':<48} {seconds:8.2f} {memory:5.0f} {seconds / (peer or 1):7.2f}")
+    """Print what `listen` takes for captures, and `tshark -V` where it is installed: the mark is twice as long."""
+    print(f"\n{f'listen, captures with {packets:,} packets':<48} {'seconds':>8} {'MiB':>5} {'ratio':>7}")
+    tshark = shutil.which("tshark")
+    if tshark is None:
+        print("tshark is not installed")
+    for what, device, pieces in captures(packets):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "capture.pcap"
+            with file.open("wb") as stream:
+                stream.writelines(pieces)
+            peer, memory = measured([tshark, "-V", "-r", str(file)], file) if tshark else (0.0, 0.0)
+            if tshark:
+                print(f"{f'tshark -V: {what}':<48} {peer:8.2f} {memory:5.0f}")
+            seconds, memory = measured([FIELDSCRIBE, "listen", device, "--capture", str(file)], file)
+            print(f"{f'listen: {what}':<48} {seconds:8.2f} {memory:5.0f} {seconds / (peer or 1):7.2f}", flush=True)
 
 
 def print_streams(lines: int) -> None:

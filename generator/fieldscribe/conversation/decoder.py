@@ -125,7 +125,7 @@ class StreamDecoder:
         if isinstance(frame, decoded_frame.CutFrame):
             return decoded.result.complete(items, (*notes, frame.note))
         result = decoded.result.complete(items, notes)
-        is_settled = not any(item.point in state.incomplete for item in items)
+        is_settled = not state.incomplete or not any(item.point in state.incomplete for item in items)
         if self._frame_decoder.remembers and framings is self._framings and is_settled:
             if len(self._kept) >= _MOST_KEPT:
                 self._kept.clear()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import lru_cache, partial
+from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.meanings import Doubts, Meaning, Meanings, raw_form
@@ -36,12 +37,12 @@ class PointFormatter:
     ) -> None:
         """With `neighbours`, the points that begin at an address, each item says whether its number is in range."""
         self.device, self.point, self.base, self.written = device, point, base, written
-        self.place = dict(zip(("space", "address", "count"), base, strict=True), point=point.item, code=point.code)
+        self.place: dict[str, Any] = {"point": point.item, "code": point.code}
+        """Facts of each item, by their names."""
+        self.place.update(zip(("space", "address", "count"), base, strict=True))
         doubting = neighbours is not None and point.text is None and point.generated
         self.doubts = Doubts(device, point, neighbours) if neighbours is not None and doubting else None
         self.needs = point.arguments if written or neighbours is not None else point.scale_arguments
-        self.stays = not self.needs
-        """True if no other point counts for what it says; whoever makes it knows whether others need its number."""
         self.head, self.title = f"{label(point)} = ", english_title(point)
         self.name, self.raw_text = point.item, raw_form(point)
         self.absent = absence(device, point) if written else ""
@@ -75,7 +76,9 @@ class PointItem(Item):
 
     def __init__(self, formatter: PointFormatter, number: int, *values: int | Fraction | None) -> None:
         """`values` are the settings that the formatter needs, in its order."""
-        settings = {name: value for name, value in zip(formatter.needs, values, strict=True) if value is not None}
+        settings: dict[str, int | Fraction] = {}
+        if values:
+            settings = {name: value for name, value in zip(formatter.needs, values, strict=True) if value is not None}
         raw = None if formatter.point.text is not None else number
         self.__dict__.update(formatter.place, raw=raw, _formatter=formatter, _number=number, _settings=settings)
 
@@ -96,11 +99,6 @@ class PointItem(Item):
                 finding, unchecked = written_remarks(form.device, form.point, self._number, self._settings)
             known = self.__dict__["_known_remarks"] = finding, finding or unchecked
         return known
-
-    @property
-    def stays(self) -> bool:
-        """True if neither it needs the numbers of other points, nor they its own."""
-        return self._formatter.stays
 
     @property
     def summary(self) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 from fieldscribe.model import Bus, Point
 from fieldscribe.user_errors import RefusedError
@@ -90,15 +90,12 @@ class Item:
     doubts: tuple[str, ...] = ()
     carries: str = ""
     subject: str = ""
+    stays: ClassVar[bool] = True
+    """True if it says the same whatever other frames bring, and brings nothing that others need."""
 
     def but(self, **changes: Any) -> Item:
         """Return the same, except for these facts."""
         return Item(**{fact.name: getattr(self, fact.name) for fact in fields(Item)} | changes)
-
-    @property
-    def stays(self) -> bool:
-        """True if it says the same whatever other frames bring, and brings nothing that others need."""
-        return True
 
     @property
     def about(self) -> str:
