@@ -81,23 +81,33 @@ typedef struct fieldscribe_modbus_reply {
  * that a program which only reads links nothing that writes. `transaction` is for TCP alone.
  */
 typedef struct fieldscribe_modbus_request {
-    uint16_t transaction;
     uint8_t unit;
     uint8_t function;
     uint16_t address;
     uint16_t count;
-    uint16_t number;
     bool late; /* an answer to an earlier request may still come: ask_rtu first waits until the line is silent */
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    uint16_t transaction; /* of TCP, told from others by it */
+#endif
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    uint16_t number; /* stands behind the address: the count, or the only value of 05h, 06h and 08h */
     const uint16_t *values;
-    const struct fieldscribe_modbus_writer *writer;
+    const struct fieldscribe_modbus_writer *writer; /* NULL for a read: a program that only reads links none */
+#endif
 } fieldscribe_modbus_request;
 
 /* The request that reads a point or a block. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
     uint8_t unit, const fieldscribe_modbus_reading *what)
 {
-    const fieldscribe_modbus_request request = {
-        0U, unit, what->function, what->address, what->count, what->count, false, NULL, NULL};
+    const fieldscribe_modbus_request request = {unit, what->function, what->address, what->count, false,
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+        0U,
+#endif
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+        what->count, NULL, NULL,
+#endif
+    };
     return request;
 }
 
@@ -135,12 +145,14 @@ typedef struct fieldscribe_modbus_receiver {
     size_t length;  /* so many bytes of the answer are in the buffer, all of it when it is `done` */
     size_t dropped; /* so many bytes were no part of it */
     size_t next;    /* with so many bytes there is more to know about the answer */
-    size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
-    uint16_t transaction;
     uint8_t unit;
     uint8_t function;
-    uint8_t shortest; /* as many bytes has the shortest answer */
     bool done;
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    uint8_t shortest; /* as many bytes has the shortest answer */
+    uint16_t transaction;
+    size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
+#endif
 } fieldscribe_modbus_receiver;
 
 /*
@@ -298,11 +310,17 @@ typedef struct fieldscribe_modbus_unit {
         fieldscribe_modbus_reply *reply); /* fieldscribe_modbus_ask_rtu or _tcp */
     uint8_t number;
     uint8_t exception;    /* the device's code if the last call returned EXCEPTION, else 0 */
-    uint16_t transaction; /* of the next request; over TCP alone */
     bool late;            /* of the next request: the answer to the last one may still come */
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    uint16_t transaction; /* of the next request */
+#endif
 } fieldscribe_modbus_unit;
 /* A unit that has not been asked yet. */
-#define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, 0U, false}
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+#define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, false, 0U}
+#else
+#define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, false}
+#endif
 
 /* One word (or coil) of a unit. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
@@ -700,13 +718,23 @@ static void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
 
 static bool fieldscribe_modbus_reads(uint8_t function)
 {
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
     return (function >= 0x01U) && (function <= 0x04U);
+#else
+    (void)function;
+    return true;
+#endif
 }
 
-/* The bytes that so many items take. */
-static uint32_t fieldscribe_modbus_item_bytes(uint32_t count, bool bits)
+/* The bytes of the items that a request reads. */
+static uint32_t fieldscribe_modbus_item_bytes(const fieldscribe_modbus_request *request)
 {
-    return bits ? ((count + 7U) / 8U) : (count * 2U);
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+    if (request->function <= 0x02U) {
+        return ((uint32_t)request->count + 7U) / 8U;
+    }
+#endif
+    return (uint32_t)request->count * 2U;
 }
 
 /* The bytes of an answer that begins with this code and this byte, from its code on; 0 if it answers something else. */
@@ -721,18 +749,54 @@ static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t 
     return fieldscribe_modbus_reads(function) ? (2U + count) : 5U;
 }
 
+/* Whether a request is one to read, whatever its function. */
+static bool fieldscribe_modbus_is_read(const fieldscribe_modbus_request *request)
+{
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    return request->writer == NULL;
+#else
+    (void)request;
+    return true;
+#endif
+}
+
+/* Whether nobody answers, because the request goes to all units. */
+static bool fieldscribe_modbus_is_to_all(
+    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
+{
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    return request->unit == profile->broadcast;
+#else
+    (void)profile;
+    (void)request;
+    return false;
+#endif
+}
+
+/* Whether a unit is there, or all may be told at once. */
+static bool fieldscribe_modbus_has_unit(
+    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request, uint32_t function)
+{
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    if (fieldscribe_modbus_is_to_all(profile, request)) {
+        return ((profile->to_all >> function) & 1U) != 0U;
+    }
+#else
+    (void)function;
+#endif
+    return (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
+}
+
 /* Whether this device takes the request, whatever it writes. */
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
     const uint32_t function = request->function;
-    const uint8_t end = (request->writer == NULL) ? 0x05U : FIELDSCRIBE_MODBUS_FUNCTIONS; /* 01h to 04h read */
+    const uint8_t end = fieldscribe_modbus_is_read(request) ? FIELDSCRIBE_MODBUS_READS : FIELDSCRIBE_MODBUS_FUNCTIONS;
     if ((function >= end) || (profile->most[function] == 0U)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    if ((request->unit == profile->broadcast)
-            ? (((profile->to_all >> function) & 1U) == 0U)
-            : ((request->unit < profile->first_unit) || (request->unit > profile->last_unit))) {
+    if (!fieldscribe_modbus_has_unit(profile, request, function)) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
     if ((request->count == 0U) || (request->count > profile->most[function])) {
@@ -756,19 +820,24 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscrib
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
     fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
+    uint16_t number = request->count;
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    number = request->number;
     if (request->writer != NULL) {
         status = request->writer->put(profile, request, buffer, size);
-    } else {
+    } else
+#endif
+    {
         *size = 6U;
     }
     if (status == FIELDSCRIBE_MODBUS_OK) {
         buffer[0] = request->unit;
         buffer[1] = request->function;
         fieldscribe_modbus_put(&buffer[2], request->address);
-        fieldscribe_modbus_put(&buffer[4], request->number);
+        fieldscribe_modbus_put(&buffer[4], number);
     }
     return status;
 }
@@ -792,14 +861,16 @@ static void fieldscribe_modbus_put_values(
     const fieldscribe_modbus_request *request, uint8_t *data, uint32_t data_bytes)
 {
     uint32_t at;
-    if (request->function == 0x10U) {
-        for (at = 0U; at < (data_bytes / 2U); ++at) {
-            fieldscribe_modbus_put(data + (2U * at), request->values[at]);
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+    if (request->function == 0x0FU) {
+        for (at = 0U; at < data_bytes; ++at) {
+            data[at] = fieldscribe_modbus_coils(request, 8U * at);
         }
         return;
     }
-    for (at = 0U; at < data_bytes; ++at) {
-        data[at] = fieldscribe_modbus_coils(request, 8U * at);
+#endif
+    for (at = 0U; at < (data_bytes / 2U); ++at) {
+        fieldscribe_modbus_put(data + (2U * at), request->values[at]);
     }
 }
 
@@ -816,16 +887,21 @@ static bool fieldscribe_modbus_are_coils(const fieldscribe_modbus_request *reque
 static fieldscribe_modbus_status fieldscribe_modbus_put_several(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    uint32_t data_bytes = fieldscribe_modbus_item_bytes(request->count, request->function == 0x0FU);
+    uint32_t data_bytes = (uint32_t)request->count * 2U;
     if (request->values == NULL) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
+#if defined(FIELDSCRIBE_MODBUS_COILS)
     if (request->function == 0x0FU) {
+        data_bytes = ((uint32_t)request->count + 7U) / 8U;
         data_bytes += profile->pads_coil_bytes ? (data_bytes % 2U) : 0U;
         if (!fieldscribe_modbus_are_coils(request)) {
             return FIELDSCRIBE_MODBUS_BAD_VALUE;
         }
     }
+#else
+    (void)profile;
+#endif
     if ((data_bytes > 0xFFU) || (*size < 7U) || (data_bytes > (*size - 7U))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
@@ -840,11 +916,15 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscrib
 {
     fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
     switch (request->function) {
+#if defined(FIELDSCRIBE_MODBUS_COILS)
     case 0x05U:
         if ((request->number != 0U) && (request->number != 0xFF00U)) {
             status = FIELDSCRIBE_MODBUS_BAD_VALUE;
         }
         break;
+    case 0x0FU:
+        return fieldscribe_modbus_put_several(profile, request, buffer, size);
+#endif
     case 0x06U:
         break;
     case 0x08U:
@@ -852,7 +932,6 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscrib
             status = FIELDSCRIBE_MODBUS_BAD_ADDRESS;
         }
         break;
-    case 0x0FU:
     case 0x10U:
         return fieldscribe_modbus_put_several(profile, request, buffer, size);
     default:
@@ -880,16 +959,18 @@ static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
 static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    if (size != 5U) {
-        return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
-    }
-    if ((request->count == 0U) || (fieldscribe_modbus_get(&pdu[1]) != request->address) ||
+    if ((size != 5U) || (request->count == 0U) || (fieldscribe_modbus_get(&pdu[1]) != request->address) ||
         (fieldscribe_modbus_get(&pdu[3]) != request->number)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
     if ((request->function <= 0x08U) && (fieldscribe_modbus_room(reply) > 0U)) {
-        reply->values[0] = (request->function == 0x05U) ? (uint16_t)(request->number >> 15) : request->number;
+        reply->values[0] = request->number;
         reply->count = 1U;
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+        if (request->function == 0x05U) {
+            reply->values[0] = (uint16_t)(request->number >> 15);
+        }
+#endif
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
@@ -901,13 +982,19 @@ fieldscribe_modbus_request fieldscribe_modbus_write(
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
     fieldscribe_modbus_request request = {
-        0U, unit, what->function, what->address, 0U, 0U, false, values, &fieldscribe_modbus_writes};
+        unit, what->function, what->address, 0U, false,
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+        0U,
+#endif
+        0U, values, &fieldscribe_modbus_writes};
     if ((values != NULL) && (given > 0U) && (given >= what->count)) {
         request.count = what->count;
         request.number = (what->function > 0x08U) ? what->count : values[0];
+#if defined(FIELDSCRIBE_MODBUS_COILS)
         if (what->function == 0x05U) { /* FF00h is on; 1 stands for what is no coil */
             request.number = (uint16_t)((values[0] > 1U) ? 1U : (values[0] * 0xFF00U));
         }
+#endif
     }
     return request;
 }
@@ -917,9 +1004,12 @@ fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_
 {
     fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     *length = 0U;
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
     if (!profile->rtu) {
-        status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
-    } else if (size >= 8U) {
+        return FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    }
+#endif
+    if (size >= 8U) {
         size_t used = size - 2U;
         status = fieldscribe_modbus_put_request(profile, request, buffer, &used);
         if (status == FIELDSCRIBE_MODBUS_OK) {
@@ -928,8 +1018,6 @@ fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_
             buffer[used + 1U] = (uint8_t)(crc >> 8);
             *length = used + 2U;
         }
-    } else {
-        /* it is too small */
     }
     return status;
 }
@@ -975,28 +1063,37 @@ fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_
     return status;
 }
 
+/* The item at a place of what was read. */
+static uint16_t fieldscribe_modbus_item(const fieldscribe_modbus_request *request, const uint8_t *data, uint32_t at)
+{
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+    if (request->function <= 0x02U) {
+        return (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
+    }
+#else
+    (void)request;
+#endif
+    return fieldscribe_modbus_get(&data[2U * at]);
+}
+
 static fieldscribe_modbus_status fieldscribe_modbus_take_items(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    const bool bits = request->function <= 0x02U;
-    const uint16_t count = request->count;
-    const uint32_t bytes = fieldscribe_modbus_item_bytes(count, bits);
     uint32_t at;
-    if ((pdu[1] != bytes) || (size != (2U + (size_t)pdu[1]))) {
+    if ((uint32_t)size != (2U + fieldscribe_modbus_item_bytes(request))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (fieldscribe_modbus_room(reply) < count) {
+    if (fieldscribe_modbus_room(reply) < request->count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    reply->count = count;
-    for (at = 0U; at < count; ++at) {
-        const uint32_t byte = pdu[2U + (bits ? (at / 8U) : (2U * at))];
-        reply->values[at] = (uint16_t)(bits ? ((byte >> (at % 8U)) & 1U) : ((byte << 8) | pdu[3U + (2U * at)]));
+    reply->count = request->count;
+    for (at = 0U; at < request->count; ++at) {
+        reply->values[at] = fieldscribe_modbus_item(request, &pdu[2], at);
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer of the right unit and function, or a refusal: `size` bytes from its code on. */
+/* Reads an answer of the right unit and function, or a refusal: `size` bytes from its code on, as it says itself. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
@@ -1004,16 +1101,12 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
         reply->exception = pdu[1];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
-    return (request->writer != NULL) ? request->writer->take(request, pdu, size, reply)
-                                     : fieldscribe_modbus_take_items(request, pdu, size, reply);
-}
-
-/* The same where the head of a frame says how long it is, whatever it brings. */
-static fieldscribe_modbus_status fieldscribe_modbus_take_tcp(
-    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
-{
-    return ((pdu[0] != request->function) && (size > 2U)) ? FIELDSCRIBE_MODBUS_LONG_FRAME
-                                                          : fieldscribe_modbus_take_answer(request, pdu, size, reply);
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    if (request->writer != NULL) {
+        return request->writer->take(request, pdu, size, reply);
+    }
+#endif
+    return fieldscribe_modbus_take_items(request, pdu, size, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -1037,6 +1130,22 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     return (pdu == 0U) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION
                        : fieldscribe_modbus_take_answer(request, &bytes[1], pdu, reply);
 }
+
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+/* The same where the head of a frame says how long it is, whatever it brings. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
+{
+    const size_t whole = (size_t)fieldscribe_modbus_pdu(request->function, pdu[0], pdu[1]);
+    if (size == whole) {
+        return fieldscribe_modbus_take_answer(request, pdu, size, reply);
+    }
+    if ((pdu[0] == request->function) && fieldscribe_modbus_is_read(request)) {
+        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+    }
+    return (size < whole) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+}
+#endif
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
@@ -1091,14 +1200,14 @@ static uint32_t fieldscribe_modbus_around(fieldscribe_modbus_framing framing)
 static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
 {
     return fieldscribe_modbus_reads(request->function)
-        ? (2U + fieldscribe_modbus_item_bytes(request->count, request->function <= 0x02U))
+        ? (2U + fieldscribe_modbus_item_bytes(request))
         : 5U;
 }
 
 uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request)
 {
-    return (request->unit == profile->broadcast)
+    return fieldscribe_modbus_is_to_all(profile, request)
         ? 0U
         : (fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request));
 }
@@ -1130,17 +1239,18 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 static size_t fieldscribe_modbus_begun_rtu(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    size_t whole = 5U; /* the shortest answer */
+    size_t whole;
     if (bytes[0] != receiver->unit) {
         return 0U;
     }
-    if (length > 1U) {
-        whole = (size_t)fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
-        if (whole == 0U) {
-            return 0U;
-        }
-        whole += 3U;
+    if (length == 1U) {
+        return 5U; /* the shortest answer */
     }
+    whole = (size_t)fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
+    if (whole == 0U) {
+        return 0U;
+    }
+    whole += 3U;
     if ((whole > receiver->size) || ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
         return 0U;
     }
@@ -1170,36 +1280,53 @@ static size_t fieldscribe_modbus_begun_tcp(
     return whole;
 }
 
-/* How frames of a kind are built, how answers begin and are read, and the bytes before their PDU and around it. */
-struct fieldscribe_modbus_wire {
-    fieldscribe_modbus_status (*build)(const fieldscribe_modbus_profile *profile,
-        const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
-    size_t (*begun)(const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
-    fieldscribe_modbus_status (*take)(
-        const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
-    uint8_t before;
-    uint8_t around;
-};
+/* The bytes of the shortest answer, which tell how long it is. */
+static size_t fieldscribe_modbus_shortest(const fieldscribe_modbus_receiver *receiver)
+{
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    return receiver->shortest;
+#else
+    (void)receiver;
+    return 5U;
+#endif
+}
 
-static const struct fieldscribe_modbus_wire fieldscribe_modbus_rtu = {
-    &fieldscribe_modbus_build_rtu, &fieldscribe_modbus_begun_rtu, &fieldscribe_modbus_take_answer, 1U, 3U};
+/* The bytes that an answer has at least of which so many have come; 0 where they begin none, or it is broken. */
+static size_t fieldscribe_modbus_begun(
+    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
+{
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    return receiver->begun(receiver, bytes, length);
+#else
+    return fieldscribe_modbus_begun_rtu(receiver, bytes, length);
+#endif
+}
 
-static const struct fieldscribe_modbus_wire fieldscribe_modbus_tcp = {
-    &fieldscribe_modbus_build_tcp, &fieldscribe_modbus_begun_tcp, &fieldscribe_modbus_take_tcp, 7U, 7U};
-
-static fieldscribe_modbus_receiver fieldscribe_modbus_await_on(const struct fieldscribe_modbus_wire *wire,
+/* A receiver for RTU. */
+static fieldscribe_modbus_receiver fieldscribe_modbus_rtu_receiver(
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    const uint8_t shortest = (uint8_t)(wire->around + 2U);
-    const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, shortest, wire->begun, request->transaction,
-        request->unit, request->function, shortest, false};
+    const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, 5U, request->unit, request->function, false,
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+        5U, request->transaction, &fieldscribe_modbus_begun_rtu,
+#endif
+    };
+    return receiver;
+}
+
+/* A receiver for TCP. */
+static fieldscribe_modbus_receiver fieldscribe_modbus_tcp_receiver(
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
+{
+    const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, 9U, request->unit, request->function, false,
+        9U, request->transaction, &fieldscribe_modbus_begun_tcp};
     return receiver;
 }
 
 fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, request, buffer, size);
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_rtu_receiver(request, buffer, size);
     const uint32_t whole = fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, request);
     receiver.done = (whole == 0U) || (whole > size);
     return receiver;
@@ -1208,7 +1335,7 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbu
 fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_tcp, request, buffer, size);
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_tcp_receiver(request, buffer, size);
     const uint32_t whole = fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, request);
     receiver.done = (whole == 0U) || (whole > size);
     return receiver;
@@ -1218,31 +1345,35 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
 {
     const size_t end = receiver->length;
-    size_t whole = receiver->shortest;
-    size_t begin;
+    size_t whole;
+    size_t from;
+    size_t rest;
     size_t at = 0U;
     bool whole_only = silence;
-    bool again;
-    do {
-        for (begin = 0U; begin < end; ++begin) {
-            const size_t least = receiver->begun(receiver, &receiver->buffer[begin], end - begin);
-            if ((least != 0U) && ((!whole_only) || (least <= (end - begin)))) {
+    for (;;) {
+        whole = fieldscribe_modbus_shortest(receiver);
+        for (from = 0U; from < end; ++from) {
+            const size_t least = fieldscribe_modbus_begun(receiver, &receiver->buffer[from], end - from);
+            if ((least != 0U) && ((!whole_only) || (least <= (end - from)))) {
                 whole = least;
                 break;
             }
         }
-        again = whole_only && (begin == end);
+        rest = end - from;
+        if ((rest > 0U) || (!whole_only)) {
+            break;
+        }
         whole_only = false;
-    } while (again);
-    receiver->next = whole;
-    receiver->length = end - begin;
-    if (whole <= receiver->length) {
-        receiver->length = whole;
-        receiver->done = true;
     }
-    receiver->dropped += end - receiver->length;
-    for (; (at < begin) && (begin < end); ++begin) {
-        receiver->buffer[at] = receiver->buffer[begin];
+    receiver->next = whole;
+    receiver->done = whole <= rest;
+    if (receiver->done) {
+        rest = whole; /* without what came behind it */
+    }
+    receiver->length = rest;
+    receiver->dropped += end - rest;
+    for (; (at < from) && (from < end); ++from) {
+        receiver->buffer[at] = receiver->buffer[from];
         ++at;
     }
 }
@@ -1268,21 +1399,17 @@ void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver)
     }
 }
 
-/* Receives an answer, until the line is silent or has sent enough. */
+/* Receives an answer until it is whole, the line is silent, or enough has come. */
 static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
 {
     uint32_t wait = line->answer_ms;
     bool comes = true;
-    while (comes && (receiver->length < receiver->next) &&
-           ((receiver->dropped + receiver->next) <= FIELDSCRIBE_MODBUS_ASK_MOST)) {
-        const size_t next = receiver->next;
-        size_t length = receiver->length;
-        while (comes && (length < next)) {
-            comes = line->receive(line->context, wait, &receiver->buffer[length]);
-            length += comes ? 1U : 0U;
+    while (comes && (!receiver->done) && ((receiver->dropped + receiver->next) <= FIELDSCRIBE_MODBUS_ASK_MOST)) {
+        while (comes && (receiver->length < receiver->next)) {
+            comes = line->receive(line->context, wait, &receiver->buffer[receiver->length]);
+            receiver->length += comes ? 1U : 0U;
             wait = line->pause_ms;
         }
-        receiver->length = length;
         if (comes) {
             fieldscribe_modbus_settle(receiver, false);
         }
@@ -1292,53 +1419,79 @@ static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, field
     }
 }
 
-/* Sends a request, if there is room for it and its answer, and receives that. */
-static fieldscribe_modbus_status fieldscribe_modbus_exchange(const struct fieldscribe_modbus_wire *wire,
-    const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+/* Sends a request of which `length` bytes were built, if there is room for its answer in a frame that adds `around`. */
+static fieldscribe_modbus_status fieldscribe_modbus_sent(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, size_t length, const fieldscribe_modbus_reply *reply, size_t around)
 {
-    fieldscribe_modbus_receiver receiver;
-    size_t length;
-    fieldscribe_modbus_status status;
-    fieldscribe_modbus_clear(reply);
-    status = wire->build(line->profile, request, line->buffer, line->size, &length);
-    if (status != FIELDSCRIBE_MODBUS_OK) {
-        return status;
-    }
-    if (((wire->around + fieldscribe_modbus_answer(request)) > line->size) ||
-        ((request->writer == NULL) && (fieldscribe_modbus_room(reply) < request->count))) {
+    if (((around + fieldscribe_modbus_answer(request)) > line->size) ||
+        (fieldscribe_modbus_is_read(request) && (fieldscribe_modbus_room(reply) < request->count))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    if (request->unit == line->profile->broadcast) { /* nobody answers */
-        return status;
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Receives the answer, which has its time once more after noise. OK if it is whole. */
+static fieldscribe_modbus_status fieldscribe_modbus_received(
+    const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    fieldscribe_modbus_listen(line, receiver);
+    if (receiver->dropped > 0U) {
+        status = FIELDSCRIBE_MODBUS_NOISE;
+        if (receiver->length == 0U) {
+            fieldscribe_modbus_listen(line, receiver);
+        }
     }
-    receiver = fieldscribe_modbus_await_on(wire, request, line->buffer, line->size);
-    fieldscribe_modbus_listen(line, &receiver);
-    if ((receiver.length == 0U) && (receiver.dropped > 0U)) {
-        fieldscribe_modbus_listen(line, &receiver);
-    }
-    if (receiver.length < receiver.next) {
-        return (receiver.dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
-    }
-    return wire->take(request, &receiver.buffer[wire->before], receiver.length - wire->around, reply);
+    return receiver->done ? FIELDSCRIBE_MODBUS_OK : status;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
-    bool late = request->late;
+    fieldscribe_modbus_receiver receiver;
+    fieldscribe_modbus_status status;
+    size_t length;
     size_t dropped;
     uint8_t byte;
+    bool late = request->late;
     for (dropped = 0U; late && (dropped < FIELDSCRIBE_MODBUS_ASK_MOST); ++dropped) {
         late = line->receive(line->context, line->answer_ms, &byte);
     }
-    return fieldscribe_modbus_exchange(&fieldscribe_modbus_rtu, line, request, reply);
+    fieldscribe_modbus_clear(reply);
+    status = fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        status = fieldscribe_modbus_sent(line, request, length, reply, 3U);
+    }
+    if ((status != FIELDSCRIBE_MODBUS_OK) || fieldscribe_modbus_is_to_all(line->profile, request)) {
+        return status;
+    }
+    receiver = fieldscribe_modbus_rtu_receiver(request, line->buffer, line->size);
+    status = fieldscribe_modbus_received(line, &receiver);
+    return (status == FIELDSCRIBE_MODBUS_OK)
+        ? fieldscribe_modbus_take_answer(request, &receiver.buffer[1], receiver.length - 3U, reply)
+        : status;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
-    return fieldscribe_modbus_exchange(&fieldscribe_modbus_tcp, line, request, reply);
+    fieldscribe_modbus_receiver receiver;
+    fieldscribe_modbus_status status;
+    size_t length;
+    fieldscribe_modbus_clear(reply);
+    status = fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        status = fieldscribe_modbus_sent(line, request, length, reply, 7U);
+    }
+    if ((status != FIELDSCRIBE_MODBUS_OK) || fieldscribe_modbus_is_to_all(line->profile, request)) {
+        return status;
+    }
+    receiver = fieldscribe_modbus_tcp_receiver(request, line->buffer, line->size);
+    status = fieldscribe_modbus_received(line, &receiver);
+    return (status == FIELDSCRIBE_MODBUS_OK)
+        ? fieldscribe_modbus_take_tcp(request, &receiver.buffer[7], receiver.length - 7U, reply)
+        : status;
 }
 
 /* Exchanges one request of a unit. */
@@ -1347,9 +1500,11 @@ static fieldscribe_modbus_status fieldscribe_modbus_call(
 {
     fieldscribe_modbus_reply reply = {words, count, 0U, 0U};
     fieldscribe_modbus_status status;
-    request->transaction = unit->transaction;
     request->late = unit->late;
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+    request->transaction = unit->transaction;
     unit->transaction = (uint16_t)((unit->transaction + 1U) & 0xFFFFU);
+#endif
     status = unit->ask(unit->line, request, &reply);
     unit->exception = reply.exception;
     unit->late = (status == FIELDSCRIBE_MODBUS_SHORT_FRAME) || (status == FIELDSCRIBE_MODBUS_NOISE) ||

@@ -14,24 +14,22 @@
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 5
+#if FIELDSCRIBE_MODBUS_INTERFACE != 6
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0x41c63c2aU
 #error "hitachi_l200.h is of another description: take the one that was generated with this header."
 #endif
+#if !defined(FIELDSCRIBE_MODBUS_COILS)
+#error "fieldscribe_modbus_facts.h lacks a part: take the one that was generated with this header."
+#endif
 
-static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
-    1U, /* the first unit */
-    32U, /* the last */
-    true, /* whether it speaks RTU */
-    false, /* whether it speaks TCP */
+static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
+    1U, 32U, /* the first unit, the last */
+    true, false, /* whether it speaks RTU, TCP */
     true, /* whether 0Fh carries an even number of bytes */
-    0U, /* the unit that all listen to */
-    0x0060U, /* the functions that may go to all units at once, as bits */
-    /* how many items a request of function 0, 1, 2... carries */
-    {0U, 32U, 0U, 4U, 0U, 1U, 1U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 32U, 4U}
-};
+    0U, 0x0060U, /* the unit that all listen to, and the functions that may go to it, as bits */
+    32U, 0U, 4U, 0U, 1U, 1U, 1U, 32U, 4U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
 
 /*
  * A device on a line, for the functions that read and write a point in one call, and for

@@ -14,24 +14,19 @@
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 5
+#if FIELDSCRIBE_MODBUS_INTERFACE != 6
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x260af48dU
 #error "jumo_controller.h is of another description: take the one that was generated with this header."
 #endif
 
-static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
-    1U, /* the first unit */
-    254U, /* the last */
-    true, /* whether it speaks RTU */
-    false, /* whether it speaks TCP */
+static const fieldscribe_modbus_profile jumo_controller_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
+    1U, 254U, /* the first unit, the last */
+    true, false, /* whether it speaks RTU, TCP */
     false, /* whether 0Fh carries an even number of bytes */
-    0U, /* the unit that all listen to */
-    0x10040U, /* the functions that may go to all units at once, as bits */
-    /* how many items a request of function 0, 1, 2... carries */
-    {0U, 0U, 0U, 32U, 32U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 32U}
-};
+    0U, 0x10040U, /* the unit that all listen to, and the functions that may go to it, as bits */
+    0U, 0U, 32U, 32U, 0U, 1U, 0U, 0U, 32U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
 
 /*
  * A device on a line, for the functions that read and write a point in one call, and for

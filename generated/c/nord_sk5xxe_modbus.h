@@ -14,24 +14,20 @@
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 5
+#if FIELDSCRIBE_MODBUS_INTERFACE != 6
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x8a2a4e64U
 #error "nord_sk5xxe.h is of another description: take the one that was generated with this header."
 #endif
 
-static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
-    1U, /* the first unit */
-    247U, /* the last */
-    true, /* whether it speaks RTU */
-    false, /* whether it speaks TCP */
+static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
+    1U, 247U, /* the first unit, the last */
+    true, false, /* whether it speaks RTU, TCP */
     false, /* whether 0Fh carries an even number of bytes */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, /* the unit that all listen to */
-    0x18060U, /* the functions that may go to all units at once, as bits */
-    /* how many items a request of function 0, 1, 2... carries */
-    {0U, 2000U, 0U, 125U, 0U, 1U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 1968U, 123U}
-};
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x18060U, /* the unit that all listen to, and the functions that may go to it, as
+        bits */
+    2000U, 0U, 125U, 0U, 1U, 1U, 0U, 1968U, 123U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
 
 /*
  * A device on a line, for the functions that read and write a point in one call, and for

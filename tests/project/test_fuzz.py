@@ -59,7 +59,7 @@ def test_a_parser_that_writes_too_far_is_found(tmp_path: Path) -> None:
     languages.generate(tmp_path)
     header = tmp_path / "c" / "fieldscribe_modbus.h"
     text = header.read_text("utf-8")
-    header.write_text(text.replace("at < count; ++at", "at <= count; ++at"), "utf-8")
+    header.write_text(text.replace("at < request->count; ++at", "at <= request->count; ++at"), "utf-8")
     commands = languages.build_c("modbus", tmp_path, CLANG)
     for result in languages.fuzz_programs(commands, "modbus", 200, SEED, tmp_path):
         assert "heap-buffer-overflow" in result.findings[0]

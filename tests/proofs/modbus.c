@@ -119,9 +119,27 @@ void prove_reads(uint8_t function)
     (void)fieldscribe_modbus_reads(function);
 }
 
-void prove_item_bytes(uint16_t count)
+void prove_item_bytes(void)
 {
-    (void)fieldscribe_modbus_item_bytes(count, number % 2U != 0U);
+    (void)fieldscribe_modbus_item_bytes(&request);
+}
+
+void prove_is_read(void)
+{
+    of_any_kind();
+    (void)fieldscribe_modbus_is_read(&request);
+}
+
+void prove_is_to_all(void)
+{
+    (void)fieldscribe_modbus_is_to_all(&profile, &request);
+}
+
+void prove_has_unit(uint32_t function)
+{
+    if (function < FIELDSCRIBE_MODBUS_FUNCTIONS) { /* known by then */
+        (void)fieldscribe_modbus_has_unit(&profile, &request, function);
+    }
 }
 
 void prove_allows(void)
@@ -340,6 +358,13 @@ void prove_build__values(uint16_t count)
     }
 }
 
+void prove_item(uint32_t at)
+{
+    if (at < 8U * DATA_MOST && (request.function <= 0x02U || at <= DATA_MOST / 2U)) {
+        (void)fieldscribe_modbus_item(&request, long_frame, at);
+    }
+}
+
 void prove_take_items__data(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
@@ -359,7 +384,7 @@ void prove_take_items__values(size_t size, size_t room)
         NOT_BETWEEN(stored, ITEMS);
         ask_any();
         into(EXACTLY(stored, items), stored);
-        BY_ITEMS(DATA_MOST, fieldscribe_modbus_take_items(&request, frame, size, &reply));
+        BY_ITEMS(FRAMES - 2U, fieldscribe_modbus_take_items(&request, frame, size, &reply));
     }
 }
 
@@ -555,10 +580,14 @@ void prove_await_tcp(size_t size)
     receiver = fieldscribe_modbus_await_tcp(&profile, &request, frame, size);
 }
 
-void prove_await_on(size_t size)
+void prove_rtu_receiver(size_t size)
 {
-    receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, &request, frame, size);
-    receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_tcp, &request, frame, size);
+    receiver = fieldscribe_modbus_rtu_receiver(&request, frame, size);
+}
+
+void prove_tcp_receiver(size_t size)
+{
+    receiver = fieldscribe_modbus_tcp_receiver(&request, frame, size);
 }
 
 void prove_pdu(uint8_t function, uint8_t code, uint8_t count)
@@ -591,6 +620,20 @@ void prove_begun_tcp(size_t size, size_t length)
         //@ split length;
         has(frame, size, length);
         (void)fieldscribe_modbus_begun_tcp(&receiver, EXACTLY(length, frame), length);
+    }
+}
+
+void prove_shortest(void)
+{
+    (void)fieldscribe_modbus_shortest(&receiver);
+}
+
+void prove_begun(size_t size, size_t length)
+{
+    if (length > 0U && length <= SHORT) {
+        //@ split length;
+        has(frame, size, length);
+        (void)fieldscribe_modbus_begun(&receiver, EXACTLY(length, frame), length);
     }
 }
 
@@ -663,18 +706,28 @@ void prove_listen(size_t size)
     if (size >= 5U && size <= SHORT) {
         //@ split size;
         link(EXACTLY(size, frame), size);
-        receiver = fieldscribe_modbus_await_on(&fieldscribe_modbus_rtu, &request, line.buffer, size);
+        receiver = fieldscribe_modbus_rtu_receiver(&request, line.buffer, size);
         fieldscribe_modbus_listen(&line, &receiver);
     }
 }
 
-void prove_exchange(size_t size, size_t room)
+void prove_sent(size_t size, size_t room)
 {
     if (size <= SHORT) {
         //@ split size;
         link(EXACTLY(size, frame), size);
         into(items, room);
-        (void)fieldscribe_modbus_exchange(&fieldscribe_modbus_rtu, &line, &request, &reply);
+        (void)fieldscribe_modbus_sent(&line, &request, size, &reply, 3U);
+    }
+}
+
+void prove_received(size_t size)
+{
+    if (size >= 5U && size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        receiver = fieldscribe_modbus_rtu_receiver(&request, line.buffer, size);
+        (void)fieldscribe_modbus_received(&line, &receiver);
     }
 }
 

@@ -17,7 +17,7 @@ from fieldscribe.pipeline import load_device
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select
-from support.c_device import WARNINGS
+from support.c_device import PROGRAMS, WARNINGS
 from support.described import SHIPPED, described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
@@ -286,8 +286,7 @@ def test_check_tells_what_is_missing_stale_edited_and_foreign(
     assert vendor(*order) == 0
     assert (out / "hitachi_l200.h").read_text("utf-8") == header
     order = (*order[:-1], "A001")
-    current = {LICENCE, "fieldscribe_modbus_facts.h"}
-    assert check() == {"stale": sorted({path.name for path in out.iterdir()} - current)}
+    assert check() == {"stale": sorted({path.name for path in out.iterdir()} - {LICENCE})}
     shutil.rmtree(out)
     out.mkdir()
     (out / "fieldscribe.h").write_text("by hand", "utf-8")
@@ -396,6 +395,40 @@ def test_words_keep_parts_of_the_runtime(words: str, kept: set[str], tmp_path: P
     assert "#define FIELDSCRIBE_COUNT(" in texts  # which programs of users need
     assert ("base_frequency_frame" in (tmp_path / "hitachi_l200_modbus.h").read_text("utf-8")) == bool(kept)
     compiles(tmp_path, "hitachi_l200_modbus.h")
+
+
+@pytest.mark.parametrize(
+    ("device", "words", "parts"),
+    [
+        ("hitachi_l200", "D001", set()),
+        ("hitachi_l200", "A020", {"writes"}),
+        ("hitachi_l200", "run_command", {"coils", "writes"}),
+        ("hitachi_l200", "running,fieldscribe_modbus_build_tcp", {"coils", "tcp"}),
+        ("hitachi_l200", "D001,fieldscribe_modbus_*", {"coils", "writes", "tcp"}),
+        ("fronius_datamanager", "group:common", {"tcp"}),
+    ],
+)
+def test_parts_of_the_runtime_that_no_point_needs_are_left_out(
+    device: str, words: str, parts: set[str], tmp_path: Path
+) -> None:
+    assert vendor("c", device, "--out", tmp_path, "--points", words) == 0
+    text = "".join((tmp_path / name).read_text("utf-8") for name in sorted(RUNTIME))
+    lines = {"coils": "% 8U)) & 1U", "writes": "_writer *writer;", "tcp": "    uint16_t transaction;"}
+    assert {part for part, line in lines.items() if line in text} == parts
+    assert ("#if defined(FIELDSCRIBE_MODBUS_" in text) == (len(parts) == 3)
+    compiles(tmp_path, f"{device}_modbus.h")
+
+
+def test_reads_do_the_same_without_the_other_parts_of_the_runtime(tmp_path: Path) -> None:
+    parts = ",".join(f"fieldscribe_modbus_{name}_rtu" for name in ("build", "parse", "ask"))
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", f"D001,D002,D003,{parts}") == 0
+    printed = []
+    for folder in (tmp_path, ROOT / "generated/c"):
+        words = tool("gcc"), *WARNINGS, "-std=c99", f"-I{folder}", PROGRAMS / "spoiled_reads.c", "-o", tmp_path / "run"
+        succeed([*words])
+        printed.append(succeed([tmp_path / "run"]).splitlines())
+    assert [lines for lines in zip(*printed, strict=True) if lines[0] != lines[1]][:3] == []
+    assert len(set(printed[0])) > 30
 
 
 @pytest.mark.full(seconds=1)

@@ -4,7 +4,7 @@ Prunes the runtime headers of C to what the chosen points use.
 
 A header is divided at its empty lines. A part that defines something is kept if the code of a kept part has one of its
 names as a word, or if a text that uses the runtime has, also in a comment below its head. `fieldscribe_modbus_*` there
-means all names that begin so.
+means all names that begin so. Lines in the condition of a feature are kept if a name that needs it is used.
 """
 
 import os
@@ -32,6 +32,8 @@ from fieldscribe.vendoring.selection import select
 RUNTIME_NAME = re.compile(r"fieldscribe_[a-z0-9_]*\*?|FIELDSCRIBE_[A-Z0-9_]*\*?")
 _FOR_USERS = {"FIELDSCRIBE_COUNT"}
 """Names that a user's program may need although no generated line uses them."""
+_FEATURE = re.compile(r"#define (\w+) +/\* part: (.*) \*/")
+"""A macro that the runtime is divided by beside its functions; its comment has the names that need it."""
 _HEAD = re.compile(r"\A\s*/\*.*?\*/", re.DOTALL)
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _DEFINED = re.compile(
@@ -39,6 +41,7 @@ _DEFINED = re.compile(
     r"|^(?:typedef )?(?:struct|enum) (\w+) \{|^    (FIELDSCRIBE_\w+)(?: = \w+)?,?\s*$"
     r"|^(?!#|typedef)\w[^\n(=]*?\b(fieldscribe_\w+)(?:[(\[]| =)"
 )
+_CONDITION = re.compile(r"#if defined\((\w+)\)")
 _OPENS_C = '#ifdef __cplusplus\nextern "C" {\n#endif'
 _CLOSES_C = "#ifdef __cplusplus\n}\n#endif"
 _CLOSES = "#endif"
@@ -47,21 +50,65 @@ _NOTICE = "/* Only what the chosen points use: to have more, add its names to --
 
 def pruned(runtime: Mapping[str, str], users: Iterable[str], words: set[str]) -> dict[str, str]:
     """Return the runtime headers without parts that neither these texts nor these words use. Raises UnclearError."""
-    parts = {name: _HEAD.sub("", text).split("\n\n") for name, text in runtime.items()}
-    defined = {part: _names_of(part) for of_file in parts.values() for part in of_file}
-    known = frozenset[str]().union(*defined.values())
+    known = frozenset[str]().union(*(_names_of(part) for parts in _parts(runtime).values() for part in parts))
     unknown = [word for word in sorted(words) if not matching(known, word)]
     if unknown:
         raise UnclearError(f"the runtime has no `{unknown[0]}`", "`fieldscribe_*` keeps all of it")
-    used = {word for text in users for word in RUNTIME_NAME.findall(_HEAD.sub("", text))} | words | _FOR_USERS
-    used |= {name for word in used if "*" in word for name in known if fnmatchcase(name.lower(), word.lower())}
-    kept: set[str] = set()
-    size = -1
+    needed = {word for text in users for word in RUNTIME_NAME.findall(_HEAD.sub("", text))} | words | _FOR_USERS
+    needed |= {name for word in needed if "*" in word for name in known if fnmatchcase(name.lower(), word.lower())}
+    features = {
+        match[1]: (match[1], *re.findall(r"fieldscribe_[a-z_*]+", match[2]))
+        for text in runtime.values()
+        for match in _FEATURE.finditer(text)
+    }
+    left_out: set[str] | None = None
+    unused = {*features}
+    while unused != left_out:
+        left_out = unused
+        resolved = {name: _without(text, features.keys(), left_out) for name, text in runtime.items()}
+        parts = _parts(resolved)
+        kept, used = _used(parts, needed)
+        unused = {name for name, users_of in features.items() if not any(matching(used, each) for each in users_of)}
+    texts = resolved if unused else runtime
+    return {
+        name: text if text == runtime[name] and kept.issuperset(parts[name]) else _joined(text, parts[name], kept)
+        for name, text in texts.items()
+    }
+
+
+def _parts(runtime: Mapping[str, str]) -> dict[str, list[str]]:
+    return {name: _HEAD.sub("", text).split("\n\n") for name, text in runtime.items()}
+
+
+def _used(parts: Mapping[str, Iterable[str]], needed: Collection[str]) -> tuple[set[str], set[str]]:
+    """Return the parts that these names need, and all names that these parts use."""
+    defined = {part: _names_of(part) for of_file in parts.values() for part in of_file}
+    used, kept, size = set(needed), set[str](), -1
     while len(kept) > size:
         size = len(kept)
         kept |= {part for part, names in defined.items() if not names or names & used}
         used |= set[str]().union(*map(_words_of, kept))
-    return {name: _joined(runtime[name], parts[name], kept) for name in runtime}
+    return kept, used
+
+
+def _without(text: str, features: Collection[str], left_out: Collection[str]) -> str:
+    """Return a header without the conditions of features, and without the lines of those that are left out."""
+    lines: list[str] = []
+    open_conditions: list[bool | None] = []  # of a feature: whether its lines are kept
+    for line in text.split("\n"):
+        condition, feature = _CONDITION.fullmatch(line), _FEATURE.fullmatch(line)
+        if condition is not None and condition[1] in features:
+            open_conditions.append(condition[1] not in left_out)
+        elif line == "#else" and open_conditions[-1] is not None:
+            open_conditions[-1] = not open_conditions[-1]
+        elif line == _CLOSES and open_conditions.pop() is not None:
+            continue
+        else:
+            if False not in open_conditions and (feature is None or feature[1] not in left_out):
+                lines.append(line)
+            if line.startswith("#if"):
+                open_conditions.append(None)
+    return "\n".join(lines)
 
 
 @lru_cache(maxsize=2048)
@@ -80,10 +127,8 @@ def _names_of(part: str) -> frozenset[str]:
 
 
 def _joined(whole: str, parts: Sequence[str], kept: Collection[str]) -> str:
-    """Return the kept parts of a header below its head, with a notice unless all are kept."""
+    """Return the kept parts of a header below its head, and a notice."""
     texts = [part for part in parts if part in kept]
-    if len(texts) == len(parts):
-        return whole
     texts[-1] = texts[-1].rstrip()
     for at in reversed(range(len(texts))):
         if _is_empty(texts[at], *texts[at + 1 : at + 3]):

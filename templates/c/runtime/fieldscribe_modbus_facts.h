@@ -9,13 +9,23 @@
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 5
+#define FIELDSCRIBE_MODBUS_INTERFACE 6
 
 /* In a profile: no unit number is a broadcast. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
-/* All functions have codes below this. */
+/* What vendoring leaves out where no chosen point needs it, and no function of these names is chosen. */
+#define FIELDSCRIBE_MODBUS_COILS    /* part: functions 01h, 02h, 05h and 0Fh */
+#define FIELDSCRIBE_MODBUS_WRITES   /* part: functions 05h to 10h, fieldscribe_modbus_write*, fieldscribe_modbus_send */
+#define FIELDSCRIBE_MODBUS_OVER_TCP /* part: TCP beside RTU, fieldscribe_modbus_*tcp */
+
+/* All functions have codes below this, and those that read below the other. */
+#define FIELDSCRIBE_MODBUS_READS 5U
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
 #define FIELDSCRIBE_MODBUS_FUNCTIONS 17U
+#else
+#define FIELDSCRIBE_MODBUS_FUNCTIONS FIELDSCRIBE_MODBUS_READS
+#endif
 
 /* What a device understands. */
 typedef struct fieldscribe_modbus_profile {
@@ -23,11 +33,34 @@ typedef struct fieldscribe_modbus_profile {
     uint8_t last_unit;
     bool rtu;
     bool tcp;
-    bool pads_coil_bytes;                        /* 0Fh carries an even number of data bytes */
-    uint16_t broadcast;                          /* the unit that all listen to */
-    uint32_t to_all;                             /* bit n: function n may go to all units at once */
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
+    uint16_t broadcast;   /* the unit that all listen to */
+    uint32_t to_all;      /* bit n: function n may go to all units at once */
+#endif
     uint16_t most[FIELDSCRIBE_MODBUS_FUNCTIONS]; /* how many items a request of function n carries; 0: not known */
 } fieldscribe_modbus_profile;
+
+/* The number of coils, or of inputs, unless the runtime has nothing for them. */
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+#define FIELDSCRIBE_MODBUS_OF_COILS(most) (most)
+#else
+#define FIELDSCRIBE_MODBUS_OF_COILS(most) 0U
+#endif
+
+/* A profile of these facts: f1 and the like are the most items of each function. */
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+#define FIELDSCRIBE_MODBUS_PROFILE( \
+    first, last, rtu, tcp, pads, broadcast, to_all, f1, f2, f3, f4, f5, f6, f8, f15, f16) \
+    {first, last, rtu, tcp, pads, broadcast, to_all, \
+        {0U, FIELDSCRIBE_MODBUS_OF_COILS(f1), FIELDSCRIBE_MODBUS_OF_COILS(f2), f3, f4, \
+            FIELDSCRIBE_MODBUS_OF_COILS(f5), f6, 0U, f8, 0U, 0U, 0U, 0U, 0U, 0U, \
+            FIELDSCRIBE_MODBUS_OF_COILS(f15), f16}}
+#else
+#define FIELDSCRIBE_MODBUS_PROFILE( \
+    first, last, rtu, tcp, pads, broadcast, to_all, f1, f2, f3, f4, f5, f6, f8, f15, f16) \
+    {first, last, rtu, tcp, {0U, FIELDSCRIBE_MODBUS_OF_COILS(f1), FIELDSCRIBE_MODBUS_OF_COILS(f2), f3, f4}}
+#endif
 
 /* Consecutive addresses that one request reads: those of a point, or a block of several points. */
 typedef struct fieldscribe_modbus_reading {

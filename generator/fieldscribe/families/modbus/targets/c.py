@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 
-from fieldscribe.families.modbus import FUNCTIONS, SPACES, Profile, profile_of
+from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.targets.c_selections import Selections
 from fieldscribe.families.modbus.targets.identification import IdentifyView, can_identify, names_of_call
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
@@ -182,7 +182,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts, selections) if point.place.addresses else None
     )
-    most = [unsigned(profile.most.get(number, 0)) for number in range(max(FUNCTIONS) + 1)] if profile.most else []
+    most = [unsigned(profile.most.get(number, 0)) for number in sorted(FUNCTIONS)] if profile.most else []
     to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
 
     identify = _identify(device, placed, scope)
@@ -214,6 +214,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         most=", ".join(most),
         to_all=hexadecimal(to_all),
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if profile.broadcast is None else f"{profile.broadcast}U",
+        parts=list(_parts(device, placed, profile)),
+        writes=any(each.point.writable for each in placed),
         pads=_bool(profile.pad_coil_bytes_even),
         rtu=_bool("rtu" in profile.framings),
         tcp=_bool("tcp" in profile.framings),
@@ -269,6 +271,17 @@ def _chain(found: Found) -> dict[str, str]:
         "end": hexadecimal(found.end),
         "function": unsigned(SPACES[found.space].read),
     }
+
+
+def _parts(device: Device, placed: Sequence[GeneratedPoint], profile: Profile) -> Iterator[str]:
+    """Yield the parts of the runtime that the header relies on, and no name in it brings."""
+    of_coils = BIT_LISTS | {SPACES["coil"].write_one}
+    if any(SPACES[each.point.space].read in of_coils for each in placed if each.point.space in SPACES) or any(
+        command.function in of_coils for command in device.commands
+    ):
+        yield "FIELDSCRIBE_MODBUS_COILS"
+    if profile.broadcast is not None and profile.units[0] <= profile.broadcast <= profile.units[1]:
+        yield "FIELDSCRIBE_MODBUS_WRITES"  # it tells the unit that nobody reads from the others
 
 
 def _bool(value: bool) -> str:
