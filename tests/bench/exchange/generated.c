@@ -67,7 +67,7 @@ int ask(uint8_t unit, monitor *values)
     return 0;
 }
 
-#ifdef POINTS
+#if PART == 5
 #define READ_AND_WRITE(point) \
     { \
         int32_t count; \
