@@ -422,7 +422,8 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_is_words(v, "words", words, request.count);                              \
-            fieldscribe_agree(v, request.count == (total) && fieldscribe_reads_text(&(frame).text, words)); \
+            fieldscribe_agree(v, request.count == (total) && (frame).text.words == (total) &&    \
+                fieldscribe_reads_text(&(frame).text, words));                                   \
             fieldscribe_fills_groups(v, &(frame).read, words);                                   \
         }                                                                                        \
     }
