@@ -79,4 +79,5 @@ def _answer(server: socket.socket, line: Registers) -> None:
         while True:
             connection, _ = server.accept()
             while request := connection.recv(256):
-                connection.sendall(line.exchange(request))
+                with suppress(TimeoutError):  # no answer
+                    connection.sendall(line.exchange(request))

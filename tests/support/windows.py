@@ -30,6 +30,14 @@ SENT = [
 ]
 """What they write meanwhile: whatever does not stand by what was selected last, and again after a failure."""
 
+_INPUT = [(PAGE, 1), (INDEX, 11)]
+RESTARTS = [
+    ("read", [], 2, [(PAGE, 1), *_INPUT]),
+    ("read", [], 3, [*_INPUT, *_INPUT]),
+    ("write", [4.5], 3, [*_INPUT, *_INPUT, (WINDOW, 45)]),
+]
+"""A method of the second input's delay, its values, the request at which the device restarts, and what it is sent."""
+
 
 def registers() -> dict[tuple[int, int], list[int]]:
     """Return what is behind the window by page and index, which counts on the page of the inputs alone."""
@@ -44,10 +52,17 @@ class Windowed(Registers):
         self.behind = registers()
         self.sent: list[tuple[int, int]] = []
         self.is_dead = False
+        self.restarts_at = 0
+        """Before the answer to that request from now on it restarts, and loses what was selected; 0 for never."""
 
     def _answer(self, pdu: bytes) -> bytes:
         if self.is_dead:
             raise TimeoutError
+        if self.restarts_at:
+            self.restarts_at -= 1
+            if not self.restarts_at:
+                self.held.update({PAGE: 0, INDEX: 0})
+                raise TimeoutError
         address, value = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
         page = self.held[PAGE]
         words = self.behind.get((page, self.held[INDEX] if page == 1 else 0), [])

@@ -53,7 +53,8 @@ export class Session {
     /** Add to errors raised meanwhile what was requested. @template T
      * @param {AnyPoint | readonly AnyPoint[] | string} what @param {() => Promise<T>} work @returns {Promise<T>} */
     _about<T>(what: AnyPoint | readonly AnyPoint[] | string, work: () => Promise<T>): Promise<T>;
-    /** Carry out one request, again while the line loses it, as often as is left; failures are counted.
+    /** Carry out one request, again while the line loses it, as often as is left; failures are counted. What was selected
+     * is selected again first: the device may have restarted meanwhile.
      * @template T @param {number} left @param {() => Promise<T>} ask @returns {Promise<T>} */
     _retried<T>(left: number, ask: () => Promise<T>): Promise<T>;
     /** One exchange over the line; `awaited` is said where no reply comes. @param {any} request @param {any} reply
@@ -100,9 +101,9 @@ export class Session {
     _sharedWord(point: AnyPoint): Promise<number>;
     /** Write words or bits at a place, and forget what they change. @param {Place} at @param {readonly number[]} words */
     _put(at: Place, words: readonly number[]): Promise<void>;
-    /** Write what other points must hold before the address of this one means it, unless they hold it.
-     * @param {AnyPoint} point */
-    _select(point: AnyPoint): Promise<void>;
+    /** Write what points must hold before the address of another one means it, unless they hold it.
+     * @param {readonly (readonly [string, number])[]} [selects] */
+    _select(selects?: readonly (readonly [string, number])[]): Promise<void>;
     /** Read the raw numbers of several points, those together whose addresses mean them at the same time.
      * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
      * @returns {Promise<PointRaws>} */

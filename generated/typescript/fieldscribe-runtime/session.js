@@ -142,9 +142,11 @@ export class Session {
     }
   }
 
-  /** Carry out one request, again while the line loses it, as often as is left; failures are counted.
+  /** Carry out one request, again while the line loses it, as often as is left; failures are counted. What was selected
+   * is selected again first: the device may have restarted meanwhile.
    * @template T @param {number} left @param {() => Promise<T>} ask @returns {Promise<T>} */
   async _retried(left, ask) {
+    const selected = [...this._selected];
     for (; ; left--) {
       try {
         const result = await ask();
@@ -157,6 +159,7 @@ export class Session {
         if (left <= 0 || this._isOnce || !error.lost) throw error;
       }
       if (this.retryPause) await paused(this.retryPause);
+      await this._select(selected);
     }
   }
 
@@ -187,7 +190,7 @@ export class Session {
 
   /** @param {AnyPoint} point @returns {Promise<number | bigint>} */
   async _readRaw(point) {
-    await this._select(point);
+    await this._select(point.facts.selects);
     return this._existing(point, () =>
       this._about(point, async () => this._taken(point, await this._get(point.at))),
     );
@@ -271,7 +274,7 @@ export class Session {
   async _putRaw(point, raw, raws, at) {
     const isGroup = point.facts.bits !== undefined;
     await this._automatic("before write");
-    await this._select(point);
+    await this._select(point.facts.selects);
     await this._about(point, async () => {
       const words = isGroup ? [point.insert(await this._sharedWord(point), raw)] : point.toWords(raw);
       try {
@@ -303,19 +306,21 @@ export class Session {
       const places = [kept, ...changing].flatMap((point) => [point.at, point.facts.writeAt ?? point.at]);
       if (places.some((one) => placesOverlap(at, one))) this._kept.delete(kept);
     }
-    this._selected.clear();
     for (const point of [...this._refused.keys()]) if (point.facts.when) this._refused.delete(point); // it may exist now
     await this._store(at, words);
+    this._selected.clear();
   }
 
-  /** Write what other points must hold before the address of this one means it, unless they hold it.
-   * @param {AnyPoint} point */
-  async _select(point) {
-    const selected = new Map(this._selected);
-    for (const [name, raw] of point.facts.selects ?? []) {
-      if (selected.get(name) !== raw) await this._putRaw(this.table.resolved(name, this.variants), raw, {});
+  /** Write what points must hold before the address of another one means it, unless they hold it.
+   * @param {readonly (readonly [string, number])[]} [selects] */
+  async _select(selects = []) {
+    const before = new Map(this._selected);
+    for (const [count, [name, raw]] of selects.entries()) {
+      if (before.get(name) === raw) continue;
+      this._selected = new Map(selects.slice(0, count));
+      await this._putRaw(this.table.resolved(name, this.variants), raw, {});
     }
-    if (point.facts.selects) this._selected = new Map(point.facts.selects);
+    this._selected = selects.length ? new Map(selects) : before;
   }
 
   /** Read the raw numbers of several points, those together whose addresses mean them at the same time.
@@ -371,7 +376,7 @@ export class Session {
   async _part(points, refusals, ask, block) {
     let isRefusedForGood = false;
     try {
-      await this._select(points[0]);
+      await this._select(points[0].facts.selects);
       return await this._about(points, ask);
     } catch (error) {
       if (!(error instanceof FieldscribeError) || !refusals || error.lost) throw error;

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from support.described import kitchen_sink
 from support.python_package import Awaited, imported, status, write_package
-from support.windows import INDEX, PAGE, WINDOW, Windowed
+from support.windows import INDEX, PAGE, RESTARTS, WINDOW, Windowed
 
 
 @pytest.fixture(scope="module")
@@ -54,6 +54,18 @@ def test_what_may_have_changed_is_written_again(package: Any) -> None:
     device.forget()
     device.input_delay_index_1.read()
     assert line.sent == [(PAGE, 1), (INDEX, 10)] * 2
+
+
+@pytest.mark.parametrize(("method", "given", "at", "sent"), RESTARTS)
+def test_a_retry_selects_again(package: Any, method: str, given: list[float], at: int, sent: list[Any]) -> None:
+    line = Windowed()
+    device = package.KitchenSink(line, 1)
+    device.retries = 1
+    line.restarts_at = at
+    got = getattr(device.input_delay_index_2, method)(*given)
+    assert got == (None if given else 2.0)
+    assert line.sent == sent
+    assert line.behind[1, 11][0] == (45 if given else 20)
 
 
 def test_with_await(package: Any) -> None:

@@ -10,7 +10,7 @@ from support.blocks import served
 from support.described import kitchen_sink
 from support.node_device import NodeDevice, installed, node_device
 from support.typescript_packages import install
-from support.windows import INDEX, PAGE, WINDOW, Windowed
+from support.windows import INDEX, PAGE, RESTARTS, WINDOW, Windowed
 
 pytestmark = pytest.mark.full(4)
 
@@ -43,3 +43,14 @@ def test_what_does_not_stand_is_written_before(line: Windowed, node: NodeDevice)
     delays = {"inputDelayIndex1": 1, "inputDelayIndex2": 2, "inputDelayIndex3": 4.5}
     assert node(None, "readMany", "window") == delays | counted
     assert line.sent == [(INDEX, 10), (INDEX, 11), (INDEX, 12)]
+
+
+@pytest.mark.parametrize(("method", "given", "at", "sent"), RESTARTS)
+def test_a_retry_selects_again(
+    line: Windowed, node: NodeDevice, method: str, given: list[float], at: int, sent: list[tuple[int, int]]
+) -> None:
+    node.set(retries=1)
+    line.restarts_at = at
+    node("input_delay_index_2", method, *given)
+    assert line.sent == sent
+    assert line.behind[1, 11][0] == (45 if given else 20)

@@ -110,7 +110,11 @@ class Session(NamedPoints, ABC):
         """Write words or bits at a place, in ascending order of address."""
 
     def _retried_steps(self, left: int, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
-        """Carry out one request, again while the line loses it, as often as is left; failures are counted."""
+        """Carry out one request, again while the line loses it, as often as is left; failures are counted.
+
+        What was selected is selected again first: the device may have restarted meanwhile.
+        """
+        selected = self._selected
         while True:
             try:
                 result = yield from ask(*arguments)
@@ -125,6 +129,7 @@ class Session(NamedPoints, ABC):
                 return result
             if self.retry_pause:
                 yield Pause(self.retry_pause)
+            yield from self._select_steps(tuple(selected.items()))
             left -= 1
 
     def _to_all_steps(self, frame: bytes) -> Steps[tuple[()]]:
@@ -155,7 +160,7 @@ class Session(NamedPoints, ABC):
         """Read some points by one request; where `refusals` are noted, by one each if the device refuses that."""
         self.traffic.is_split = refusals is not None and len(points) > 1
         try:
-            yield from self._select_steps(points[0])
+            yield from self._select_steps(points[0].facts.selects)
             with About(self.traffic, *points):
                 return (yield from ask(*arguments))
         except FieldscribeError as error:
@@ -227,7 +232,7 @@ class Session(NamedPoints, ABC):
         """Read a point's raw number."""
         facts = point.facts
         if facts.selects:
-            yield from self._select_steps(point)
+            yield from self._select_steps(facts.selects)
         self.traffic.about = (point,)
         try:
             return self._taken(point, (yield from self._get_steps(facts.at)))
@@ -311,7 +316,7 @@ class Session(NamedPoints, ABC):
         words = point.to_words(raw)
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
-        yield from self._select_steps(point)
+        yield from self._select_steps(point.facts.selects)
         with About(self.traffic, point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)
@@ -344,7 +349,7 @@ class Session(NamedPoints, ABC):
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
         words: dict[int, int] = {}
-        yield from self._select_steps(next(iter(points)))
+        yield from self._select_steps(next(iter(points)).facts.selects)
         with About(self.traffic, *points):
             for point in points:
                 raw, addresses = raws[point.facts.item], sorted((point.facts.write_at or point.facts.at).addresses)
@@ -388,16 +393,17 @@ class Session(NamedPoints, ABC):
                 del self._kept[item]
         for item in [item for item in self._refused if self.POINTS[item].facts.when]:
             del self._refused[item]  # perhaps it exists now
-        self._selected = {}
         yield from self._store_steps(place, values)
+        self._selected = {}
 
-    def _select_steps(self, point: Point) -> Steps[None]:
-        """Write what other points must hold before the address of this one means it, unless they hold it."""
-        selected = self._selected
-        for name, raw in point.facts.selects:
-            if selected.get(name) != raw:
+    def _select_steps(self, selects: tuple[tuple[str, int], ...]) -> Steps[None]:
+        """Write what points must hold before the address of another one means it, unless they hold it."""
+        before = self._selected
+        for count, (name, raw) in enumerate(selects):
+            if before.get(name) != raw:
+                self._selected = dict(selects[:count])
                 yield from self._put_raw_steps(self._resolved(name), raw, None, NO_RAWS)
-        self._selected = dict(point.facts.selects) or self._selected
+        self._selected = dict(selects) or before
 
     def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.
