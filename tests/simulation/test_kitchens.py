@@ -6,10 +6,15 @@ from typing import Any
 
 import pytest
 from fieldscribe.live.devices import device_class
+from fieldscribe.simulation import simulated
 from fieldscribe.simulation.bench import layout_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
+from fieldscribe_runtime.transports.tcp import TcpLine
+from support.described import loaded
 from support.places import TESTS
 from support.simulated_lines import DirectBus, direct_line
+
+BLOCKS = TESTS / "devices/kitchen_blocks"
 
 
 @pytest.mark.parametrize(("name", "least"), [("kitchen_uss", 25), ("kitchen_can", 70)])
@@ -41,3 +46,26 @@ def test_every_point(name: str, least: int) -> None:
             assert device.memory.raw(point.name) == raw
             seen += 1
     assert seen > least
+
+
+@pytest.mark.parametrize("counts", [(0, 0), (1, 0), (3, 2), (40, 2), (0, 1)])
+def test_what_lies_after_counted_elements_moves_with_the_count(counts: tuple[int, int]) -> None:
+    """The places and the length of the block are those of the counts as they are; what it held it holds."""
+    made: Any = device_class(loaded(BLOCKS / "device.yaml"))
+    with simulated(BLOCKS, framing="tcp", strict=True) as device, TcpLine("127.0.0.1", device.port) as line:
+        device.values.update({"curve_time": 4711, "curve_access": "closed", "level": 12.5})
+        for points in (counts[0], counts[0] + 1):
+            device.values.update({"curve_points": points, "curve_count": counts[1]})
+            client = made(line, 1, slot=1, half=0)
+            assert client.find_blocks()[705] == (40024, 2 * points + counts[1] + 6)
+            assert (client.curve_time.read(), client.curve_access.read(), client.level.read()) == (4711, 1, 12.5)
+            client.curve_time.write(99)
+            assert device.values["curve_time"] == 99
+            client.curve_time.write(4711)
+
+
+def test_counts_for_which_there_are_no_addresses_move_nothing() -> None:
+    made: Any = device_class(loaded(BLOCKS / "device.yaml"))
+    with simulated(BLOCKS, framing="tcp") as device, TcpLine("127.0.0.1", device.port) as line:
+        device.values["curve_points"] = 65535
+        assert made(line, 1).curve_points.read() == 65535

@@ -32,11 +32,11 @@ SENT = [
 
 _INPUT = [(PAGE, 1), (INDEX, 11)]
 RESTARTS = [
-    ("read", [], 2, [(PAGE, 1), *_INPUT]),
-    ("read", [], 3, [*_INPUT, *_INPUT]),
-    ("write", [4.5], 3, [*_INPUT, *_INPUT, (WINDOW, 45)]),
+    (2, [], [(PAGE, 1), *_INPUT]),
+    (3, [], [*_INPUT, *_INPUT]),
+    (3, [4.5], [*_INPUT, *_INPUT, (WINDOW, 45)]),
 ]
-"""A method of the second input's delay, its values, the request at which the device restarts, and what it is sent."""
+"""The request at which the device restarts, what is written to the second input's delay (else read), what is sent."""
 
 
 def registers() -> dict[tuple[int, int], list[int]]:

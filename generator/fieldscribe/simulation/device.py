@@ -117,7 +117,6 @@ class SimulatedDevice:
         strict: bool = False,
         behaviour: Behaviour | None = None,
     ) -> None:
-        self.layout = layout
         self.device = layout.device
         self.unit = layout.device.bus.usual_unit if unit is None else unit
         self.clock = clock or Clock()
@@ -133,6 +132,11 @@ class SimulatedDevice:
         self._stored_at: dict[str, deque[float]] = {}
         self._lost: dict[str, int] = {}
         self._busy: dict[str, float] = {}
+
+    @property
+    def layout(self) -> Layout:
+        """Return where its points lie now."""
+        return self.memory.layout
 
     def advance(self) -> None:
         """Bring the memory to the present."""
@@ -177,10 +181,10 @@ class SimulatedDevice:
         for point in points:
             self._remember(point, keep)
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
-        for point in changed:
-            self.memory.put(point.name, numbers[point.name])
         writers = self.layout.writers.get(area, {})  # steps of commands also write where no point lies
         self.memory.areas[area].update((at, word) for at, word in cells.items() if at not in writers)
+        for point in changed:
+            self.memory.put(point.name, numbers[point.name])
         if self.behaviour is not None and changed:
             self.behaviour.written(self, changed, self.clock.now())
         return points

@@ -1,5 +1,7 @@
 """Which words of which area each point of a device takes; equal for all devices of a kind, and shared by them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
@@ -14,6 +16,7 @@ from fieldscribe.user_errors import UnclearError
 Area = tuple[str, int]
 """A space or a telegram, and the index where one travels with the address (else 0)."""
 
+_LAST = 0xFFFF
 _BEHIND_HEAD = 2
 """The words of a found block that its length does not count: its id and its length."""
 
@@ -53,15 +56,24 @@ class Layout:
 
     `device` has the points of one value of each variant axis (the first, unless `variants` chooses another), at the
     addresses that `given` numbers lead to (the least, unless given); found chains begin at the first of their places.
-    `fixed` are words that belong to no point, such as the ids of found blocks.
+    `fixed` are words that belong to no point, such as the ids of found blocks. `counts` has what the points hold that
+    say how many elements a block has before other points; 0 unless given.
     """
 
-    def __init__(self, device: Device, variants: Iterable[str] = (), given: Mapping[str, int] | None = None) -> None:
+    def __init__(
+        self,
+        device: Device,
+        variants: Iterable[str] = (),
+        given: Mapping[str, int] | None = None,
+        counts: Mapping[str, int] | None = None,
+    ) -> None:
+        self._made_of = device, tuple(variants), given
+        self.counts = {name: 0 for base in device.bases for name, _, _ in base.counts} | dict(counts or {})
         chosen = {axis: f"{axis}={values[0]}" for axis, values in device.variants.items()}
         chosen |= {choice.partition("=")[0]: choice for choice in variants}
         device = choose_variants(device, chosen.values())
         self.fixed: dict[Area, dict[int, int]] = {}
-        starts = {each.name: each.low for each in device.given} | self._chain(device) | dict(given or {})
+        starts = {each.name: each.low for each in device.given} | self._chain(device, given or {}) | dict(given or {})
         self.device, others = at_bases(device, [f"{name}={number}" for name, number in starts.items()])
         if others:
             known = ", ".join(each.name for each in device.given) or "none"
@@ -110,6 +122,16 @@ class Layout:
         """The cells that can be read."""
         self._raws: dict[str, RawReader] = {}
 
+    def counted(self, counts: Mapping[str, int]) -> Layout:
+        """Return the layout with these counts; this one if they are the same, or its words had no addresses then."""
+        if counts == self.counts:
+            return self
+        try:
+            made = Layout(*self._made_of, counts)
+        except UnclearError:
+            return self
+        return made if all(max(words, default=0) <= _LAST for words in made.fixed.values()) else self
+
     def raw_reader(self, name: str) -> RawReader:
         """Return the function that takes the raw number of a point out of words; it is made once."""
         if name not in self._raws:
@@ -147,7 +169,7 @@ class Layout:
         size = -(-point.words // len(place.addresses))
         return Cells((point.telegram or point.space, index), place.addresses, size)
 
-    def _chain(self, device: Device) -> dict[str, int]:
+    def _chain(self, device: Device, given: Mapping[str, int]) -> dict[str, int]:
         """Lay the blocks of a found chain one after the other; return the start of each by the name of its base."""
         if device.found is None:
             return {}
@@ -161,25 +183,30 @@ class Layout:
                 continue
             if base.starts_block:
                 starts[base.name] = place
-                length = _length(device, base)
+                length = self._length(device, base)
+                if self.counts:
+                    words.update(dict.fromkeys(range(place, place + length), 0))  # the elements that are counted
                 words[place], words[place + 1] = base.block, length - _BEHIND_HEAD
                 place += length
         words[place], words[place + 1] = device.found.end, 0
         for base in device.bases:  # after a block's first part: where its counts lead
             if base.block is not None and not base.starts_block:
                 first = next(each for each in device.bases if each.starts_block and each.block == base.block)
-                starts[base.name] = starts[first.name] + base.offset
+                starts[base.name] = given.get(first.name, starts[first.name]) + self._offset(base)
         return starts
 
+    def _offset(self, base: Base) -> int:
+        """Return where a base is in its block."""
+        return base.offset + sum(self.counts[name] * factor for name, _, factor in base.counts)
 
-def _length(device: Device, base: Base) -> int:
-    """Return how many words a found block has: up to the last of its points."""
-    last = 0
-    for each in device.bases:
-        if each.block == base.block:
-            ends = (each.offset + max(point.addresses) for point in device.points if point.base == each.name)
-            last = max(last, max(ends, default=0))
-    return last + 1
+    def _length(self, device: Device, base: Base) -> int:
+        """Return how many words a found block has: up to the last of its points."""
+        last = 0
+        for each in device.bases:
+            if each.block == base.block:
+                points = (point for point in device.points if point.base == each.name)
+                last = max(last, max((self._offset(each) + max(point.addresses) for point in points), default=0))
+        return last + 1
 
 
 def _in_order(points: Mapping[str, Point]) -> Iterator[Point]:

@@ -136,7 +136,7 @@ class Memory:
     @classmethod
     def started(cls, layout: Layout, seed: int = 0) -> Memory:
         """Return the memory of a device as delivered; what no manual says follows from the seed."""
-        return cls(layout, _start(layout, seed))
+        return cls(*_start(layout, seed))
 
     def raw(self, name: str) -> int:
         """Return the raw number of a point."""
@@ -148,6 +148,23 @@ class Memory:
         self._put(point, self.layout.cells[name], raw)
         if point.write_place is not None:
             self._put(point, self.layout.written[name], raw)
+        if name in self.layout.counts:
+            self._lay_out({each: self.raw(each) for each in self.layout.counts})
+
+    def _lay_out(self, counts: Mapping[str, int]) -> None:
+        """Move the points that lie after counted elements; each keeps its number."""
+        layout = self.layout.counted(counts)
+        if layout is self.layout:
+            return
+        raws = {name: self.raw(name) for name, point in layout.points.items() if self.starts(point)}
+        held, self.layout, self.areas = self.areas, layout, _empty(layout)
+        for area, words in self.areas.items():
+            words.update(
+                (at, held[area][at])
+                for at in words.keys() & held.get(area, {}).keys() - layout.fixed.get(area, {}).keys()
+            )
+        for name, raw in raws.items():
+            self._put(layout.points[name], layout.cells[name], raw)
 
     def _setting(self, name: str) -> int | Fraction:
         return setting_of(self.layout.points[name], self.raw(name))
@@ -200,22 +217,23 @@ class Lookup(Mapping[str, V]):
         return len(self._names)
 
 
-_starts: dict[tuple[int, int], tuple[Layout, dict[Area, dict[int, int]]]] = {}
-"""The first words by layout and seed, so that a thousand devices of a kind start as quickly as one."""
+_starts: dict[tuple[int, int], tuple[Layout, Memory]] = {}
+"""The first memories by layout and seed, so that a thousand devices of a kind start as quickly as one."""
 _MOST_STARTS = 64
 
 
-def _start(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
+def _start(layout: Layout, seed: int) -> tuple[Layout, Mapping[Area, Mapping[int, int]]]:
     key = id(layout), seed
     with LOCK:
         if key not in _starts:
             while len(_starts) >= _MOST_STARTS:
                 del _starts[next(iter(_starts))]
-            _starts[key] = layout, _first_words(layout, seed)
-        return _starts[key][1]
+            _starts[key] = layout, _first(layout, seed)
+        return _starts[key][1].layout, _starts[key][1].areas
 
 
-def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
+def _empty(layout: Layout) -> dict[Area, dict[int, int]]:
+    """Return the words of a device where no point has a number yet."""
     areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in layout.fixed.items()}
     for cells in (*layout.cells.values(), *layout.written.values()):
         for address in cells.addresses:
@@ -225,7 +243,11 @@ def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
     reached = [(area, address) for area, addresses in layout.steps.items() for address in addresses]
     for area, address in (*layout.commands, *reached):
         areas.setdefault(area, {}).setdefault(address, 0)
-    memory = Memory(layout, areas)
+    return areas
+
+
+def _first(layout: Layout, seed: int) -> Memory:
+    memory = Memory(layout, _empty(layout))
     for point in layout.order:
         if point.view_of is None and memory.starts(point):
             random = Random(f"{seed} {point.name}")  # noqa: S311  # no secret
@@ -233,7 +255,7 @@ def _first_words(layout: Layout, seed: int) -> dict[Area, dict[int, int]]:
     for point in layout.order:
         if point.writable and memory.starts(point):
             memory.put(point.name, corrected_raw(point, memory.raw(point.name), memory.settings))
-    return memory.areas
+    return memory
 
 
 Value = str | int | float

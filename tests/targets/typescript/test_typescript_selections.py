@@ -45,12 +45,12 @@ def test_what_does_not_stand_is_written_before(line: Windowed, node: NodeDevice)
     assert line.sent == [(INDEX, 10), (INDEX, 11), (INDEX, 12)]
 
 
-@pytest.mark.parametrize(("method", "given", "at", "sent"), RESTARTS)
+@pytest.mark.parametrize(("at", "given", "sent"), RESTARTS)
 def test_a_retry_selects_again(
-    line: Windowed, node: NodeDevice, method: str, given: list[float], at: int, sent: list[tuple[int, int]]
+    line: Windowed, node: NodeDevice, at: int, given: list[float], sent: list[tuple[int, int]]
 ) -> None:
     node.set(retries=1)
     line.restarts_at = at
-    node("input_delay_index_2", method, *given)
+    node("input_delay_index_2", "write" if given else "read", *given)
     assert line.sent == sent
     assert line.behind[1, 11][0] == (45 if given else 20)
