@@ -234,7 +234,9 @@ class ModbusDecoder extends FrameDecoder {
     const span = { space, address, count: Math.min(count, 0x10000 - address), words, written, learned: isReply };
     const state = this.state(unit);
     if (isReply && words) this.find(state, space, address, words);
-    return [...spanSaid(this.placesOf(unit), state, span), ...commandsAt(span)];
+    const places = this.placesOf(unit);
+    const step = written && words && !words.some((_, at) => places.at(space, address + at).length) ? stepSaid(space, address, words) : undefined;
+    return step ? [step] : [...spanSaid(places, state, span), ...commandsAt(span)];
   }
 
   /** The places of points, where a unit has shown its blocks in these. @param {number} unit @returns {Places} */
@@ -322,4 +324,38 @@ function commandsAt({ space, address, words, written }) {
   const [name, , , value, title] = here.find((command) => command[3] === words?.[0]) ?? here[0];
   const finding = words && value !== null && words[0] !== value ? `it takes ${value}, here is ${words[0]}` : "";
   return [{ text: `command ${name}: ${[allTitles(title), finding].filter(Boolean).join("; ")}`, finding }];
+}
+
+/** The step of a command that writes these words, if one does. @param {string} space @param {number} address
+ * @param {number[]} words @returns {Said | undefined} */
+function stepSaid(space, address, words) {
+  for (const [place, given] of Object.values(generatedCode().Device.table.facts.commands ?? {}).entries()) {
+    const { requests = [], arguments: ends } = /** @type {any} */ (given);
+    for (const [number, step] of requests.entries()) {
+      const isHere = step.within === undefined && step.at.base === undefined && step.at.space === space && Math.min(...step.at.addresses) === address;
+      const numbers = isHere && step.words.length === words.length ? stepNumbers(step.words, words, ends) : undefined;
+      if (!numbers) continue;
+      const [name, , , , title] = device.commands[place];
+      const text = Object.entries(numbers).map(([argument, value]) => `; ${argument} = ${value}`).join("");
+      return { text: `command ${name}, step ${number + 1}: ${allTitles(title)}${text}` };
+    }
+  }
+  return undefined;
+}
+
+/** The arguments within their ends for which a step has these words. @param {any[]} due
+ * @param {number[]} words @param {Record<string, [number, number]>} ends */
+function stepNumbers(due, words, ends) {
+  /** @type {Record<string, number>} */
+  const numbers = {};
+  for (const [at, one] of due.entries()) {
+    const { constant, factor, argument, mask } = typeof one === "number" ? { constant: one, factor: 0, argument: "", mask: 0xffff } : one;
+    const fits = () => (((constant + factor * (numbers[argument] ?? 0)) ^ words[at]) & mask) === 0;
+    if (argument && numbers[argument] === undefined) {
+      const [low, high] = ends[argument];
+      for (numbers[argument] = low; numbers[argument] < high && !fits(); numbers[argument] += 1);
+    }
+    if (!fits()) return undefined;
+  }
+  return numbers;
 }

@@ -99,6 +99,7 @@ interface PageDevice {
   sections: Record<string, [string, string][]>;
   bus: { gaps: Record<string, [number, number][]>; [codes: string]: any };
   frames: string[][];
+  /** Name, space, address, value, title, in the order of the package; those of several steps have no space. */
   commands: [string, string, number, number | null, Title][];
   fields: string[];
   points: Point[];

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.families.modbus.frames import crc16
 from support.described import SHIPPED, shipped
 from support.made_once import made_once
 from support.places import ROOT, TESTS
@@ -83,6 +84,14 @@ SINK = TESTS / "devices/kitchen_sink"
 PAGE, INDEX, WRITE = "0106750000015206", "01067501000b83c1", "01067510002d521e"
 WINDOW = ((PAGE, PAGE, WRITE), (PAGE, PAGE, INDEX, INDEX, WRITE))
 """A write to a window whose page, and then whose index too, the device has taken before."""
+STEPS = {
+    "01 10 7420 0002 04 8B75 748A": "command start_engine, step 1: Start the engine",
+    "01 10 7420 0003 06 0005 0002 FFFA": "command close_breaker, step 1: Close breaker; unit = 5",
+    "01 10 7420 0003 06 0005 0002 FFFB": "no point is described here",
+    "01 06 7424 FFF5": "command close_breaker, step 2: Close breaker; delay = -5",
+    "01 0F 7420 0003 01 05": "command ask, step 5: Ask",
+}
+"""Frames without their checksum, and what the page and the command line say of the words."""
 SNIPPETS = {
     "c": (r"\b(?:{0}|fieldscribe)_(?!\w+\.h)\w+", ("{}*.h", "fieldscribe*.h")),
     "python": (r"(?:device\.|point = \w+\.|import )(\w+)", ("{}/*.py",)),
@@ -107,6 +116,11 @@ class Job(NamedTuple):
     settings: dict[str, Any] = {}  # noqa: RUF012  # likewise
 
 
+def _with_crc(frame: str) -> list[str]:
+    data = bytes.fromhex(frame)
+    return [(data + crc16(data).to_bytes(2, "little")).hex()]
+
+
 @pytest.fixture(scope="module")
 def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What the pages say of all jobs and texts, by device: one browser visits all pages."""
@@ -123,7 +137,7 @@ def heard(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         }
         assert main(["generate", str(SINK), "--target", "docs,vectors", "--out", str(folder)]) == 0
         spoiled = _spoiled_line((folder / "vectors/kitchen_sink.txt").read_text("utf-8"))
-        jobs = [{"text": "\n".join(frames), "settings": {}} for frames in WINDOW]
+        jobs = [{"text": "\n".join(frames), "settings": {}} for frames in (*WINDOW, *map(_with_crc, STEPS))]
         texts[str(folder / "docs/kitchen_sink.html")] = {"jobs": jobs, "typed": [], "spoil": spoiled}
         (folder / "jobs.json").write_text(json.dumps(texts), "utf-8")
         program = Path(__file__).with_name("try_pages.mjs")
@@ -245,9 +259,19 @@ def test_every_frame_of_the_vectors(device: str, heard: dict[str, Any]) -> None:
 
 def test_an_address_means_what_is_selected(heard: dict[str, Any]) -> None:
     """Of a write to the window: behind its page alone, and behind page and index."""
-    early, late = (frames[-1]["said"] for frames in heard["kitchen_sink"]["decoded"])
+    early, late = (frames[-1]["said"] for frames in heard["kitchen_sink"]["decoded"][: len(WINDOW)])
     assert [each["name"] for each in late] == ["input_delay_index_2"]
     assert {each["name"] for each in early} == {f"input_delay_index_{index}" for index in (1, 2, 3)}
+
+
+@pytest.mark.parametrize("place", range(len(STEPS)))
+def test_the_words_of_a_step_name_its_command(
+    place: int, heard: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    frame, said = list(STEPS.items())[place]
+    assert said in heard["kitchen_sink"]["decoded"][len(WINDOW) + place][-1]["said"][0]["text"]
+    main(["decode", str(SINK), *_with_crc(frame)])
+    assert said in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("place", range(len(TYPED)))

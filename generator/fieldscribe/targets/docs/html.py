@@ -83,7 +83,8 @@ def page_data(scope: DocsScope, made: str) -> dict[str, object]:
         "commands": [
             [line(each.name), each.space, each.address, each.value, points.titles(each.title)]
             for each in device.commands
-        ],
+        ]
+        + [[line(each.name), "", 0, None, points.titles(each.title)] for each in device.stepped_commands],
         **points.data(),
         "names": {
             "c": device.id,
