@@ -346,6 +346,23 @@ def test_a_command_has_arguments(word: str, code: int, message: str, run: Run) -
             assert blocks.values["level"] == 40.0
 
 
+def test_a_page_that_is_written_before_is_said_before(run: Run) -> None:
+    with simulated(DEVICES / "kitchen_sink") as sink:
+        words = (
+            "write",
+            str(DEVICES / "kitchen_sink"),
+            "input_delay_index_2=2",
+            "--line",
+            f"tcp://127.0.0.1:{sink.port}",
+        )
+        asked = run(*words).err
+        sent = run(*words, "--yes", "-v").err
+    assert "    written first, unless it stands: page = inputs (Inputs)\n" in asked
+    assert "    written first, unless it stands: array_index = 11\n" in asked
+    names = re.findall(r" -> .*\((\w+)\)$", sent, re.MULTILINE)
+    assert names == ["page", "array_index", "input_delay_index_2"]
+
+
 def test_a_base_that_only_a_given_number_moves_and_steps_where_no_point_lies(tmp_path: Path, run: Run) -> None:
     """The words of a mailbox belong to no point: the device takes them, and nothing else beside them."""
     modules = head(

@@ -168,6 +168,9 @@ class Planner:
 
     def _remarks(self, point: Point, keep: bool) -> Iterator[str]:
         """Yield what to know before a point is written."""
+        for name, raw in point.selects:
+            other = choose_point(self._model, name)
+            yield f"written first, unless it stands: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
         if point.conditions:
             yield f"write only when: {', '.join(point.conditions).replace('_', ' ')}"
         if keep or point.keeps == "yes":

@@ -30,15 +30,20 @@ def test_the_programs_compile(tmp_path: Path) -> None:
 def test_the_programs_run(tmp_path: Path) -> None:
     """They are JavaScript as they stand, too."""
     installed(tmp_path)
-    with simulated("hitachi_l200", on="serial", variants=["voltage_class=400V"]) as drive:
-        (tmp_path / "page.mjs").write_text("\n".join(BLOCKS).replace("/dev/ttyUSB0", str(drive.path)), "utf-8")
+    with (
+        simulated("hitachi_l200", on="serial", variants=["voltage_class=400V"]) as drive,
+        simulated("fronius_datamanager") as inverter,
+    ):
+        text = "\n".join(BLOCKS).replace("/dev/ttyUSB0", str(drive.path)).replace("192.168.0.20", "127.0.0.1")
+        (tmp_path / "page.mjs").write_text(text.replace("port: 502 ", f"port: {inverter.port} "), "utf-8")
         printed = succeed([tool("node"), "page.mjs"], cwd=tmp_path).splitlines()
     assert printed[:3] == ["50 Hz", "50 500 50 Hz", "50"]
     assert "500n" in printed
     assert "run 1" in printed
-    assert printed[-1].startswith(
+    assert printed[-2].startswith(
         "out_of_range A020 base_frequency 1000 A020 base_frequency: 1000 Hz is outside 0..400"
     )
+    assert printed[-1] == "{}"
 
 
 def test_the_first_program_is_short() -> None:
