@@ -74,7 +74,8 @@ def exercise(name: str, talk: Talk) -> None:
 def change(talk: Talk, point: Point, held: int, way: int) -> None:
     """Write a point by a function and read it back; what shares its word may refuse some numbers."""
     cells = talk.layout.written[point.name]
-    alone = all(len(talk.layout.writers[cells.area][address]) == 1 for address in cells.addresses)
+    writers = talk.layout.writers[cells.area[0], 0]
+    alone = all(len(writers[address]) == 1 for address in cells.addresses)
     for raw in samples(point, held, talk):
         code = refusal(talk, point, raw, way)
         assert not (code and alone), (point.name, raw, way, code)
