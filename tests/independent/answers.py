@@ -32,6 +32,13 @@ def _width_of(kind: str) -> int:
     return {"bit": 1, "text": 16, "bytes": 16}.get(kind) or int(kind[1:])
 
 
+def _length_of(parts: list[str] | dict[str, str], held: int) -> int:
+    """How many bytes the parts of a date take: one each in a list, else those of the words that are named."""
+    if isinstance(parts, list):
+        return len(parts)
+    return held * max(int((re.findall(r"word (\d+)", place) or ["1"])[0]) for place in parts.values())
+
+
 class Point:
     """One point, as its row says it."""
 
@@ -40,6 +47,8 @@ class Point:
         self.row = row
         self.item: str = row["item"]
         self.type: str = row.get("type", "bit" if row.get("space") in _BIT_SPACES else "u16")
+        if "parts" in row:
+            self.type = "bytes"
         self.has_bytes = self.type in ("text", "bytes")
 
     @cached_property
@@ -97,6 +106,8 @@ class Point:
         size = self.row["characters"] if self.type == "text" else _width_of(self.type)
         if self.type == "bytes":
             size = _BYTES.get(self.row.get("notation", "hex")) or 2 * int(self.row.get("length", 1))
+        if "parts" in self.row:
+            size = max(int(size), _length_of(self.row["parts"], held))
         count = -(-int(size) // held)
         if self.device.family == "uss" and self.row["space"] == "parameter":
             return [number(first)]
