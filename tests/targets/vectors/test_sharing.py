@@ -9,9 +9,7 @@ import pytest
 from fieldscribe import code_view
 from fieldscribe.code_view import for_code
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
-from fieldscribe.resources import render
-from fieldscribe.targets.vectors import outputs
-from fieldscribe.targets.vectors.collection import SharedVectors
+from fieldscribe.targets.vectors.collection import SharedVectors, collect
 from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled
 from support.described import KITCHENS, SHIPPED, made, shipped
@@ -45,9 +43,9 @@ ALL = [
 
 
 def text_of(device: Device) -> str:
-    """The vectors of a device as they are written."""
-    [(_, text)] = outputs(for_code(device), render)
-    return text
+    """The vectors of a device, made anew: the target keeps those of the last device."""
+    device = for_code(device)
+    return collect(device).text(device.id, device.version, device.digest)
 
 
 SOUND: dict[str, str] = {}
