@@ -88,9 +88,10 @@ def date_encode(package: Package, vector: Vector) -> bool:
     """A date and time to words; one that Python has no object of is out of range anyway."""
     point, (*numbers, millisecond) = package.point(vector), vector["numbers"]
     facts = dict(zip(_FIELDS, (*numbers, 1000 * millisecond), strict=True))
-    parts = {"date": _FIELDS[:3], "time": _FIELDS[3:]}.get(type(_form(point)).made, _FIELDS)
+    names = _form(point)._names
+    kept = {"second", "microsecond"} if "millisecond" in names else set()
     try:
-        value = getattr(datetime, type(_form(point)).made)(**{name: facts[name] for name in parts})
+        value = getattr(datetime, _form(point).made)(**{name: facts[name] for name in facts if name in names | kept})
     except ValueError:
         return bool(vector["status"] == "out_of_range")
     status, raw = package.outcome(point.encode, value)

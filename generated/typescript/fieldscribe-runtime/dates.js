@@ -22,7 +22,9 @@ class DatedForm extends Form {
     this.what = what;
     this.part = new WireType(16, { coding: bcd ? "bcd" : "" });
     this.lowFirst = lowFirst;
-    this.hasSecond = parts.some(([name]) => name === "second");
+    const names = new Set(parts.map(([name]) => name));
+    this.written = fields.filter((name) => names.has(name) || (name === "second" && names.has("millisecond")));
+    this.hasSecond = names.has("second");
     this.parts = parts.map(([name, word, high, low, base = 0]) => {
       const width = high - low + 1;
       return { name, word, low, base, width, most: (bcd ? 10 ** (width / 4) : 2 ** width) - 1 };
@@ -67,9 +69,9 @@ class DatedForm extends Form {
     }
     /** @type {Record<string, number>} */
     const held = {};
-    for (const name of this.fields) held[name] = Number(wholeNumber(TIME.indexOf(name) > 0 ? (value[name] ?? 0) : value[name]));
+    for (const name of this.written) held[name] = Number(wholeNumber(TIME.indexOf(name) > 0 ? (value[name] ?? 0) : value[name]));
     if (!this.isReal(held) || Object.values(held).some((number) => number < 0)) return undefined;
-    if (!this.hasSecond) held.millisecond += 1000 * held.second;
+    if (!this.hasSecond && "second" in held) held.millisecond += 1000 * held.second;
     const words = Array(this.words).fill(0);
     for (const { name, word, low, base, width, most } of this.parts) {
       const number = name === "weekday" ? weekday(held, base) : held[name] - base;

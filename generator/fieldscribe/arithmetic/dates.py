@@ -39,8 +39,10 @@ def words_of_date(layout: Text, text: str) -> list[int]:
 
 def first_date(layout: Text) -> str | None:
     """Return a date or time that the parts can hold: of 2000 if they can; None if there is none."""
-    starts = [part.base for part in layout.parts if part.name == "year"]
-    for text in ["00:00"] if layout.encoding == TIME else [f"{year:04}-01-01" for year in (2000, *starts, 1)]:
+    bases = [part.base for part in layout.parts if part.name == "year"]
+    years = {2000: None, **{base + after: None for base in bases for after in range(_WEEK)}, 1: None}
+    days = (f"{year:04}-01-{day:02}" for year in years for day in range(1, _WEEK + 1))
+    for text in ["00:00"] if layout.encoding == TIME else days:
         try:
             words_of_date(layout, text)
         except ValueError:

@@ -1,5 +1,6 @@
 """Points that select the meaning of addresses can be written, and are not selected themselves."""
 
+from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 
 
@@ -14,10 +15,14 @@ def check(analysis: Analysis) -> None:
         if not analysis.scope.family.has_bases:
             message = f"addresses of the family {analysis.scope.family.name} have one meaning"
             hint = "leave it out"
-        elif unwritable := next((other for other in others if not (other.writable and other.generated)), None):
+        elif unwritable := next((other for other in others if not _can_be_written(other)), None):
             message, hint = f"`{unwritable.name}` cannot be written", "correct its `access`, or name another point"
         elif selected := next((other for other in others if other.selects), None):
             message, hint = f"`{selected.name}` is selected itself", "name all points that select, at each group"
         else:
             continue
         analysis.report.error("wrong-choice", message, facts.span("select"), hint)
+
+
+def _can_be_written(point: Point) -> bool:
+    return point.writable and point.generated and bool(point.place.addresses)

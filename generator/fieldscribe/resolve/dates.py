@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from fieldscribe.arithmetic.dates import DATE, DATE_AND_TIME, TIME
+from fieldscribe.arithmetic.dates import DATE, DATE_AND_TIME, TIME, first_date
 from fieldscribe.arithmetic.words import BCD, mask_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import DatePart, Text
@@ -65,6 +65,8 @@ def _base_of(match: re.Match[str], bits: tuple[int, int]) -> int:
 def is_date(scope: Scope, facts: PointFacts, layout: Text) -> bool:
     """Return True for a date and time; report parts that do not form one, and impossible places."""
     faults = [*_faults(facts, layout), *_misplaced(facts, layout)]
+    if not faults and first_date(layout) is None:
+        faults = [(f"`{facts.name}` can hold no date", "give its parts the bits that a date needs", "parts")]
     for message, hint, key in faults:
         scope.report.error("date-parts", message, facts.span(key), hint)
     return not faults

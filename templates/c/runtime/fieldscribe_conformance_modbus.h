@@ -192,6 +192,13 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vec
         fieldscribe_agree(v, v->selecting == fieldscribe_done && selected.rows == (selection));  \
     }
 
+/* Of a point that the header cannot select: no function does what the line asks. */
+#define FIELDSCRIBE_NO_FUNCTION                                                                  \
+    if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
+        memset(v->own.used, true, sizeof v->own.used);                                           \
+        v->answered = true;                                                                      \
+    }
+
 /* A call does the whole script, says what its exchange or its conversion says, and whether an answer is still due. */
 FIELDSCRIBE_ONCE void fieldscribe_is_called(
     fieldscribe_vector *v, const fieldscribe_modbus_unit *unit, int status, int converted)

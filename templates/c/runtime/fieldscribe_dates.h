@@ -149,9 +149,14 @@ static inline fieldscribe_status fieldscribe_words_of_date(
     numbers[FIELDSCRIBE_DATE_SECOND] = time->second;
     numbers[FIELDSCRIBE_DATE_MILLISECOND] = time->millisecond;
     numbers[FIELDSCRIBE_DATE_WEEKDAY] = 0U;
+    for (at = FIELDSCRIBE_DATE_MINUTE; at <= FIELDSCRIBE_DATE_MILLISECOND; ++at) {
+        /* what is not written is not checked; a second may be in the milliseconds */
+        const bool last = (at == FIELDSCRIBE_DATE_SECOND) && fieldscribe_date_has(form, FIELDSCRIBE_DATE_MILLISECOND);
+        numbers[at] = (last || fieldscribe_date_has(form, at)) ? numbers[at] : 0U;
+    }
     fits = fieldscribe_date_is_real(form, numbers);
     if (!fieldscribe_date_has(form, FIELDSCRIBE_DATE_SECOND)) {
-        numbers[FIELDSCRIBE_DATE_MILLISECOND] += 1000U * (uint32_t)time->second;
+        numbers[FIELDSCRIBE_DATE_MILLISECOND] += 1000U * numbers[FIELDSCRIBE_DATE_SECOND];
     }
     for (at = 0U; (at < form->count) && fits; ++at) {
         const fieldscribe_date_part *const part = &form->parts[at];

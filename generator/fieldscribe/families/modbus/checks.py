@@ -58,7 +58,7 @@ def points_fit_into_one_request(subject: Analysis) -> None:
         if not point.generated or "type" in resolved.facts.failed:
             continue
         functions, span = SPACES[point.space], point.words
-        in_parts = point.text is not None  # clients read and write a long text by several requests
+        in_parts = point.text is not None and not point.text.parts  # a long text takes several requests, no date does
         if point.readable and not in_parts and functions.read in most and span > most[functions.read]:
             too_long.setdefault(("read", functions.read), []).append(resolved)
         many = functions.write_many
@@ -85,7 +85,7 @@ def _report_too_long(
         if most == FUNCTIONS[function].most:
             hint = "no request of Modbus is longer: give each part a point of its own, or correct `access`"
     draft = points[0].facts
-    key = "characters" if first.text is not None else "type"
+    key = "type" if first.text is None else "parts" if first.text.parts else "characters"
     subject.report.error("too-long", message, draft.span(key if draft.layer(key) is not None else None), hint)
 
 

@@ -33,7 +33,7 @@ def dates(lines: Lines, shape: Shape, layout: Text) -> None:
             for received in (words, _with_other_bits(layout, words)):
                 lines.add("date_decode", received, "malformed" if read is None else "ok", read)
         if shape.writable:
-            good = words is not None and _is_real(layout, numbers)
+            good = words is not None and _is_real(layout, _written(layout, numbers))
             lines.add("date_encode", numbers, "ok" if good else "out_of_range", words if good else None)
     for word in (0, 0xFFFF, 0x9999, 0x0A0A, 0xAAAA) if shape.readable else ():
         read = _read(layout, word)
@@ -41,8 +41,18 @@ def dates(lines: Lines, shape: Shape, layout: Text) -> None:
 
 
 def typical_date(layout: Text) -> list[int]:
-    """Return the words of a date and time that fits its parts."""
-    return next(words for numbers in _DATES if (words := _words(layout, _held(layout, numbers))) is not None)
+    """Return the words of a date and time that fits its parts; narrow parts may hold the first days of few years."""
+    bases = [part.base for part in layout.parts if part.name == "year"]
+    narrow = ((base + after, 1, day, 0, 0, 0, 0) for base in bases for after in range(7) for day in range(1, 8))
+    real = (numbers for numbers in (*_DATES, *narrow) if _is_real(layout, numbers))
+    return next(words for numbers in real if (words := _words(layout, _held(layout, numbers))) is not None)
+
+
+def _written(layout: Text, numbers: Sequence[int]) -> list[int]:
+    """Return the numbers with 0 for what is not written; a second may be in the milliseconds."""
+    names = {part.name for part in layout.parts}
+    names |= {"second"} if "millisecond" in names else set()
+    return [number if name in names else 0 for name, number in zip(_FIELDS, numbers, strict=True)]
 
 
 def _held(layout: Text, numbers: Sequence[int]) -> dict[str, int]:

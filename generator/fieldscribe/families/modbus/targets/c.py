@@ -317,7 +317,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, se
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
     row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) and not point.selects else None
-    cases = () if selected is None else tuple(_cases(point, view, access, selected))
+    cases = ("NO_FUNCTION",) if selected is None else tuple(_cases(point, view, access, selected))
     return Frame((descriptor,), cases, transfer, row)
 
 

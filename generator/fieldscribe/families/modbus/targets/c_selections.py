@@ -35,7 +35,8 @@ class Selections:
     def _has_row(self, point: Point) -> bool:
         """Return True if one word at one address holds the raw number of a point."""
         at_one = point.write_place is None or point.bits is None
-        return point.words == 1 and point.base is None and at_one and bool(self._write(point))
+        has_address = bool(point.written.addresses)
+        return has_address and point.words == 1 and point.base is None and at_one and bool(self._write(point))
 
     def _write(self, point: Point) -> int | None:
         return self.profile.write_function(point.space, 1)

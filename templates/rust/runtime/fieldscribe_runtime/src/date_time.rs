@@ -175,6 +175,7 @@ impl DateForm {
     /// Fills in the words of a date and time; none if it is none, or a part has no room for it.
     #[must_use]
     pub fn encoded(&self, value: DateTime, words: &mut [u16]) -> Option<()> {
+        let value = self.written(value);
         if !self.is_real(value) {
             return None;
         }
@@ -204,6 +205,20 @@ impl DateForm {
 
     fn has(&self, field: DateField) -> bool {
         self.parts.iter().any(|part| part.0 == field)
+    }
+
+    /// The time without what has no part; a second may be in the milliseconds.
+    fn written(&self, mut value: DateTime) -> DateTime {
+        if !self.has(DateField::Minute) {
+            value.minute = 0;
+        }
+        if !self.has(DateField::Millisecond) {
+            value.millisecond = 0;
+            if !self.has(DateField::Second) {
+                value.second = 0;
+            }
+        }
+        value
     }
 
     fn is_real(&self, value: DateTime) -> bool {
