@@ -5,11 +5,11 @@
  *
  * Eastron SDM630-Modbus V2: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
- * `write`. One that shares its word with other points has `update`: read the word first.
+  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+  * One that shares its word with other points has `update`: read the word first.
  */
 #include "eastron_sdm630.h"
-#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef EASTRON_SDM630_MODBUS_H
 #define EASTRON_SDM630_MODBUS_H
@@ -23,14 +23,13 @@
 
 static const fieldscribe_modbus_profile eastron_sdm630_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
     1U, 247U, /* the first unit, the last */
-    true, false, /* whether it speaks RTU, TCP */
-    false, /* whether 0Fh carries an even number of bytes */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x10000U, /* the unit that all listen to, and the functions that may go to it, as
-        bits */
-    0U, 0U, 80U, 80U, 0U, 0U, 1U, 0U, 2U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
+    true, false, /* RTU? TCP? */
+    false, /* does 0Fh carry an even number of bytes? */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x10000U, /* the broadcast unit, and the functions that may go to it, as bits */
+    0U, 0U, 80U, 80U, 0U, 0U, 1U, 0U, 2U); /* the most items in a request of 01h to 06h, 08h, 0Fh, 10h */
 
 /*
- * A device on a line, for the functions that read and write a point in one call, and for
+ * A device on a line, for functions that read or write a point in one call, and for
  * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
  * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
  */
@@ -47,9 +46,9 @@ enum {
     EASTRON_SDM630_EXCEPTION_DEVICE_FAILURE = 0x05U, /* Device failure */
 };
 
-/* ---- Reads that bring a group in as few requests as the device allows ---- */
+/* ---- Blocks: the fewest reads for each group that the device allows ---- */
 
-#define EASTRON_SDM630_BLOCK_MOST 40U /* the words, or bits, of the largest */
+#define EASTRON_SDM630_BLOCK_MOST 40U /* the words (or bits) of the largest block */
 
 static const fieldscribe_modbus_reading eastron_sdm630_measurements_blocks[] = {
     {4U, 0x0000U, 2U}, /* phase_1_voltage */
@@ -125,7 +124,7 @@ static const fieldscribe_modbus_reading eastron_sdm630_order_of_registers_blocks
     {3U, 0x0028U, 2U}, /* register_order */
 };
 
-/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+/* ---- The numbers of each group; `_decode` stores those of a read; `block` is its row above ---- */
 
 typedef struct eastron_sdm630_measurements_group {
     uint32_t phase_1_voltage_raw; /* decodes to V */
@@ -512,14 +511,14 @@ static inline void eastron_sdm630_order_of_registers_group_decode(
 static const fieldscribe_modbus_command eastron_sdm630_command_reset_maximum_demand =
     {{16U, EASTRON_SDM630_COMMAND_RESET_MAXIMUM_DEMAND_ADDRESS, 1U}, EASTRON_SDM630_COMMAND_RESET_MAXIMUM_DEMAND_VALUE};
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 static const fieldscribe_layout eastron_sdm630_layout_u32_order_01 =
     {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
 static const fieldscribe_layout eastron_sdm630_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
 
-/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+/* ---- Points: layout of the raw number, request to read, request to write (function, address, words) ---- */
 
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0000U, 2U}};

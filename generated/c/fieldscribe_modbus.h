@@ -1,10 +1,10 @@
 /*
- * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
- * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap; any bytes at any length are safe to parse. No state but the
- * caller's: everything may be called in an interrupt, with its own buffers, and a receiver from one place at a time.
- * SPDX-License-Identifier: 0BSD
- *
- * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
+  * Modbus frames over a serial line (RTU) or TCP: builds requests and parses answers in the caller's buffers.
+  * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap. Parsing is safe for any bytes of any length. All state is
+  * the caller's: every function may run in an interrupt with its own buffers, but only one context may use a receiver.
+  * SPDX-License-Identifier: 0BSD
+  *
+  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
  */
 #include "fieldscribe.h"
 #include "fieldscribe_modbus_facts.h"
@@ -16,16 +16,16 @@
 extern "C" {
 #endif
 
-/* The longest frames there are. */
+/* The lengths of the longest frames. */
 #define FIELDSCRIBE_MODBUS_RTU_MOST 256U
 #define FIELDSCRIBE_MODBUS_TCP_MOST 260U
 
-/* How many bytes fieldscribe_modbus_ask_rtu and _tcp receive at most for one answer: four of the longest frames. */
+/* The most bytes that ask_rtu and ask_tcp receive for one answer: four of the longest frames. */
 #define FIELDSCRIBE_MODBUS_ASK_MOST 1040U
 
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
-    /* converting a value, of ..._read_POINT and ..._write_POINT alone: the numbers of fieldscribe_status */
+    /* conversion, only from ..._read_POINT and ..._write_POINT: the numbers of fieldscribe_status */
     FIELDSCRIBE_MODBUS_OUT_OF_RANGE,
     FIELDSCRIBE_MODBUS_NOT_A_NUMBER,
     FIELDSCRIBE_MODBUS_UNKNOWN_VALUE,
@@ -35,13 +35,13 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_SPECIAL,
     FIELDSCRIBE_MODBUS_MALFORMED,
     /* building */
-    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all */
-    FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
-    FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
-    FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
+    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a function that cannot be broadcast */
+    FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not support the function */
+    FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or too few values */
+    FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item is after FFFFh, or 08h has a sub-function other than 0 */
     FIELDSCRIBE_MODBUS_BAD_VALUE,        /* a coil that is neither 0 nor 1 */
-    FIELDSCRIBE_MODBUS_BAD_FRAMING,      /* the device speaks the other one alone: RTU or TCP */
-    FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
+    FIELDSCRIBE_MODBUS_BAD_FRAMING,      /* the device supports only the other framing */
+    FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL, /* the caller's buffer is too small for the result */
     /* parsing */
     FIELDSCRIBE_MODBUS_SHORT_FRAME,
     FIELDSCRIBE_MODBUS_LONG_FRAME,
@@ -51,12 +51,12 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_WRONG_UNIT,
     FIELDSCRIBE_MODBUS_WRONG_FUNCTION,
     FIELDSCRIBE_MODBUS_EXCEPTION,      /* the device refused; the reply holds its code */
-    FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, /* a read that brings more or less than was asked for */
-    FIELDSCRIBE_MODBUS_ECHO_MISMATCH,  /* a write that was answered with something else */
-    FIELDSCRIBE_MODBUS_NOISE           /* of asking: bytes came, and no answer among them, or too many before it */
+    FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, /* the answer to a read has more or fewer items than requested */
+    FIELDSCRIBE_MODBUS_ECHO_MISMATCH,  /* the answer to a write does not repeat the request */
+    FIELDSCRIBE_MODBUS_NOISE           /* only from ask_*: bytes without an answer, or too many before it */
 } fieldscribe_modbus_status;
 
-/* The name of a status in small letters, for a log: "bad_crc"; "unknown" for another number. */
+/* The name of a status in lower case, for logs: "bad_crc"; "unknown" for any other number. */
 const char *fieldscribe_modbus_status_name(fieldscribe_modbus_status status);
 
 typedef enum fieldscribe_modbus_framing {
@@ -65,8 +65,8 @@ typedef enum fieldscribe_modbus_framing {
 } fieldscribe_modbus_framing;
 
 /*
- * What an answer says. The caller gives `values` with `room` items; `count` of them were stored: words, or 0 and 1, or
- * for 05h, 06h and 08h the value that was echoed, if there is room for it. `exception` is the device's code, or 0.
+ * A parsed answer. The caller provides `values` with `room` items; `count` of them are filled in: words, or coils as 0
+ * and 1; for 05h, 06h and 08h the echoed value, if there is room. `exception` is the device's exception code, or 0.
  */
 typedef struct fieldscribe_modbus_reply {
     uint16_t *values;
@@ -76,23 +76,22 @@ typedef struct fieldscribe_modbus_reply {
 } fieldscribe_modbus_reply;
 
 /*
- * A request, as fieldscribe_modbus_read, _write and _send make it. `number` stands behind the address: the count, or
- * the only value of 05h, 06h and 08h. For 08h, `address` is the sub-function (0). `writer` is NULL for a read, so
- * that a program which only reads links nothing that writes. `transaction` is for TCP alone.
+ * A request, as made by fieldscribe_modbus_read, _write and _send. `number` is the field after the address: the count,
+ * or the value of 05h, 06h and 08h. For 08h, `address` is the sub-function (0). `transaction` is used only over TCP.
  */
 typedef struct fieldscribe_modbus_request {
     uint8_t unit;
     uint8_t function;
     uint16_t address;
     uint16_t count;
-    bool late; /* an answer to an earlier request may still come: ask_rtu first waits until the line is silent */
+    bool late; /* the answer to an earlier request may still arrive: ask_rtu waits for silence first */
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    uint16_t transaction; /* of TCP, told from others by it */
+    uint16_t transaction; /* TCP only: the answer repeats it */
 #endif
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
-    uint16_t number; /* stands behind the address: the count, or the only value of 05h, 06h and 08h */
+    uint16_t number; /* the field after the address: the count, or the value of 05h, 06h and 08h */
     const uint16_t *values;
-    const struct fieldscribe_modbus_writer *writer; /* NULL for a read: a program that only reads links none */
+    const struct fieldscribe_modbus_writer *writer; /* NULL for a read: a program that only reads links no writer */
 #endif
 } fieldscribe_modbus_request;
 
@@ -112,8 +111,9 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_
 }
 
 /*
- * The request that writes a point, with `given` words (or coils); if they are too few, building says BAD_COUNT. One
- * alone (05h, 06h, 08h) is copied; several stay the caller's and are read when the frame is built, and never after.
+ * The request that writes a point. `given` is the number of values (words or coils); with too few, building returns
+ * BAD_COUNT. A single value (05h, 06h, 08h) is copied. Several values stay in the caller's array, which must not change
+ * until the frame is built.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_write(
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given);
@@ -125,42 +125,42 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_
     return fieldscribe_modbus_write(unit, &command->write, &command->value, 1U);
 }
 
-/* The bytes of the answer to a request, unless the device refuses it; 0 where nobody answers: it goes to all units. */
+/* The length of a normal answer to a request, in bytes; 0 for a broadcast, which gets no answer. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request);
 
 /*
- * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
- * never more than fit; 0 when it is whole, and where nobody answers. As soon as an answer says how long it is, that
- * counts, so that one of another length than was asked for is received as a whole, and refused.
+ * The number of bytes to wait for when `length` bytes of the answer are in a buffer of `size`: never more than fit, and
+ * 0 when the answer is complete or the request is a broadcast. Once the answer states its own length, that length
+ * counts: an answer of an unexpected length is received completely, and parsing refuses it.
  */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
     size_t length);
 
-/* What picks the answer to one request out of bytes as they come. */
+/* Finds the answer to one request in a stream of bytes. */
 typedef struct fieldscribe_modbus_receiver {
     uint8_t *buffer; /* the caller's */
     size_t size;
-    size_t length;  /* so many bytes of the answer are in the buffer, all of it when it is `done` */
-    size_t dropped; /* so many bytes were no part of it */
-    size_t next;    /* with so many bytes there is more to know about the answer */
+    size_t length;  /* bytes of the answer so far; the whole answer when `done` */
+    size_t dropped; /* bytes that did not belong to the answer */
+    size_t next;    /* the length at which to look at the answer again */
     uint8_t unit;
     uint8_t function;
     bool done;
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    uint8_t shortest; /* as many bytes has the shortest answer */
+    uint8_t shortest; /* the length of the shortest answer */
     uint16_t transaction;
     size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
 #endif
 } fieldscribe_modbus_receiver;
 
 /*
- * A receiver for the answer to a request, which it does not need again. It is done at once where nobody answers, and
- * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME. It drops noise, an answer to something
- * else, a wrong checksum; the last few bytes are looked at when more come, or when it is told that the line is silent.
- * If nothing came and nothing was dropped, nobody answers. An answer of another length than was asked for is received,
- * too, where it fits into the buffer; parsing says what is wrong with it.
+ * A receiver for the answer to a request; the request is not needed afterwards. The receiver is done at once for a
+ * broadcast, and where `size` is too small for the answer: parsing then returns SHORT_FRAME. It drops noise, answers to
+ * other requests, and frames with a wrong checksum. The last few bytes are judged when more arrive, or when
+ * fieldscribe_modbus_silent is called. If nothing arrived and nothing was dropped, no device answered. An answer of an
+ * unexpected length is received too if it fits the buffer; parsing reports the mistake.
  */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
@@ -170,18 +170,18 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(con
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
 
 /*
- * Gives a receiver bytes, one or many, and says how many of them it took: all, but for those that came behind the whole
- * answer. Those belong to the next one.
+ * Passes bytes to a receiver and returns how many it took: all, except those after the end of the answer. These belong
+ * to the next answer.
  */
 size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count);
 
 /*
- * Tells a receiver that the line is silent: an answer that is not done may stand behind noise that looked like the
- * beginning of a longer one.
+ * Tells a receiver that the line is silent. The receiver then looks for a complete answer after noise that looked like
+ * the start of a longer one.
  */
 void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver);
 
-/* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+/* Builds the frame of a request in `buffer`; `length` is the number of bytes used, 0 after an error. */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
@@ -189,7 +189,7 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 
-/* Reads the answer to a request. */
+/* Parses the answer to a request. */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
@@ -198,8 +198,8 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
 
 /*
- * The same without unit, head and checksum, for a stack that adds and removes them: a PDU, which begins with the
- * function. To build one, `buffer` needs room for one byte more.
+ * The same for the PDU alone (function and data, without unit, header and checksum), for a Modbus stack that adds and
+ * removes the rest. To build a PDU, `buffer` needs room for one more byte.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
@@ -208,10 +208,10 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply);
 
 /*
- * The same by framing: one that is constant links its own functions alone.
+  * The same for a framing given as an argument; a constant framing links only its own functions.
  *
- * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer.
- * `receive` is yours: false when the line stays silent.
+  * To read a point over a serial line: `words` has the size of the point, `buffer` room for the longest answer, and
+  * `receive` is your function: it returns false when the line stays silent.
  *
  *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
@@ -219,30 +219,30 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
  *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &point->read);
  *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
- *     discard();      (when RTU was silent for 3.5 characters; a late answer would be taken for this one)
- *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
+ *     discard();      (after 3.5 characters of silence (RTU); else a late answer is taken for this one)
+ *     send(buffer, length);      (if the line echoes, as RS-485 can, drop these `length` bytes again)
  *     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer);
  *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
  *         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
  *     }
- *     fieldscribe_modbus_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
+ *     fieldscribe_modbus_silent(&receiver);      (there may be an answer after noise that looks like a longer one)
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
  *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
  *
- * SHORT_FRAME says that no answer came. Whatever went wrong: wait until the line is silent before you ask again, or a
- * late answer is taken for the next one. Where you can wait for so many bytes at once, and there is no noise (TCP),
- * fieldscribe_modbus_left tells how many.
- *
- * Reading a block (..._BLOCK_MOST words hold any of the device), in the same way: for each of its points,
- * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), then
- * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which is false where `in` is NULL.
- *
- * Writing one: ..._encode says whether the number may be written, and a special code (..._INACTIVE) is such a raw
- * number as it stands; fieldscribe_put_u16(point->layout, raw, words, count) puts any that fits into the words, then
- * fieldscribe_modbus_write(unit, &point->write, words, count). Its answer is parsed, too: OK says that the device took
- * it, and the reply may be {NULL, 0U, 0U, 0U}. Nobody answers what goes to all units: nothing is left to be received,
- * so skip the parsing.
- * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
+  * SHORT_FRAME means that no answer arrived. After any error, wait until the line is silent before the next request:
+  * otherwise a late answer is taken for the next one. Where there is no noise (TCP), you can wait for several bytes at
+  * once: fieldscribe_modbus_left returns how many.
+  *
+  * To read a block (..._BLOCK_MOST words hold any block of the device), do the same. Then for each of its points:
+  * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), and
+  * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which returns false if `in` is NULL.
+  *
+  * To write a point: ..._encode makes the raw number and checks that it may be written; the macro of a special code
+  * (..._INACTIVE) is a raw number already. fieldscribe_put_u16(point->layout, raw, words, count) stores it in the words
+  * without that check, and fieldscribe_modbus_write(unit, &point->write, words, count) makes the request. Parse its
+  * answer too: OK means that the device accepted the write; the reply may be {NULL, 0U, 0U, 0U}. A broadcast gets no
+  * answer, so skip receiving and parsing.
+  * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
  */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
     const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
@@ -269,9 +269,10 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_receiver fieldscribe_modbus
 }
 
 /*
- * A line that requests go over. `send` waits until the line is silent (over RTU for 3.5 characters, or the device takes
- * no notice of the request), drops what has come in and sends; `receive` waits for a byte, and is false when none comes
- * within so many milliseconds. Both are yours and get `context`. `buffer` has room for the longest request and answer.
+ * A line to send requests on. Both functions are yours and get `context`. `send` waits until the line is silent (over
+ * RTU for 3.5 characters, or the device ignores the request), drops received bytes, and sends. `receive` waits for a
+ * byte and returns false if none comes within that many milliseconds. `buffer` has room for the longest request and
+ * answer.
  */
 typedef struct fieldscribe_modbus_line {
     const fieldscribe_modbus_profile *profile;
@@ -280,18 +281,18 @@ typedef struct fieldscribe_modbus_line {
     void (*send)(void *context, const uint8_t *bytes, size_t length);
     bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
-    uint32_t answer_ms; /* how long an answer may take to begin; it has that time once more after noise */
-    uint32_t pause_ms;  /* how long a pause within an answer may be */
+    uint32_t answer_ms; /* the longest time until an answer starts; it starts anew after noise */
+    uint32_t pause_ms;  /* the longest pause within an answer */
 } fieldscribe_modbus_line;
 
 /*
- * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
- * came, or its beginning alone; NOISE that other bytes came (an answer with a wrong checksum, of another unit, at
- * another baud rate), or ASK_MOST bytes with no answer in them. Nothing is sent where `buffer` or the reply is too
- * small for the answer (BUFFER_TOO_SMALL). What goes to all units is OK when it is sent, as nobody answers. Over TCP
- * give each request another `transaction`: by that a late answer is told from the one waited for. RTU has none: after
- * SHORT_FRAME or NOISE set `late` in the next request to that unit, also when it is the same again. It is sent when
- * nothing has come for `answer_ms`, or after ASK_MOST bytes. fieldscribe_modbus_read_words and the like do so.
+ * Sends a request and waits for its answer: build, send, receive and parse in one call. SHORT_FRAME means that nothing,
+ * or only the start of an answer, arrived; NOISE that other bytes arrived (an answer with a wrong checksum, from
+ * another unit or at another baud rate), or ASK_MOST bytes without an answer. BUFFER_TOO_SMALL: nothing was sent,
+ * because `buffer` or the reply is too small for the answer. A broadcast returns OK when it is sent. Over TCP, give
+ * each request a new `transaction`, so that late answers are recognized. RTU has no such number: after SHORT_FRAME or
+ * NOISE, set `late` in the next request to that unit, even if it is the same request. It is sent after `answer_ms` of
+ * silence, or after ASK_MOST bytes. fieldscribe_modbus_read_words and similar functions do this themselves.
  */
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -302,34 +303,34 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const f
 
 /*
  * A unit on a line: the part of a handle, such as `hitachi_l200_device`, that ..._read_POINT and ..._write_POINT use.
- * Each call sends one request and waits for its answer; a point that shares its word is read before it is written.
+ * Each call sends one request and waits for its answer; if a point shares its word, a write reads that word first.
  */
 typedef struct fieldscribe_modbus_unit {
     const fieldscribe_modbus_line *line;
     fieldscribe_modbus_status (*ask)(const fieldscribe_modbus_line *line, const fieldscribe_modbus_request *request,
         fieldscribe_modbus_reply *reply); /* fieldscribe_modbus_ask_rtu or _tcp */
     uint8_t number;
-    uint8_t exception;    /* the device's code if the last call returned EXCEPTION, else 0 */
-    bool late;            /* of the next request: the answer to the last one may still come */
+    uint8_t exception;    /* the device's exception code if the last call returned EXCEPTION, else 0 */
+    bool late;            /* for the next request: the answer to the last one may still arrive */
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    uint16_t transaction; /* of the next request */
+    uint16_t transaction; /* for the next request */
 #endif
 } fieldscribe_modbus_unit;
-/* A unit that has not been asked yet. */
+/* The initial value of a unit. */
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
 #define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, false, 0U}
 #else
 #define FIELDSCRIBE_MODBUS_UNIT(line, ask, number) {(line), (ask), (number), 0U, false}
 #endif
 
-/* One word (or coil) of a unit. */
+/* Read or write one word (or coil) of a unit. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_word(
     fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t *word);
 
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_word(
     fieldscribe_modbus_unit *unit, uint8_t function, uint16_t address, uint16_t word);
 
-/* Several words (or coils) of a unit, of a point, a block or a part of a long text: `words` has `count` of them. */
+/* Read or write `count` words (or coils): of a point, a block or a part of a long text. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_reading *what, uint16_t *words, size_t count);
 
@@ -337,8 +338,8 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_words(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count);
 
 /*
- * What was selected last. It stands until a call fails, or anything else is asked that does not go by these functions:
- * `next` is then not the next request of the unit.
+ * The selection that the device has now. It is forgotten when a call fails, and when a request is sent by another
+ * function: `next` is then no longer the number of the next request of the unit.
  */
 typedef struct fieldscribe_modbus_selected {
     const fieldscribe_modbus_selection *rows;
@@ -346,23 +347,23 @@ typedef struct fieldscribe_modbus_selected {
 } fieldscribe_modbus_selected;
 #define FIELDSCRIBE_MODBUS_NOTHING_SELECTED {NULL, 0U}
 
-/* Writes the rows of a selection that do not stand; none if `rows` is NULL. */
+/* Writes the rows of a selection that the device does not have yet; none if `rows` is NULL. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_select(
     fieldscribe_modbus_unit *unit, fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows);
 
-/* Reads the words of a point after what selects it was written. */
+/* Writes the selection of a point, then reads its words. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_selected(fieldscribe_modbus_unit *unit,
     fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
     const fieldscribe_modbus_reading *what, uint16_t *words);
 
-/* Writes them. What was selected stands no longer if nothing selects the point: it may be a page itself. */
+/* Writes the selection, then the words. A write without a selection forgets the current one: it may change the page. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_selected(fieldscribe_modbus_unit *unit,
     fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows,
     const fieldscribe_modbus_writing *what, const uint16_t *words);
 
 /*
- * Reads the number of a row. BAD_FUNCTION says that nothing was sent, because the row is of another device than the
- * unit, or cannot be read, or written; OUT_OF_RANGE that the number may not be written.
+ * Reads the number of a row. BAD_FUNCTION: nothing was sent, because the row belongs to another device than the unit,
+ * or cannot be read (or written). OUT_OF_RANGE: the number may not be written.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t *number);
@@ -371,7 +372,7 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row(
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_row(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_row *row, int64_t number);
 
-/* The same of a row that counts from a base. BAD_COUNT says that nothing was sent, because the base ends before it. */
+/* The same for a row whose address counts from a base. BAD_COUNT: nothing was sent, because it is outside the base. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_read_row_at(fieldscribe_modbus_unit *unit,
     const fieldscribe_modbus_based_row *row, fieldscribe_modbus_base base, int64_t *number);
 
@@ -381,15 +382,15 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_write_row_at(fi
 /* Start of a function that reads or writes a point. */
 #define FIELDSCRIBE_MODBUS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status
 
-/* The status of a conversion. */
+/* Convert a status of a conversion. */
 FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
 {
     return (fieldscribe_modbus_status)status;
 }
 
 /*
- * Bodies of these functions, which have a `device`. `number` and `decoded` take `word` (or `words`), `encoded` stores
- * in `raw`, from which `bits` (or `split`) makes what is written.
+ * The bodies of these functions, which have a parameter `device`. `number` and `decoded` are expressions of `word` (or
+ * `words`); `encoded` stores a raw number in `raw`, and `bits` (or `split`) makes the words to write from it.
  */
 
 #define FIELDSCRIBE_MODBUS_READ_WORD(function, address, to, number) \
@@ -422,7 +423,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
         fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
 
-/* Of texts, bytes and dates: `taken` fills them from `words`, `put` fills these; both may set `status`. */
+/* Texts, bytes and dates: `taken` decodes `words`, `put` encodes into them; both may set `status`. */
 #define FIELDSCRIBE_MODBUS_TAKE_WORDS(function, address, count, taken) \
     static const fieldscribe_modbus_reading what = {function, address, count}; \
     uint16_t words[count] = {0}; \
@@ -465,7 +466,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_word(&device->unit, function, address, bits) \
                                              : status;
 
-/* The same in a device with pages: `rows` are what selects the point, or NULL. */
+/* The same for a device with pages: `rows` is the selection of the point, or NULL. */
 
 #define FIELDSCRIBE_MODBUS_SELECTED_READ_WORD(rows, function, address, to, number) \
     static const fieldscribe_modbus_reading what = {function, address, 1U}; \
@@ -532,7 +533,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     return (status == FIELDSCRIBE_MODBUS_OK) \
         ? fieldscribe_modbus_write_selected(&device->unit, &device->selected, rows, &what, &word) : status;
 
-/* Whether so many addresses count from a base. */
+/* True if these addresses are within the base. */
 static inline bool fieldscribe_modbus_is_within(fieldscribe_modbus_base base, uint16_t address, uint16_t count)
 {
     return (((uint32_t)address + count) <= ((uint32_t)base.last + 1U)) &&
@@ -540,8 +541,8 @@ static inline bool fieldscribe_modbus_is_within(fieldscribe_modbus_base base, ui
 }
 
 /*
- * What is read, counted from a base; it may be a block. Behind the last address the count is 0: a request says
- * BAD_COUNT, and is not sent.
+ * The reading moved to a base; it may be a block. If it does not end within the base, its count is 0: building the
+ * request then returns BAD_COUNT, and nothing is sent.
  */
 static inline fieldscribe_modbus_reading fieldscribe_modbus_reading_at(
     fieldscribe_modbus_base base, const fieldscribe_modbus_reading *what)
@@ -554,7 +555,7 @@ static inline fieldscribe_modbus_reading fieldscribe_modbus_reading_at(
     return at;
 }
 
-/* The same of what is written. */
+/* The same for a writing. */
 static inline fieldscribe_modbus_writing fieldscribe_modbus_writing_at(
     fieldscribe_modbus_base base, const fieldscribe_modbus_writing *what)
 {
@@ -567,13 +568,13 @@ static inline fieldscribe_modbus_writing fieldscribe_modbus_writing_at(
 }
 
 /*
- * Finds a block: `base` is then what its addresses count from. UNKNOWN_VALUE says that the device has no such block, or
- * no marker; OVERFLOW that the blocks do not end.
+ * Finds a block and stores where its addresses start in `base`. UNKNOWN_VALUE: the device has no such block, or no
+ * marker. OVERFLOW: the chain of blocks does not end.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_find(fieldscribe_modbus_unit *unit,
     const fieldscribe_modbus_chain *chain, uint16_t block, fieldscribe_modbus_base *base);
 
-/* Bodies of functions that have a `base`, too. */
+/* The bodies of functions that also have a parameter `base`. */
 
 #define FIELDSCRIBE_MODBUS_BASED_READ_WORD(function, address, to, number) \
     uint16_t word = 0U; \
@@ -664,11 +665,11 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_find(fieldscrib
     } \
     return status;
 
-/* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
+/* The words (or coils) of a point in the answer to a block's request; NULL if some are missing. */
 FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
 
-/* The checksum of RTU frames; its low byte travels first. */
+/* The checksum of RTU frames; the low byte is sent first. */
 FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length);
 
 #ifdef __cplusplus
@@ -677,7 +678,7 @@ FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t
 
 #endif
 
-/* ---- The one definition ---- */
+/* ---- Definitions ---- */
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_MODBUS_IMPLEMENTED)
 #define FIELDSCRIBE_MODBUS_IMPLEMENTED
@@ -726,7 +727,7 @@ static bool fieldscribe_modbus_reads(uint8_t function)
 #endif
 }
 
-/* The bytes of the items that a request reads. */
+/* The number of bytes of the items that a request reads. */
 static uint32_t fieldscribe_modbus_item_bytes(const fieldscribe_modbus_request *request)
 {
 #if defined(FIELDSCRIBE_MODBUS_COILS)
@@ -737,7 +738,7 @@ static uint32_t fieldscribe_modbus_item_bytes(const fieldscribe_modbus_request *
     return (uint32_t)request->count * 2U;
 }
 
-/* The bytes of an answer that begins with this code and this byte, from its code on; 0 if it answers something else. */
+/* The length, from the function on, of an answer that begins with these two bytes; 0 if it answers another request. */
 static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t count)
 {
     if (code == (function | 0x80U)) {
@@ -749,7 +750,7 @@ static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t 
     return fieldscribe_modbus_reads(function) ? (2U + count) : 5U;
 }
 
-/* Whether a request is one to read, whatever its function. */
+/* True if the request reads. */
 static bool fieldscribe_modbus_is_read(const fieldscribe_modbus_request *request)
 {
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
@@ -760,7 +761,7 @@ static bool fieldscribe_modbus_is_read(const fieldscribe_modbus_request *request
 #endif
 }
 
-/* Whether nobody answers, because the request goes to all units. */
+/* True for a broadcast, which nobody answers. */
 static bool fieldscribe_modbus_is_to_all(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
@@ -773,7 +774,7 @@ static bool fieldscribe_modbus_is_to_all(
 #endif
 }
 
-/* Whether a unit is there, or all may be told at once. */
+/* True if the device can have this unit number, or the function may be broadcast. */
 static bool fieldscribe_modbus_has_unit(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request, uint32_t function)
 {
@@ -787,7 +788,7 @@ static bool fieldscribe_modbus_has_unit(
     return (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
 }
 
-/* Whether this device takes the request, whatever it writes. */
+/* OK if the device accepts the request, apart from its values. */
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
@@ -807,7 +808,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_allows(
         : FIELDSCRIBE_MODBUS_OK;
 }
 
-/* What requests that write are put and answered with: a program that only reads does not link it. */
+/* Builds and checks requests that write: a program that only reads does not link it. */
 struct fieldscribe_modbus_writer {
     fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *profile,
         const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size);
@@ -815,7 +816,7 @@ struct fieldscribe_modbus_writer {
         const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
 };
 
-/* The request from the unit to the end of its data. `size` is the room, at least 6, and becomes the bytes used. */
+/* Builds the request from the unit to the end of its data. `size` is the room, at least 6, then the bytes used. */
 static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
@@ -842,7 +843,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscrib
     return status;
 }
 
-/* Eight coils from one of them on, as a byte; 0 for those behind the last. */
+/* Eight coils as a byte; those after the last are 0. */
 static uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *request, uint32_t first)
 {
     uint8_t byte = 0U;
@@ -856,7 +857,7 @@ static uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *reques
     return byte;
 }
 
-/* Writes the data of 0Fh and 10h behind their byte count. */
+/* Writes the byte count and the data of 0Fh and 10h. */
 static void fieldscribe_modbus_put_values(
     const fieldscribe_modbus_request *request, uint8_t *data, uint32_t data_bytes)
 {
@@ -874,7 +875,7 @@ static void fieldscribe_modbus_put_values(
     }
 }
 
-/* Whether all that is written are coils, 0 or 1. */
+/* True if all values to write are coils, 0 or 1. */
 static bool fieldscribe_modbus_are_coils(const fieldscribe_modbus_request *request)
 {
     uint16_t at = 0U;
@@ -942,20 +943,20 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscrib
     return status;
 }
 
-/* Nothing has come yet. */
+/* An empty reply. */
 static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
 {
     reply->count = 0U;
     reply->exception = 0U;
 }
 
-/* How many values there is room for in a reply. */
+/* The number of values that fit into a reply. */
 static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
 {
     return (reply->values == NULL) ? 0U : reply->room;
 }
 
-/* What was written comes back, or how many items were. */
+/* Checks the echo: the value that was written, or the number of items. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
@@ -991,7 +992,7 @@ fieldscribe_modbus_request fieldscribe_modbus_write(
         request.count = what->count;
         request.number = (what->function > 0x08U) ? what->count : values[0];
 #if defined(FIELDSCRIBE_MODBUS_COILS)
-        if (what->function == 0x05U) { /* FF00h is on; 1 stands for what is no coil */
+        if (what->function == 0x05U) { /* FF00h is on; 1 marks an invalid coil */
             request.number = (uint16_t)((values[0] > 1U) ? 1U : (values[0] * 0xFF00U));
         }
 #endif
@@ -1056,14 +1057,14 @@ fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_
     }
     if (status == FIELDSCRIBE_MODBUS_OK) {
         *length = used - 1U;
-        for (at = 0U; at < *length; ++at) { /* over the unit */
+        for (at = 0U; at < *length; ++at) { /* over the unit number */
             buffer[at] = buffer[at + 1U];
         }
     }
     return status;
 }
 
-/* The item at a place of what was read. */
+/* The item at an index of the read values. */
 static uint16_t fieldscribe_modbus_item(const fieldscribe_modbus_request *request, const uint8_t *data, uint32_t at)
 {
 #if defined(FIELDSCRIBE_MODBUS_COILS)
@@ -1093,7 +1094,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_items(
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer of the right unit and function, or a refusal: `size` bytes from its code on, as it says itself. */
+/* Parses an answer with the right unit and function, or an exception: its own `size` bytes, from the function on. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
@@ -1121,7 +1122,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     if ((pdu != 0U) && (length != (pdu + 3U))) {
         return (length < (pdu + 3U)) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (fieldscribe_modbus_crc(bytes, length) != 0U) { /* with its checksum behind it, every frame has the checksum 0 */
+    if (fieldscribe_modbus_crc(bytes, length) != 0U) { /* the checksum over a frame and its checksum is 0 */
         return FIELDSCRIBE_MODBUS_BAD_CRC;
     }
     if (bytes[0] != request->unit) {
@@ -1132,7 +1133,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
 }
 
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-/* The same where the head of a frame says how long it is, whatever it brings. */
+/* The same for a frame whose header states its length. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
@@ -1190,13 +1191,13 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
                             : fieldscribe_modbus_take_answer(request, pdu, expected, reply);
 }
 
-/* The bytes of a frame beside its PDU: unit and checksum, or a head with the unit. */
+/* The bytes of a frame around its PDU: unit and checksum, or the header with the unit. */
 static uint32_t fieldscribe_modbus_around(fieldscribe_modbus_framing framing)
 {
     return (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 3U;
 }
 
-/* The bytes of the answer to a request from its code on. */
+/* The length of the answer to a request, from the function on. */
 static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
 {
     return fieldscribe_modbus_reads(request->function)
@@ -1221,12 +1222,12 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
         whole = shortest;
     } else if ((whole != 0U) && (framing == FIELDSCRIBE_MODBUS_TCP)) {
         whole = 6U + (uint32_t)fieldscribe_modbus_get(&buffer[4]);
-    } else if ((whole != 0U) && ((buffer[1] & 0x80U) != 0U)) { /* a refusal, whatever it answers */
+    } else if ((whole != 0U) && ((buffer[1] & 0x80U) != 0U)) { /* an exception, whatever it answers */
         whole = shortest;
     } else if ((whole != 0U) && (buffer[1] == request->function)) {
         whole = 3U + fieldscribe_modbus_pdu(request->function, request->function, buffer[2]);
     } else {
-        /* nobody answers, or something that does not say how long it is */
+        /* a broadcast, or an answer that does not state its length */
     }
     if (whole > size) {
         whole = (uint32_t)size;
@@ -1234,7 +1235,7 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
-/* How many bytes an answer has at least that so many begin; 0 where they begin none, or its checksum is wrong. */
+/* The least length of an answer that starts with these bytes; 0 if none does, or if its checksum is wrong. */
 
 static size_t fieldscribe_modbus_begun_rtu(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
@@ -1273,14 +1274,14 @@ static size_t fieldscribe_modbus_begun_tcp(
         ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U))) {
         whole = 0U;
     } else if (length < 8U) {
-        whole = shortest; /* which tells whose answer it is */
+        whole = shortest; /* enough to see whose answer it is */
     } else {
-        /* as it says */
+        /* its own length */
     }
     return whole;
 }
 
-/* The bytes of the shortest answer, which tell how long it is. */
+/* The length of the shortest answer, enough to know the length of any. */
 static size_t fieldscribe_modbus_shortest(const fieldscribe_modbus_receiver *receiver)
 {
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
@@ -1291,7 +1292,7 @@ static size_t fieldscribe_modbus_shortest(const fieldscribe_modbus_receiver *rec
 #endif
 }
 
-/* The bytes that an answer has at least of which so many have come; 0 where they begin none, or it is broken. */
+/* The least length of an answer that starts with these bytes; 0 if none does, or if it is corrupt. */
 static size_t fieldscribe_modbus_begun(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
@@ -1341,7 +1342,7 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
     return receiver;
 }
 
-/* Drops bytes until the rest may be the answer, in `silence` one that is whole if there is, and what came behind it. */
+/* Drops bytes until the rest may be the answer, and bytes after its end; after `silence` a complete answer wins. */
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
 {
     const size_t end = receiver->length;
@@ -1368,7 +1369,7 @@ static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, boo
     receiver->next = whole;
     receiver->done = whole <= rest;
     if (receiver->done) {
-        rest = whole; /* without what came behind it */
+        rest = whole; /* drop bytes after the answer */
     }
     receiver->length = rest;
     receiver->dropped += end - rest;
@@ -1399,7 +1400,7 @@ void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver)
     }
 }
 
-/* Receives an answer until it is whole, the line is silent, or enough has come. */
+/* Receives an answer until it is complete, the line is silent, or ASK_MOST bytes arrived. */
 static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
 {
     uint32_t wait = line->answer_ms;
@@ -1419,7 +1420,7 @@ static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, field
     }
 }
 
-/* Sends a request of which `length` bytes were built, if there is room for its answer in a frame that adds `around`. */
+/* Sends a built request of `length` bytes if its answer fits the buffer; the frame adds `around` bytes. */
 static fieldscribe_modbus_status fieldscribe_modbus_sent(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, size_t length, const fieldscribe_modbus_reply *reply, size_t around)
 {
@@ -1431,7 +1432,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_sent(const fieldscribe_modbu
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Receives the answer, which has its time once more after noise. OK if it is whole. */
+/* Receives the answer; after noise it waits `answer_ms` once more. OK if the answer is complete. */
 static fieldscribe_modbus_status fieldscribe_modbus_received(
     const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
 {
@@ -1494,7 +1495,7 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
         : status;
 }
 
-/* Exchanges one request of a unit. */
+/* Sends one request to a unit and receives the answer. */
 static fieldscribe_modbus_status fieldscribe_modbus_call(
     fieldscribe_modbus_unit *unit, fieldscribe_modbus_request *request, uint16_t *words, size_t count)
 {
@@ -1540,7 +1541,7 @@ fieldscribe_modbus_status fieldscribe_modbus_write_word(
     return fieldscribe_modbus_write_words(unit, &what, &word, 1U);
 }
 
-/* Whether a row is one of those that stand. */
+/* True if the row is one of the current selection. */
 static bool fieldscribe_modbus_stands(
     const fieldscribe_modbus_selection *standing, const fieldscribe_modbus_selection *row)
 {
@@ -1555,7 +1556,7 @@ static bool fieldscribe_modbus_stands(
     return stands;
 }
 
-/* Writes a row, into the bits that it has. */
+/* Writes the bits of a row. */
 static fieldscribe_modbus_status fieldscribe_modbus_write_selection(
     fieldscribe_modbus_unit *unit, const fieldscribe_modbus_selection *row)
 {
@@ -1571,7 +1572,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_write_selection(
     return status;
 }
 
-/* Notes what stands after a call. */
+/* Records the selection after a call. */
 static fieldscribe_modbus_status fieldscribe_modbus_selects(const fieldscribe_modbus_unit *unit,
     fieldscribe_modbus_selected *selected, const fieldscribe_modbus_selection *rows, fieldscribe_modbus_status status)
 {
@@ -1622,14 +1623,14 @@ fieldscribe_modbus_status fieldscribe_modbus_write_selected(fieldscribe_modbus_u
     return status;
 }
 
-/* True if raw numbers of the layout, which has up to 32 bits, have a sign. */
+/* True if raw numbers of the layout (up to 32 bits) are signed. */
 static bool fieldscribe_modbus_is_signed(const fieldscribe_layout *layout)
 {
     return (layout->type == (uint8_t)FIELDSCRIBE_S8) || (layout->type == (uint8_t)FIELDSCRIBE_S16) ||
         (layout->type == (uint8_t)FIELDSCRIBE_S32) || (layout->type == (uint8_t)FIELDSCRIBE_LOW_FIRST_SIGNED);
 }
 
-/* Exchange the bytes of both words if the low one comes first. */
+/* Swaps the bytes of both words if the low one comes first. */
 static void fieldscribe_modbus_in_order(const fieldscribe_layout *layout, uint16_t *words)
 {
     if (layout->type >= (uint8_t)FIELDSCRIBE_LOW_FIRST) {
@@ -1656,7 +1657,7 @@ fieldscribe_modbus_status fieldscribe_modbus_read_row(
     return status;
 }
 
-/* True if the raw number fits the layout: it is then in the words. */
+/* Stores the raw number in the words; false if it does not fit the layout. */
 static bool fieldscribe_modbus_put_raw(const fieldscribe_layout *layout, int64_t raw, uint16_t *words)
 {
     bool fits = false;
@@ -1726,10 +1727,10 @@ fieldscribe_modbus_status fieldscribe_modbus_write_row_at(fieldscribe_modbus_uni
     return fieldscribe_modbus_write_row(unit, &moved, number);
 }
 
-/* The most blocks that are looked at: a broken device must not keep the line busy. */
+/* The most blocks that a search reads, so that a broken device cannot keep the line busy. */
 #define FIELDSCRIBE_MODBUS_BLOCKS_MOST 256U
 
-/* True if these words of a unit are the marker of a chain; `status` is that of reading them. */
+/* True if the words at this address are the marker of the chain; `status` is that of reading them. */
 static bool fieldscribe_modbus_is_marked(fieldscribe_modbus_unit *unit, const fieldscribe_modbus_chain *chain,
     uint16_t place, fieldscribe_modbus_status *status)
 {
@@ -1757,7 +1758,7 @@ fieldscribe_modbus_status fieldscribe_modbus_find(fieldscribe_modbus_unit *unit,
         } else if ((status != FIELDSCRIBE_MODBUS_OK) && (status != FIELDSCRIBE_MODBUS_EXCEPTION)) {
             return status;
         } else {
-            /* it is not there */
+            /* no marker here */
         }
     }
     if (place == 0x10000U) {

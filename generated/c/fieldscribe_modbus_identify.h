@@ -1,5 +1,5 @@
 /*
- * Which device answers, and which of its variants: what its points hold, read in the order of the description.
+ * Identifies the device and its variant by what its points hold; reads them in the order of the description.
  * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe_modbus.h"
@@ -7,17 +7,17 @@
 #ifndef FIELDSCRIBE_MODBUS_IDENTIFY_H
 #define FIELDSCRIBE_MODBUS_IDENTIFY_H
 
-#define FIELDSCRIBE_MODBUS_IDENTIFY_WORDS 125U /* that one request reads */
+#define FIELDSCRIBE_MODBUS_IDENTIFY_WORDS 125U /* the most words that one request reads */
 
-/* What a point holds in the device (axis 0), or in a value of an axis of variants; both count from 1. */
+/* What a point holds in the device (axis 0), or in one value of a variant axis; axes and values count from 1. */
 typedef struct fieldscribe_modbus_expectation {
     uint8_t axis;
     uint8_t value;
     fieldscribe_modbus_reading read;
-    fieldscribe_status (*holds)(const uint16_t *words); /* UNKNOWN_VALUE if they are something else */
+    fieldscribe_status (*holds)(const uint16_t *words); /* UNKNOWN_VALUE if the point holds something else */
 } fieldscribe_modbus_expectation;
 
-/* Whether a text is the other one. */
+/* True if two texts are equal. */
 static inline bool fieldscribe_is_same_text(const char *text, const char *other)
 {
     size_t at = 0U;
@@ -27,7 +27,7 @@ static inline bool fieldscribe_is_same_text(const char *text, const char *other)
     return text[at] == other[at];
 }
 
-/* Whether a point holds what is expected; it is read unless the row before was of the same words, and got them. */
+/* Checks that a point holds what is expected; reads it unless the previous row read the same words. */
 static inline fieldscribe_modbus_status fieldscribe_modbus_expect(fieldscribe_modbus_unit *unit,
     fieldscribe_modbus_base base, const fieldscribe_modbus_expectation *row, const fieldscribe_modbus_reading **held,
     uint16_t *words, bool *fits)
@@ -51,9 +51,9 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_expect(fieldscribe_mo
 }
 
 /*
- * Fills in `found`: of each axis the first value whose points all hold what is expected, 0 if none does; found[0] is 1
- * if the device is the one described, else the others are 0. What the device refuses to read fits nothing. Addresses
- * count from `base`: {0U, 0xFFFFU} if from 0.
+ * Fills in `found`: for each axis the first value whose points all hold what is expected, or 0 if there is none;
+ * found[0] is 1 if the device is the one described, otherwise all are 0. A point that the device refuses to read does
+ * not match. Addresses count from `base`; pass {0U, 0xFFFFU} if they start at 0.
  */
 FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_identify(fieldscribe_modbus_unit *unit, fieldscribe_modbus_base base,
     const fieldscribe_modbus_expectation *rows, size_t count, uint8_t *found, size_t axes)

@@ -1,14 +1,14 @@
 /*
- * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
- * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
- * No heap; any bytes at any length are safe to parse. No state but the caller's: everything may be called in an
- * interrupt, with its own buffers, and a receiver from one place at a time.
- * SPDX-License-Identifier: 0BSD
- *
- * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
- *
- * Reading a parameter over a serial line; `sent` and `heard` are words of process data. `receive` is yours: false when
- * the line stays silent.
+  * USS telegrams: builds requests and parses answers in the caller's buffers. A telegram carries a parameter part (PKW:
+  * one task for one parameter, or its answer) and process data (PZD: words that every telegram exchanges). No heap.
+  * Parsing is safe for any bytes of any length. All state is the caller's: every function may run in an interrupt with
+  * its own buffers, but only one context may use a receiver.
+  * SPDX-License-Identifier: 0BSD
+  *
+  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
+  *
+  * To read a parameter over a serial line: `sent` and `heard` are words of process data; `receive` is your function. It
+  * returns false when the line stays silent.
  *
  *     const fieldscribe_uss_rw *const point = &siemens_mm4_maximum_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_USS_MOST];
@@ -17,29 +17,29 @@
  *     fieldscribe_uss_reply reply = {heard, link.pzd, 0U, 0U, 0U, 0U};
  *     request = fieldscribe_uss_read(unit, &point->read);
  *     status = fieldscribe_uss_build(&profile, &link, &request, &process, buffer, sizeof buffer, &length);
- *     discard();      (what has come in: a late answer would be taken for this one)
- *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
+ *     discard();      (received bytes: else a late answer is taken for this one)
+ *     send(buffer, length);      (if the line echoes, as RS-485 can, drop these `length` bytes again)
  *     receiver = fieldscribe_uss_await(&link, &request, buffer, sizeof buffer);
  *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
  *         (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
  *     }
- *     fieldscribe_uss_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
+ *     fieldscribe_uss_silent(&receiver);      (there may be an answer after noise that looks like a longer one)
  *     status = fieldscribe_uss_parse(&profile, &link, &request, buffer, receiver.length, &reply);
  *     status = fieldscribe_uss_words_of_reply(&reply, &point->read, words, FIELDSCRIBE_COUNT(words));
  *     fits = fieldscribe_take_u32(point->layout, words, FIELDSCRIBE_COUNT(words), &raw);
  *
- * WRONG_START and WRONG_LENGTH then say that no answer came. Whatever went wrong: wait until the line is silent before
- * you ask again, or a late answer is taken for the next one.
- *
- * Writing one: ..._encode says whether the number may be written, and the macro of a special code is such a raw number
- * as it stands; fieldscribe_put_u32(point->layout, raw, words, count) puts any that fits into the words, then
- * fieldscribe_uss_write(unit, &point->write, words, count), which copies them. Its answer is parsed, too: OK says that
- * the device took it.
- * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
- *
- * A point of the process data: in = fieldscribe_uss_words_heard(&point->heard, heard, link.pzd), then
- * fieldscribe_take_s16(point->layout, in, point->heard.words, &raw), which is false where `in` is NULL; the same with
- * `sent` and put.
+  * WRONG_START and WRONG_LENGTH then mean that no answer arrived. After any error, wait until the line is silent before
+  * the next request: otherwise a late answer is taken for the next one.
+  *
+  * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
+  * already a raw number. fieldscribe_put_u32(point->layout, raw, words, count) stores it in the words without that
+  * check, and fieldscribe_uss_write(unit, &point->write, words, count) makes the request and copies the words. Parse
+  * its answer too: OK means that the device accepted the write.
+  * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
+  *
+  * A point of the received process data: in = fieldscribe_uss_words_heard(&point->heard, heard, link.pzd), then
+  * fieldscribe_take_s16(point->layout, in, point->heard.words, &raw), which returns false if `in` is NULL. To send one,
+  * do the same with `sent` and fieldscribe_put_s16.
  */
 #include "fieldscribe.h"
 
@@ -50,27 +50,27 @@
 extern "C" {
 #endif
 
-/* What the headers of devices rely on: it grows when they have to be generated anew. */
+/* The version that device headers check; it increases when they must be generated again. */
 #define FIELDSCRIBE_USS_INTERFACE 4
 
-/* The longest telegram there is. */
+/* The length of the longest telegram. */
 #define FIELDSCRIBE_USS_MOST 256U
 
-/* How many bytes fieldscribe_uss_ask receives at most for one answer: four of the longest telegrams. */
+/* The most bytes that fieldscribe_uss_ask receives for one answer: four of the longest telegrams. */
 #define FIELDSCRIBE_USS_ASK_MOST 1024U
 
-/* The length of a parameter part that is as long as its content needs. */
+/* The length of a variable parameter part: as long as its content needs. */
 #define FIELDSCRIBE_USS_VARIABLE 127U
 
-/* In a profile: no address byte is a broadcast. */
+/* In a profile: the device takes no broadcast. */
 #define FIELDSCRIBE_USS_NO_BROADCAST 0xFFFFU
 
-/* Parameters are numbered from 0 up to here. */
+/* The highest parameter number. */
 #define FIELDSCRIBE_USS_LAST_PARAMETER 31999U
 
 typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_OK = 0,
-    /* converting a value, of ..._read_POINT, _write_ and _store_ alone: the numbers of fieldscribe_status */
+    /* conversion, only from ..._read_POINT, _write_ and _store_: the numbers of fieldscribe_status */
     FIELDSCRIBE_USS_OUT_OF_RANGE,
     FIELDSCRIBE_USS_NOT_A_NUMBER,
     FIELDSCRIBE_USS_UNKNOWN_VALUE,
@@ -80,34 +80,34 @@ typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_SPECIAL,
     FIELDSCRIBE_USS_MALFORMED,
     /* building */
-    FIELDSCRIBE_USS_BAD_LINK,         /* a parameter part or a number of process data words that the device has not */
+    FIELDSCRIBE_USS_BAD_LINK,         /* a length of the parameter part or process data that the device does not have */
     FIELDSCRIBE_USS_BAD_UNIT,         /* not a unit of this device */
-    FIELDSCRIBE_USS_BAD_TASK,         /* the device does not know the task, or the link has no parameter part for it */
+    FIELDSCRIBE_USS_BAD_TASK,         /* the device does not support the task, or the link has no parameter part */
     FIELDSCRIBE_USS_BAD_PARAMETER,    /* beyond 31999 */
     FIELDSCRIBE_USS_BAD_INDEX,        /* beyond 255 */
-    FIELDSCRIBE_USS_BAD_VALUE,        /* the value does not fit into the words for it, or has fewer */
-    FIELDSCRIBE_USS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
+    FIELDSCRIBE_USS_BAD_VALUE,        /* the value does not fit its words, or too few words were given */
+    FIELDSCRIBE_USS_BUFFER_TOO_SMALL, /* the caller's buffer is too small for the result */
     /* parsing */
     FIELDSCRIBE_USS_WRONG_START,
     FIELDSCRIBE_USS_WRONG_LENGTH,
     FIELDSCRIBE_USS_WRONG_CHECK,
     FIELDSCRIBE_USS_WRONG_UNIT,
-    FIELDSCRIBE_USS_WRONG_PARAMETER, /* the answer is about another parameter or index */
-    FIELDSCRIBE_USS_NO_ANSWER,       /* the task has not been answered yet: ask again */
-    FIELDSCRIBE_USS_REFUSED,         /* the device refused; the reply holds its error */
-    FIELDSCRIBE_USS_NO_RIGHTS,       /* the parameter part is not in control */
-    FIELDSCRIBE_USS_WRONG_RESPONSE,  /* no response to this task */
-    FIELDSCRIBE_USS_NOISE            /* of asking: bytes came, and no answer among them, or too many before it */
+    FIELDSCRIBE_USS_WRONG_PARAMETER, /* the answer is for another parameter or index */
+    FIELDSCRIBE_USS_NO_ANSWER,       /* the device is still working on the task: ask again */
+    FIELDSCRIBE_USS_REFUSED,         /* the device refused; the reply holds its error number */
+    FIELDSCRIBE_USS_NO_RIGHTS,       /* the parameter part has no control right: the device refuses to write */
+    FIELDSCRIBE_USS_WRONG_RESPONSE,  /* the response does not belong to this task */
+    FIELDSCRIBE_USS_NOISE            /* only from fieldscribe_uss_ask: bytes without an answer, or too many before it */
 } fieldscribe_uss_status;
 
-/* The name of a status in small letters, for a log: "no_answer"; "unknown" for another number. */
+/* The name of a status in lower case, for logs: "no_answer"; "unknown" for any other number. */
 const char *fieldscribe_uss_status_name(fieldscribe_uss_status status);
 
-/* How master and device are set: words of the parameter part (0, 3, 4 or 127), and of the process data. */
+/* The set-up of master and device: words of the parameter part (0, 3, 4 or 127) and of the process data. */
 typedef struct fieldscribe_uss_link {
     uint8_t pkw;
     uint8_t pzd;
-    bool single_first; /* with 4 words, a single word stands in the first of the two for the value */
+    bool single_first; /* with 4 words, a single word is in the first of the two for the value */
 } fieldscribe_uss_link;
 
 /* A task, and the responses that mean success: bit n stands for response n. */
@@ -116,7 +116,7 @@ typedef struct fieldscribe_uss_task {
     uint16_t answers;
 } fieldscribe_uss_task;
 
-/* What a device understands. */
+/* What a device supports. */
 typedef struct fieldscribe_uss_profile {
     const fieldscribe_uss_task *tasks;
     size_t task_count;
@@ -129,7 +129,7 @@ typedef struct fieldscribe_uss_profile {
     uint8_t most_pzd;
 } fieldscribe_uss_profile;
 
-/* What reads a parameter: its value has `width` words. */
+/* Reads a parameter whose value has `width` words. */
 typedef struct fieldscribe_uss_reading {
     uint8_t task;
     uint16_t parameter;
@@ -137,7 +137,7 @@ typedef struct fieldscribe_uss_reading {
     uint8_t width;
 } fieldscribe_uss_reading;
 
-/* What writes one. */
+/* Writes a parameter. */
 typedef struct fieldscribe_uss_writing {
     uint8_t task;
     uint16_t parameter;
@@ -145,7 +145,7 @@ typedef struct fieldscribe_uss_writing {
     uint8_t width;
 } fieldscribe_uss_writing;
 
-/* Where a point stands in the words of process data that are heard, and in those that are sent, and how many it has. */
+/* The position of a point in the received or sent process data, and its number of words. */
 typedef struct fieldscribe_uss_heard {
     uint16_t position;
     uint8_t words;
@@ -157,8 +157,8 @@ typedef struct fieldscribe_uss_sent {
 } fieldscribe_uss_sent;
 
 /*
- * A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points;
- * for process data `heard` and `sent`.
+ * A point by its access: `read`, `write`, or `update` if it shares its word with other points; `heard` and `sent` for
+ * process data.
  */
 typedef struct fieldscribe_uss_r {
     const fieldscribe_layout *layout;
@@ -203,10 +203,10 @@ typedef struct fieldscribe_uss_hs {
     fieldscribe_uss_sent sent;
 } fieldscribe_uss_hs;
 
-/* A width that no value has: fewer words were given than were to be written. */
+/* An invalid width: fewer words were given than the value has. */
 #define FIELDSCRIBE_USS_TOO_FEW_WORDS 0xFFU
 
-/* What is asked of a parameter. `width` is how many words the value has: 0 for none, 1 or 2. */
+/* A request for a parameter. `width` is the number of words of the value: 0 (none), 1 or 2. */
 typedef struct fieldscribe_uss_request {
     uint8_t unit;
     uint8_t task;
@@ -223,8 +223,8 @@ typedef struct fieldscribe_uss_words {
 } fieldscribe_uss_words;
 
 /*
- * What an answer says: the words of the value and the value, or the error when the device refused. The caller gives
- * `process` with `room` words for process data, which is not where those are that are sent next.
+ * A parsed answer: the words of the value and the value, or the error number if the device refused. The caller provides
+ * `process` with `room` words for the received process data; keep the words to send in another array.
  */
 typedef struct fieldscribe_uss_reply {
     uint16_t *process;
@@ -235,86 +235,85 @@ typedef struct fieldscribe_uss_reply {
     uint16_t error;
 } fieldscribe_uss_reply;
 
-/* A request for no parameter: only process data is exchanged. */
+/* The request without a task, which only exchanges process data. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit);
 
 /* The request that reads a parameter. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, const fieldscribe_uss_reading *what);
 
-/* The request that writes one: of `count` words as many as its value has, the high one first; fewer are BAD_VALUE. */
+/* The request that writes a parameter. The high word comes first; with fewer words than the value has: BAD_VALUE. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_write(
     uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words, size_t count);
 
-/* The telegram of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+/* Builds the telegram of a request in `buffer`; `length` is the number of bytes used, 0 after an error. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process,
     uint8_t *buffer, size_t size, size_t *length);
 
 /*
- * A telegram for all units, which nobody answers. `mask` stands where the parameter part is: only the bits that are set
- * there are taken from the words of process data.
+ * Builds a broadcast, which nobody answers. `mask` is in the place of the parameter part: devices take only the bits
+ * that are set there from the words of process data.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const uint16_t mask[4], const fieldscribe_uss_words *process, uint8_t *buffer,
     size_t size, size_t *length);
 
-/* The bytes of an answer over the link; the fewest, where the parameter part is as long as its content needs. */
+/* The length of an answer over the link; the least length if the parameter part is variable. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_link *link);
 
 /*
- * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
- * never more than fit; 0 when it is whole. As soon as an answer says how long it is, that counts, so that one of
- * another length than the link has is received as a whole, and refused. Nobody answers a broadcast: do not wait.
+ * The number of bytes to wait for when `length` bytes of the answer are in a buffer of `size`: never more than fit, and
+ * 0 when the answer is complete. Once the answer states its own length, that length counts: an answer of an unexpected
+ * length is received completely, and parsing refuses it. Do not wait after a broadcast: nobody answers it.
  */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
     const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length);
 
 /*
- * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
- * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, a telegram
- * of another unit, a wrong check. If nothing came and nothing was dropped, nobody answers. A telegram of another length
- * than the link has is received, too, where it fits into the buffer; parsing says that its length is wrong.
+ * Finds the answer to one request in a stream of bytes. The first `length` bytes of the caller's `buffer` are the
+ * answer so far, and the whole answer when `done`. `dropped` counts bytes that did not belong to it: noise, telegrams
+ * of other units, a wrong check byte. If nothing arrived and nothing was dropped, no device answered. A telegram of an
+ * unexpected length is received too if it fits the buffer; parsing reports the wrong length.
  */
 typedef struct fieldscribe_uss_receiver {
     uint8_t *buffer;
     size_t size;
     size_t length;
     size_t dropped;
-    size_t next; /* so many bytes say more about the answer */
+    size_t next; /* the length at which to look at the answer again */
     bool done;
     uint8_t unit;
 } fieldscribe_uss_receiver;
 
-/* A receiver for the answer to a request; it is done at once where `size` bytes are too few for any. */
+/* A receiver for the answer to a request; it is done at once if `size` is too small for any answer. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_receiver fieldscribe_uss_await(
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, uint8_t *buffer, size_t size);
 
 /*
- * Gives a receiver bytes, one or many, and says how many of them it took: all, but for those that came behind the whole
- * answer. Those belong to the next one.
+ * Passes bytes to a receiver and returns how many it took: all, except those after the end of the answer. These belong
+ * to the next answer.
  */
 size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t count);
 
 /*
- * Tells a receiver that the line is silent: an answer that is not done may stand behind noise that looked like the
- * beginning of a longer one.
+ * Tells a receiver that the line is silent. The receiver then looks for a complete answer after noise that looked like
+ * the start of a longer one.
  */
 void fieldscribe_uss_silent(fieldscribe_uss_receiver *receiver);
 
 /*
- * Reads the answer to `request`. The words of process data, as many as the link has, come with every good telegram,
- * also with one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they
- * were if it is not good. What an answer does not say is 0 in the reply.
+ * Parses the answer to `request`. Every valid telegram brings the words of process data, even if it brings no value
+ * (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE); an invalid one leaves them unchanged. Fields of the
+ * reply that the answer does not have are 0.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
     fieldscribe_uss_reply *reply);
 
 /*
- * A line that telegrams go over. `send` waits until the line is silent for two characters, drops what has come in and
- * sends; `receive` waits for a byte, and is false when none comes within so many milliseconds. Both are yours and get
- * `context`.
- * `buffer` has room for the longest telegram.
+ * A line to send telegrams on. Both functions are yours and get `context`. `send` waits until the line was silent for
+ * two characters, drops received bytes, and sends. `receive` waits for a byte and returns false if none comes within
+ * that many milliseconds. `buffer` has room for the longest telegram.
  */
 typedef struct fieldscribe_uss_line {
     const fieldscribe_uss_profile *profile;
@@ -324,30 +323,30 @@ typedef struct fieldscribe_uss_line {
     void (*send)(void *context, const uint8_t *bytes, size_t length);
     bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
-    uint32_t answer_ms; /* how long an answer may take to begin; it has that time once more after noise */
-    uint32_t pause_ms;  /* how long a pause within an answer may be */
+    uint32_t answer_ms; /* the longest time until an answer starts; it starts anew after noise */
+    uint32_t pause_ms;  /* the longest pause within an answer */
 } fieldscribe_uss_line;
 
 /*
- * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
- * WRONG_START says that nothing came, WRONG_LENGTH that it broke off; NOISE that other bytes came (an answer with a
- * wrong check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them. Nothing is sent where
- * the reply has no room for the words of process data (BUFFER_TOO_SMALL).
+ * Sends a request with words of process data and waits for its answer: build, send, receive and parse in one call.
+ * WRONG_START means that nothing arrived, WRONG_LENGTH that the answer broke off, NOISE that other bytes arrived (an
+ * answer with a wrong check byte, from another unit or at another baud rate), or ASK_MOST bytes without an answer.
+ * BUFFER_TOO_SMALL: nothing was sent, because the reply has no room for the words of process data.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);
 
 /*
- * The words of the value that an answer brings, the high one first, where `count` are room enough; WRONG_RESPONSE when
- * it has another width.
+ * The words of the value in an answer, the high word first, if `count` is enough; WRONG_RESPONSE if the value has
+ * another width.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_words_of_reply(
     const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words, size_t count);
 
 /*
  * A unit on a line: the part of a handle, such as `siemens_mm4_device`, that ..._read_POINT, ..._write_POINT and
- * ..._store_POINT use. Each call sends one request and waits for its answer; a point that shares its word is read
- * before it is written. `sent` goes with each request, `heard` comes with each answer: as many words as the link has.
+ * ..._store_POINT use. Each call sends one request and waits for its answer; if a point shares its word, a write reads
+ * that word first. Each request sends `sent`, each answer fills `heard`: both have as many words as the link.
  */
 typedef struct fieldscribe_uss_unit {
     const fieldscribe_uss_line *line;
@@ -356,15 +355,15 @@ typedef struct fieldscribe_uss_unit {
     const uint16_t *sent;
     uint16_t *heard;
     uint8_t number;
-    uint16_t error; /* the device's error if the last call returned REFUSED, else 0 */
+    uint16_t error; /* the device's error number if the last call returned REFUSED, else 0 */
 } fieldscribe_uss_unit;
-/* A unit that has not been asked yet. */
+/* The initial value of a unit. */
 #define FIELDSCRIBE_USS_UNIT(line, ask, sent, heard, number) {(line), (ask), (sent), (heard), (number), 0U}
 
-/* Exchanges process data alone. */
+/* Exchanges only process data. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_exchange_words(fieldscribe_uss_unit *unit);
 
-/* The words of a parameter of a unit, the high one first: there are `count`. */
+/* Read or write the `count` words of a parameter of a unit, the high word first. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_read_words(
     fieldscribe_uss_unit *unit, const fieldscribe_uss_reading *what, uint16_t *words, size_t count);
 
@@ -374,15 +373,15 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_write_words(
 /* Start of a function that reads or writes a point. */
 #define FIELDSCRIBE_USS_CALL FIELDSCRIBE_CHECKED static inline fieldscribe_uss_status
 
-/* The status of a conversion. */
+/* Converts a status of a conversion. */
 FIELDSCRIBE_USS_CALL fieldscribe_uss_converted(fieldscribe_status status)
 {
     return (fieldscribe_uss_status)status;
 }
 
 /*
- * Bodies of these functions, which have a `device`. `number` and `decoded` take `word` (or `words`), `encoded` stores
- * in `raw`, from which `bits` (or `split`) makes what is written.
+ * The bodies of these functions, which have a parameter `device`. `number` and `decoded` are expressions of `word` (or
+ * `words`); `encoded` stores a raw number in `raw`, and `bits` (or `split`) makes the words to write from it.
  */
 
 #define FIELDSCRIBE_USS_READ_WORD(frame, to, number) \
@@ -437,7 +436,7 @@ FIELDSCRIBE_USS_CALL fieldscribe_uss_converted(fieldscribe_status status)
     return (status == FIELDSCRIBE_USS_OK) ? fieldscribe_uss_write_words(&device->unit, &(frame).update, &word, 1U) \
                                           : status;
 
-/* The words of one point among the `count` of process data; NULL when those do not hold all of them. */
+/* The words of a point in `count` words of process data; NULL if some are missing. */
 FIELDSCRIBE_CHECKED static inline const uint16_t *fieldscribe_uss_words_heard(
     const fieldscribe_uss_heard *where, const uint16_t *process, size_t count)
 {
@@ -456,7 +455,7 @@ FIELDSCRIBE_CHECKED static inline uint16_t *fieldscribe_uss_words_sent(
     return &process[where->position];
 }
 
-/* The last byte of a telegram: all before it, combined by exclusive or. */
+/* The last byte of a telegram: the exclusive or of all bytes before it. */
 FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length);
 
 #ifdef __cplusplus
@@ -465,7 +464,7 @@ FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t l
 
 #endif
 
-/* ---- The one definition ---- */
+/* ---- Definitions ---- */
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_USS_IMPLEMENTED)
 #define FIELDSCRIBE_USS_IMPLEMENTED
@@ -527,7 +526,7 @@ uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length)
     return check;
 }
 
-/* The task of that number; NULL when the device does not know it. */
+/* The task with this number; NULL if the device does not support it. */
 static const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_profile *profile, uint8_t number)
 {
     size_t at;
@@ -546,13 +545,13 @@ static uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
     return (uint16_t)(index | ((page & 1U) << 15) | (((page >> 1) & 7U) << 12));
 }
 
-/* Whether a single word stands in the second of the two words for the value. */
+/* True if a single word is in the second of the two words for the value. */
 static bool fieldscribe_uss_single_last(const fieldscribe_uss_link *link)
 {
     return (link->pkw == 4U) && !link->single_first;
 }
 
-/* Whether the device can be set to such a parameter part. */
+/* True if the device supports this length of the parameter part. */
 static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, uint8_t pkw)
 {
     size_t at = 0U;
@@ -562,20 +561,20 @@ static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, u
     return at < profile->pkw_count;
 }
 
-/* How many words of process data there are to send. */
+/* The number of words of process data to send. */
 static size_t fieldscribe_uss_count(const fieldscribe_uss_words *process)
 {
     return (process->words == NULL) ? 0U : process->count;
 }
 
-/* Whether the device can be set to so many words of process data, and `count` is how many there are. */
+/* True if the device supports the link's number of process data words, and `count` is that number. */
 static bool fieldscribe_uss_allows_pzd(
     const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
 {
     return (count == link->pzd) && (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
 }
 
-/* Whether this device takes the request. */
+/* OK if the device accepts the request. */
 static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, size_t pzd_count)
 {
@@ -601,12 +600,12 @@ static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profi
     return FIELDSCRIBE_USS_OK;
 }
 
-/* Puts a telegram together: `head` has `head_bytes` bytes of parameter part. */
+/* Builds a telegram; `head` is its parameter part of `head_bytes` bytes. */
 static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
     const fieldscribe_uss_words *process, uint8_t *buffer, size_t size, size_t *length)
 {
     const size_t most = (size < FIELDSCRIBE_USS_MOST) ? size : FIELDSCRIBE_USS_MOST;
-    const size_t around = 4U + head_bytes; /* with start, length, address and check */
+    const size_t around = 4U + head_bytes; /* start, length, address and check */
     const size_t count = fieldscribe_uss_count(process);
     size_t used;
     size_t at;
@@ -646,7 +645,7 @@ fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *prof
     fieldscribe_uss_put(head, (uint16_t)((((uint32_t)request->task & 0xFU) << 12) | (request->parameter % 2000U)));
     fieldscribe_uss_put(head + 2, fieldscribe_uss_index_word(request->parameter, request->index));
     fieldscribe_uss_put(head + 4, (uint16_t)(value >> 16));
-    fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* left out where the part has 3 words */
+    fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* not sent if the part has 3 words */
     return fieldscribe_uss_assemble(request->unit, head, (link->pkw == 0U) ? 0U : ((link->pkw == 3U) ? 6U : 8U),
         process, buffer, size, length);
 }
@@ -668,13 +667,13 @@ fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_pro
         (uint8_t)profile->broadcast, head, sizeof head, process, buffer, size, length);
 }
 
-/* Whether a parameter part of that many words can come over the link. */
+/* True if an answer over the link can have a parameter part of this many words. */
 static bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
 {
     return (link->pkw == FIELDSCRIBE_USS_VARIABLE) ? (words >= 3U) : (words == link->pkw);
 }
 
-/* Reads the parameter part of an answer, which has `words` words. */
+/* Parses the parameter part of an answer; it has `words` words. */
 static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *part, size_t words,
     fieldscribe_uss_reply *reply)
@@ -686,7 +685,7 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     uint8_t response;
     bool is_double;
     if (words < 3U) {
-        return FIELDSCRIBE_USS_WRONG_LENGTH; /* of no link that a device has */
+        return FIELDSCRIBE_USS_WRONG_LENGTH; /* no device has such a link */
     }
     head = fieldscribe_uss_get(part);
     first = fieldscribe_uss_get(part + 4);
@@ -694,7 +693,7 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     response = (uint8_t)(head >> 12);
     is_double = (response == 2U) || (response == 5U);
     if (request->task == 0U) {
-        reply->response = response; /* nothing was asked: there is no value */
+        reply->response = response; /* no task: there is no value */
         return FIELDSCRIBE_USS_OK;
     }
     if (response == 0U) {
@@ -728,7 +727,7 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     return FIELDSCRIBE_USS_OK;
 }
 
-/* Nothing has come yet. */
+/* An empty reply. */
 static void fieldscribe_uss_clear(fieldscribe_uss_reply *reply)
 {
     reply->response = 0U;
@@ -737,7 +736,7 @@ static void fieldscribe_uss_clear(fieldscribe_uss_reply *reply)
     reply->error = 0U;
 }
 
-/* How many words of process data there is room for in a reply. */
+/* The number of words of process data that fit into a reply. */
 static size_t fieldscribe_uss_room(const fieldscribe_uss_reply *reply)
 {
     return (reply->process == NULL) ? 0U : reply->room;
@@ -749,7 +748,7 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
 {
     fieldscribe_uss_status status = FIELDSCRIBE_USS_OK;
     size_t all; /* words of data */
-    size_t words; /* of them in the parameter part */
+    size_t words; /* words of the parameter part */
     size_t at;
     fieldscribe_uss_clear(reply);
     if ((length == 0U) || (bytes[0] != 0x02U)) {
@@ -818,26 +817,26 @@ fieldscribe_uss_receiver fieldscribe_uss_await(
     return receiver;
 }
 
-/* How many bytes an answer has at least that so many begin; 0 where they begin none, or where its check is wrong. */
+/* The least length of an answer that starts with these bytes; 0 if none does, or if its check byte is wrong. */
 static size_t fieldscribe_uss_begun(const fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t length)
 {
     const size_t shortest = 4U;
     size_t whole = (length > 1U) ? (2U + (size_t)bytes[1]) : shortest;
     if ((bytes[0] != 0x02U) || (whole < shortest) || (whole > receiver->size) ||
         ((length > 2U) && (bytes[2] != receiver->unit)) ||
-        ((whole <= length) && (fieldscribe_uss_check(bytes, whole) != 0U))) { /* with the check it is 0 */
+        ((whole <= length) && (fieldscribe_uss_check(bytes, whole) != 0U))) { /* including the check byte it is 0 */
         whole = 0U;
     } else if (length < 3U) {
-        whole = length + 1U; /* the next byte says more */
+        whole = length + 1U; /* the next byte is needed */
     } else {
-        /* as it says */
+        /* its own length */
     }
     return whole;
 }
 
 /*
- * Drops bytes until the rest may be the answer, and what came behind it when it is whole. On a silent line a whole
- * answer comes before one that was only begun.
+ * Drops bytes until the rest may be the answer, and bytes after its end. On a silent line, a complete answer counts
+ * before an earlier incomplete one.
  */
 static void fieldscribe_uss_settle(fieldscribe_uss_receiver *receiver, bool silent)
 {
@@ -901,7 +900,7 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
         uint8_t byte = 0U;
         uint16_t left = FIELDSCRIBE_USS_ASK_MOST;
         uint32_t wait = line->answer_ms;
-        bool again = true; /* after noise that is followed by silence, an answer has its time once more */
+        bool again = true; /* after noise and silence, wait `answer_ms` once more */
         line->send(line->context, line->buffer, length);
         while ((!receiver.done) && (left > 0U)) {
             if (line->receive(line->context, wait, &byte)) {
@@ -941,7 +940,7 @@ fieldscribe_uss_status fieldscribe_uss_words_of_reply(
     return FIELDSCRIBE_USS_OK;
 }
 
-/* Exchanges one request of a unit, which brings the value of its reply. */
+/* Sends one request to a unit and receives the answer with its value. */
 static fieldscribe_uss_status fieldscribe_uss_call(
     fieldscribe_uss_unit *unit, const fieldscribe_uss_request *request, fieldscribe_uss_reply *reply)
 {

@@ -5,11 +5,11 @@
  *
  * Fronius Datamanager with a three-phase inverter: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
- * `write`. One that shares its word with other points has `update`: read the word first.
+  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+  * One that shares its word with other points has `update`: read the word first.
  */
 #include "fronius_datamanager.h"
-#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 #include "fieldscribe_modbus_identify.h"
 #include "fieldscribe_modbus_steps.h"
 
@@ -25,14 +25,13 @@
 
 static const fieldscribe_modbus_profile fronius_datamanager_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
     1U, 247U, /* the first unit, the last */
-    true, true, /* whether it speaks RTU, TCP */
-    false, /* whether 0Fh carries an even number of bytes */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x10040U, /* the unit that all listen to, and the functions that may go to it, as
-        bits */
-    0U, 0U, 125U, 0U, 0U, 1U, 0U, 0U, 123U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
+    true, true, /* RTU? TCP? */
+    false, /* does 0Fh carry an even number of bytes? */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x10040U, /* the broadcast unit, and the functions that may go to it, as bits */
+    0U, 0U, 125U, 0U, 0U, 1U, 0U, 0U, 123U); /* the most items in a request of 01h to 06h, 08h, 0Fh, 10h */
 
 /*
- * A device on a line, for the functions that read and write a point in one call, and for
+ * A device on a line, for functions that read or write a point in one call, and for
  * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
  * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
  * fieldscribe_modbus_ask_tcp, FIELDSCRIBE_MODBUS_TCP_MOST
@@ -52,13 +51,13 @@ enum {
 };
 
 /*
- * ---- What addresses count from ----
- *
- * Functions that read or write such a point take it as `base`. The rows of points and blocks count from it:
- * fieldscribe_modbus_reading_at and fieldscribe_modbus_writing_at add it.
- */
+  * ---- Bases that addresses count from ----
+  *
+  * Functions that read or write such a point take it as `base`. The rows of points and blocks are relative to it:
+  * fieldscribe_modbus_reading_at and fieldscribe_modbus_writing_at add it.
+  */
 
-/* Blocks behind "SunS": fieldscribe_modbus_find finds them by their ids. */
+/* Blocks after "SunS": fieldscribe_modbus_find finds them by their ids. */
 static const uint16_t fronius_datamanager_models_marker[] = {0x5375U, 0x6E53U};
 static const uint16_t fronius_datamanager_models_places[] = {0x9C40U};
 static const fieldscribe_modbus_chain fronius_datamanager_models = {
@@ -78,9 +77,9 @@ static const fieldscribe_modbus_chain fronius_datamanager_models = {
 #define FRONIUS_DATAMANAGER_MODELS_160 160U
 #define FRONIUS_DATAMANAGER_MODELS_124 124U
 
-/* ---- Reads that bring a group in as few requests as the device allows ---- */
+/* ---- Blocks: the fewest reads for each group that the device allows ---- */
 
-#define FRONIUS_DATAMANAGER_BLOCK_MOST 65U /* the words, or bits, of the largest */
+#define FRONIUS_DATAMANAGER_BLOCK_MOST 65U /* the words (or bits) of the largest block */
 
 static const fieldscribe_modbus_reading fronius_datamanager_common_blocks[] = {
     {3U, 0x0002U, 65U}, /* Mn..DA */
@@ -121,7 +120,7 @@ static const fieldscribe_modbus_reading fronius_datamanager_fronius_blocks[] = {
     {3U, 0x01F3U, 14U}, /* F_Site_Power..F_Site_Energy_Total */
 };
 
-/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+/* ---- The numbers of each group; `_decode` stores those of a read; `block` is its row above ---- */
 
 typedef struct fronius_datamanager_common_group {
     char manufacturer_text[33];
@@ -690,7 +689,7 @@ static inline void fronius_datamanager_fronius_group_decode(
 }
 
 /*
- * ---- Commands of several requests: fieldscribe_modbus_steps.h says how a program goes through their steps ----
+ * ---- Commands of several requests: fieldscribe_modbus_steps.h explains how to send them ----
  * with fieldscribe_modbus_steps_fill, fieldscribe_modbus_read and fieldscribe_modbus_write
  */
 
@@ -711,7 +710,7 @@ static const fieldscribe_modbus_step fronius_datamanager_command_use_integers_st
     {{0U, 0x00D7U, 1U}, {6U, 0x00D7U, 1U}, &fronius_datamanager_command_use_integers_steps_words[1], 0U, false, false}
 };
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 static const fieldscribe_layout fronius_datamanager_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
@@ -722,7 +721,7 @@ static const fieldscribe_layout fronius_datamanager_layout_u32_order_01 =
 static const fieldscribe_layout fronius_datamanager_layout_u64_order_0123 =
     {FIELDSCRIBE_U64, 4U, 0x0123U, false, 0U, UINT64_C(0xFFFFFFFFFFFFFFFF), 0x0000U, 0x0000U};
 
-/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+/* ---- Points: layout of the raw number, request to read, request to write (function, address, words) ---- */
 
 static const fieldscribe_modbus_text_r fronius_datamanager_manufacturer_frame =
     {{fronius_datamanager_manufacturer_addresses, 0x0002U, 16U}, {3U, 0x0002U, 16U}};
@@ -2302,10 +2301,10 @@ FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_site_energy_total(fronius_datam
         fronius_datamanager_site_energy_total_decode(fronius_datamanager_site_energy_total_from_words(words)))
 }
 
-/* ---- Which device answers, and which of its variants ---- */
+/* ---- Identification of the device and its variant ---- */
 
 typedef struct fronius_datamanager_identity {
-    bool is_described; /* it is the device of this description; else no variant is told */
+    bool is_described; /* it is the described device; if not, no variant is found */
 } fronius_datamanager_identity;
 
 static inline fieldscribe_status fronius_datamanager_identify_holds_1(const uint16_t *words)
@@ -2315,7 +2314,7 @@ static inline fieldscribe_status fronius_datamanager_identify_holds_1(const uint
     return fieldscribe_is_same_text(text, FRONIUS_DATAMANAGER_IDENTIFY_MANUFACTURER) ? FIELDSCRIBE_OK
         : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-/* Reads what tells them, in the order of the description. */
+/* Reads the points that identify them, in the order of the description. */
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_identify(
     fronius_datamanager_device *device, fieldscribe_modbus_base base, fronius_datamanager_identity *identity)
 {

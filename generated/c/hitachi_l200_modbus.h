@@ -5,11 +5,11 @@
  *
  * Hitachi L200: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
- * `write`. One that shares its word with other points has `update`: read the word first.
+  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+  * One that shares its word with other points has `update`: read the word first.
  */
 #include "hitachi_l200.h"
-#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
@@ -26,13 +26,13 @@
 
 static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
     1U, 32U, /* the first unit, the last */
-    true, false, /* whether it speaks RTU, TCP */
-    true, /* whether 0Fh carries an even number of bytes */
-    0U, 0x0060U, /* the unit that all listen to, and the functions that may go to it, as bits */
-    32U, 0U, 4U, 0U, 1U, 1U, 1U, 32U, 4U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
+    true, false, /* RTU? TCP? */
+    true, /* does 0Fh carry an even number of bytes? */
+    0U, 0x0060U, /* the broadcast unit, and the functions that may go to it, as bits */
+    32U, 0U, 4U, 0U, 1U, 1U, 1U, 32U, 4U); /* the most items in a request of 01h to 06h, 08h, 0Fh, 10h */
 
 /*
- * A device on a line, for the functions that read and write a point in one call, and for
+ * A device on a line, for functions that read or write a point in one call, and for
  * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
  * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
  */
@@ -50,9 +50,9 @@ enum {
     HITACHI_L200_EXCEPTION_NOT_AVAILABLE = 0x22U, /* Not available */
 };
 
-/* ---- Reads that bring a group in as few requests as the device allows ---- */
+/* ---- Blocks: the fewest reads for each group that the device allows ---- */
 
-#define HITACHI_L200_BLOCK_MOST 18U /* the words, or bits, of the largest */
+#define HITACHI_L200_BLOCK_MOST 18U /* the words (or bits) of the largest block */
 
 static const fieldscribe_modbus_reading hitachi_l200_coils_blocks[] = {
     {1U, 0x0000U, 11U}, /* run_command..digital_input_5 */
@@ -185,7 +185,7 @@ static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
     {3U, 0x1542U, 1U}, /* H206 */
 };
 
-/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+/* ---- The numbers of each group; `_decode` stores those of a read; `block` is its row above ---- */
 
 typedef struct hitachi_l200_coils_group {
     bool run_command_raw;
@@ -987,13 +987,13 @@ static inline void hitachi_l200_motor_h_group_decode(
 
 /* ---- Commands, for fieldscribe_modbus_send ---- */
 
-/* Enter: any value does; the memory stands 100000 writes. */
+/* Enter: any value does; the memory is rated for 100000 writes. */
 #define HITACHI_L200_COMMAND_ENTER_ADDRESS 0x0900U
 #define HITACHI_L200_COMMAND_ENTER_VALUE 1U
 static const fieldscribe_modbus_command hitachi_l200_command_enter =
     {{6U, HITACHI_L200_COMMAND_ENTER_ADDRESS, 1U}, HITACHI_L200_COMMAND_ENTER_VALUE};
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 static const fieldscribe_layout hitachi_l200_layout_bit =
     {FIELDSCRIBE_BIT, 1U, 0x00U, false, 0U, 0x0001U, 0x0000U, 0x0000U};
@@ -1002,7 +1002,7 @@ static const fieldscribe_layout hitachi_l200_layout_u16 =
 static const fieldscribe_layout hitachi_l200_layout_u32_order_01 =
     {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
 
-/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+/* ---- Points: layout of the raw number, request to read, request to write (function, address, words) ---- */
 
 static const fieldscribe_modbus_rw hitachi_l200_run_command_frame =
     {&hitachi_l200_layout_bit, {1U, 0x0000U, 1U}, {5U, 0x0000U, 1U}};

@@ -5,11 +5,11 @@
  *
  * JUMO Controller with MOD-Bus: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
- * `write`. One that shares its word with other points has `update`: read the word first.
+  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+  * One that shares its word with other points has `update`: read the word first.
  */
 #include "jumo_controller.h"
-#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
@@ -23,13 +23,13 @@
 
 static const fieldscribe_modbus_profile jumo_controller_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
     1U, 254U, /* the first unit, the last */
-    true, false, /* whether it speaks RTU, TCP */
-    false, /* whether 0Fh carries an even number of bytes */
-    0U, 0x10040U, /* the unit that all listen to, and the functions that may go to it, as bits */
-    0U, 0U, 32U, 32U, 0U, 1U, 0U, 0U, 32U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
+    true, false, /* RTU? TCP? */
+    false, /* does 0Fh carry an even number of bytes? */
+    0U, 0x10040U, /* the broadcast unit, and the functions that may go to it, as bits */
+    0U, 0U, 32U, 32U, 0U, 1U, 0U, 0U, 32U); /* the most items in a request of 01h to 06h, 08h, 0Fh, 10h */
 
 /*
- * A device on a line, for the functions that read and write a point in one call, and for
+ * A device on a line, for functions that read or write a point in one call, and for
  * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
  * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
  */
@@ -45,9 +45,9 @@ enum {
     JUMO_CONTROLLER_EXCEPTION_WRITE_REFUSED = 0x08U, /* Write refused */
 };
 
-/* ---- Reads that bring a group in as few requests as the device allows ---- */
+/* ---- Blocks: the fewest reads for each group that the device allows ---- */
 
-#define JUMO_CONTROLLER_BLOCK_MOST 8U /* the words, or bits, of the largest */
+#define JUMO_CONTROLLER_BLOCK_MOST 8U /* the words (or bits) of the largest block */
 
 static const fieldscribe_modbus_reading jumo_controller_process_data_blocks[] = {
     {3U, 0x001FU, 3U}, /* program_status..binary_outputs */
@@ -68,7 +68,7 @@ static const fieldscribe_modbus_reading jumo_controller_command_words_blocks[] =
     {3U, 0x006FU, 4U}, /* program_controller_commands..timer_commands */
 };
 
-/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+/* ---- The numbers of each group; `_decode` stores those of a read; `block` is its row above ---- */
 
 typedef struct jumo_controller_process_data_group {
     uint16_t program_status_raw;
@@ -172,7 +172,7 @@ static inline void jumo_controller_command_words_group_decode(
     }
 }
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 static const fieldscribe_layout jumo_controller_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
@@ -183,7 +183,7 @@ static const fieldscribe_layout jumo_controller_layout_u32_order_01 =
 static const fieldscribe_layout jumo_controller_layout_u32_order_10 =
     {FIELDSCRIBE_U32, 2U, 0x10U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
 
-/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+/* ---- Points: layout of the raw number, request to read, request to write (function, address, words) ---- */
 
 static const fieldscribe_modbus_r jumo_controller_program_status_frame =
     {&jumo_controller_layout_u16, {3U, 0x001FU, 1U}};

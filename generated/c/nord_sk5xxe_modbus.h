@@ -5,11 +5,11 @@
  *
  * NORD SK 5xxE: Modbus requests.
  *
- * A point is what it is read with (`read`) and written with (`write`). One that cannot be written has no
- * `write`. One that shares its word with other points has `update`: read the word first.
+  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+  * One that shares its word with other points has `update`: read the word first.
  */
 #include "nord_sk5xxe.h"
-#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
@@ -23,14 +23,13 @@
 
 static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = FIELDSCRIBE_MODBUS_PROFILE(
     1U, 247U, /* the first unit, the last */
-    true, false, /* whether it speaks RTU, TCP */
-    false, /* whether 0Fh carries an even number of bytes */
-    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x18060U, /* the unit that all listen to, and the functions that may go to it, as
-        bits */
-    2000U, 0U, 125U, 0U, 1U, 1U, 0U, 1968U, 123U); /* how many items a request of 01h to 06h, 08h, 0Fh, 10h carries */
+    true, false, /* RTU? TCP? */
+    false, /* does 0Fh carry an even number of bytes? */
+    FIELDSCRIBE_MODBUS_NO_BROADCAST, 0x18060U, /* the broadcast unit, and the functions that may go to it, as bits */
+    2000U, 0U, 125U, 0U, 1U, 1U, 0U, 1968U, 123U); /* the most items in a request of 01h to 06h, 08h, 0Fh, 10h */
 
 /*
- * A device on a line, for the functions that read and write a point in one call, and for
+ * A device on a line, for functions that read or write a point in one call, and for
  * fieldscribe_modbus_read_words and fieldscribe_modbus_write_words. The unit's `ask` and the size of its line's buffer:
  * fieldscribe_modbus_ask_rtu, FIELDSCRIBE_MODBUS_RTU_MOST
  */
@@ -38,16 +37,16 @@ typedef struct nord_sk5xxe_device {
     fieldscribe_modbus_unit unit;
 } nord_sk5xxe_device;
 
-/* ---- Reads that bring a group in as few requests as the device allows ---- */
+/* ---- Blocks: the fewest reads for each group that the device allows ---- */
 
-#define NORD_SK5XXE_BLOCK_MOST 6U /* the words, or bits, of the largest */
+#define NORD_SK5XXE_BLOCK_MOST 6U /* the words (or bits) of the largest block */
 
 static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
     {3U, 0x0C80U, 6U}, /* P050[1]..P050[6] */
     {3U, 0x0CC0U, 6U}, /* P051[1]..P051[6] */
 };
 
-/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+/* ---- The numbers of each group; `_decode` stores those of a read; `block` is its row above ---- */
 
 typedef struct nord_sk5xxe_process_data_group {
     uint16_t control_word_raw;
@@ -103,12 +102,12 @@ static const fieldscribe_modbus_command nord_sk5xxe_command_make_ready_to_switch
 static const fieldscribe_modbus_command nord_sk5xxe_command_switch_on =
     {{6U, NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS, 1U}, NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE};
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 static const fieldscribe_layout nord_sk5xxe_layout_u16 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
 
-/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+/* ---- Points: layout of the raw number, request to read, request to write (function, address, words) ---- */
 
 static const fieldscribe_modbus_rw nord_sk5xxe_control_word_frame =
     {&nord_sk5xxe_layout_u16, {3U, 0x0C80U, 1U}, {6U, 0x0C80U, 1U}};

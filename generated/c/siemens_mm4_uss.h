@@ -5,13 +5,13 @@
  *
  * Siemens MICROMASTER 4: USS requests.
  *
- * `_read_`, `_write_` and `_store_` (into the EEPROM too) of a parameter are one exchange. A frame is what it is read
- * with (`read`) and written with (`write`; with `..._eeprom_frame` into the EEPROM too), by fieldscribe_uss.h. One that
-     cannot be written has no `write`. One that shares its word with other
- * points has `update`: read the word first. Words of process data are `heard` and `sent`.
+  * `_read_`, `_write_` and `_store_` (in the EEPROM too) exchange one request and its answer. A `..._frame` holds the
+  * requests for a parameter: to read it (`read`) and to write it (`write`; in `..._eeprom_frame` to the EEPROM too),
+  * for fieldscribe_uss.h. One that cannot be written has no `write`. One that shares its word with other points has
+  * `update`: read the word first. Words of process data are `heard` and `sent`.
  */
 #include "siemens_mm4.h"
-#include "fieldscribe_uss.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_uss.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef SIEMENS_MM4_USS_H
 #define SIEMENS_MM4_USS_H
@@ -44,7 +44,7 @@ enum {
     SIEMENS_MM4_TASK_TEXT = 15, /* Text */
 };
 
-/* The name of a number; NULL for one that has none. */
+/* The name of a number; NULL if it has none. */
 static inline const char *siemens_mm4_task_name(uint16_t number)
 {
     switch (number) {
@@ -106,7 +106,7 @@ enum {
     SIEMENS_MM4_RESPONSE_TEXT_ANSWER = 15, /* Text answer */
 };
 
-/* The name of a number; NULL for one that has none. */
+/* The name of a number; NULL if it has none. */
 static inline const char *siemens_mm4_response_name(uint16_t number)
 {
     switch (number) {
@@ -168,7 +168,7 @@ enum {
     SIEMENS_MM4_ERROR_ACCESS_LEVEL_TOO_LOW = 204, /* Access level too low */
 };
 
-/* The name of a number; NULL for one that has none. */
+/* The name of a number; NULL if it has none. */
 static inline const char *siemens_mm4_error_name(uint16_t number)
 {
     switch (number) {
@@ -209,7 +209,7 @@ static inline const char *siemens_mm4_error_name(uint16_t number)
     }
 }
 
-/* The tasks that the device understands, and the responses that mean success: bit n stands for response n. */
+/* The tasks that the device supports, and the responses that mean success: bit n stands for response n. */
 static const fieldscribe_uss_task siemens_mm4_uss_tasks[] = {
     {SIEMENS_MM4_TASK_NO_TASK, 0x0001U},
     {SIEMENS_MM4_TASK_READ_VALUE, 0x0006U},
@@ -229,7 +229,7 @@ static const fieldscribe_uss_task siemens_mm4_uss_tasks[] = {
     {SIEMENS_MM4_TASK_TEXT, 0x0000U},
 };
 
-/* How many words the parameter part may have. */
+/* The lengths that the parameter part may have, in words. */
 static const uint8_t siemens_mm4_uss_pkw[] = {0U, 3U, 4U, 127U};
 
 /* For fieldscribe_uss_* functions. */
@@ -240,17 +240,17 @@ static const fieldscribe_uss_profile siemens_mm4_uss_profile = {
     sizeof siemens_mm4_uss_pkw / sizeof siemens_mm4_uss_pkw[0],
     0U, /* the first unit */
     31U, /* the last */
-    0x20U, /* the address byte that all listen to */
+    0x20U, /* the address byte of a broadcast */
     0U, /* the fewest words of process data */
-    8U /* the most */
+    8U /* the most words */
 };
 
-/* A device on a line, for the functions that read, write and store (in the EEPROM, too) a parameter in one call. */
+/* A device on a line, for functions that read, write or store (in the EEPROM too) a parameter in one call. */
 typedef struct siemens_mm4_device {
     fieldscribe_uss_unit unit;
 } siemens_mm4_device;
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 /* For fieldscribe_take_* and fieldscribe_put_*. */
 
@@ -261,7 +261,7 @@ static const fieldscribe_layout siemens_mm4_layout_u32_order_01 =
 static const fieldscribe_layout siemens_mm4_layout_u16_fixed_0400_0400 =
     {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0400U, 0x0400U};
 
-/* ---- Parameters: what reads them, what writes them, also to the EEPROM (task, number, index, words) ---- */
+/* ---- Parameters: request to read, to write, to write to the EEPROM too (task, number, index, words) ---- */
 
 static const fieldscribe_uss_rw siemens_mm4_user_access_level_frame =
     {&siemens_mm4_layout_u16, {1U, 3U, 0U, 1U}, {2U, 3U, 0U, 1U}};
@@ -955,9 +955,9 @@ FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_3(siemens_m
 }
 
 /*
- * ---- Words of process data: a link with fewer words than a telegram has carries the first ones ----
- *
- * Start with words that are all 0, so that reading parameters commands nothing: no constant bit is set yet.
+  * ---- Words of process data: a link with fewer words than a telegram has carries its first words ----
+  *
+  * Start with all words 0, so that reading parameters commands nothing: not even a constant bit is set.
  */
 
 static const fieldscribe_uss_s siemens_mm4_control_word_frame = {&siemens_mm4_layout_u16_fixed_0400_0400, {0U, 1U}};

@@ -5,12 +5,12 @@
  *
  * Woodward MPU2-S: CAN frames.
  *
- * A parameter is what it is read with (`read`) and written with (`write`), by fieldscribe_can.h, which shows how. One
- * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
- * Frames of cyclic telegrams go to a receiver, which gives points their words (`heard`).
+  * A parameter has messages to read it (`read`) and to write it (`write`); fieldscribe_can.h shows their use. One that
+  * cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
+  * A receiver takes the frames of cyclic telegrams, and gives the words of a point in one (`heard`).
  */
 #include "woodward_mpu2s.h"
-#include "fieldscribe_can.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+#include "fieldscribe_can.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
 
 #ifndef WOODWARD_MPU2S_CAN_H
 #define WOODWARD_MPU2S_CAN_H
@@ -29,7 +29,7 @@
 static const fieldscribe_can_profile woodward_mpu2s_can_profile = {
     0U, /* the first unit */
     30U, /* the last */
-    11U /* bits of an identifier */
+    11U /* the bits of an identifier */
 };
 
 /* ---- Messages: identifier, whether the unit number is added to it, and what each byte carries ---- */
@@ -116,17 +116,17 @@ static const fieldscribe_can_message woodward_mpu2s_message_write_answer = {
 
 /* ---- Cyclic telegrams ---- */
 
-/* How many frames the telegram consists of. */
+/* The number of frames of the telegram. */
 #define WOODWARD_MPU2S_TELEGRAM_VISUALISATION_SLOTS 23U
 
 static const fieldscribe_can_telegram woodward_mpu2s_telegram_visualisation = {
     &woodward_mpu2s_can_profile,
     &woodward_mpu2s_message_visualisation,
     WOODWARD_MPU2S_TELEGRAM_VISUALISATION_WORDS,
-    3U /* words in a frame */
+    3U /* the words in a frame */
 };
 
-/* ---- The numbers of each telegram; `_take` fills in those that a frame brings, and is false for other frames ---- */
+/* ---- The numbers of each telegram; `_take` stores those of a frame; false: another frame ---- */
 
 typedef struct woodward_mpu2s_visualisation_values {
     uint16_t telegram_identification_raw;
@@ -596,7 +596,7 @@ static const uint16_t woodward_mpu2s_parameters_operation_group[] = {
     0x0019U, /* monitoring_start_frequency */
 };
 
-/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+/* ---- Layouts of raw numbers: type, words, their order, shared, shift, mask, constant bits ---- */
 
 /* For fieldscribe_take_* and fieldscribe_put_*. */
 
@@ -665,14 +665,14 @@ static const fieldscribe_layout woodward_mpu2s_layout_u8_bits_7_0 =
 static const fieldscribe_layout woodward_mpu2s_layout_u32_order_01 =
     {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
 
-/* ---- Parameters: how the number lies in its word, the address that is read, the address that is written ---- */
+/* ---- Parameters: layout of the raw number, address to read, address to write ---- */
 
 static const fieldscribe_can_dialogue woodward_mpu2s_can_dialogue = {
     &woodward_mpu2s_can_profile,
-    &woodward_mpu2s_message_read_request, /* reads */
-    &woodward_mpu2s_message_read_answer, /* answers that */
-    &woodward_mpu2s_message_write_request, /* writes */
-    &woodward_mpu2s_message_write_answer /* answers that */
+    &woodward_mpu2s_message_read_request, /* to read */
+    &woodward_mpu2s_message_read_answer, /* its answer */
+    &woodward_mpu2s_message_write_request, /* to write */
+    &woodward_mpu2s_message_write_answer /* its answer */
 };
 
 static const fieldscribe_can_rw woodward_mpu2s_password_level_2_frame =
@@ -1108,7 +1108,7 @@ static const fieldscribe_can_rw woodward_mpu2s_engine_monitoring_delay_frame =
 static const fieldscribe_can_rw woodward_mpu2s_monitoring_start_frequency_frame =
     {&woodward_mpu2s_layout_u16, {0x0019U}, {0x0019U}};
 
-/* ---- Points of the telegrams: how the number lies in its words, and where the high and the low one stand ---- */
+/* ---- Points of the telegrams: layout of the raw number, positions of the high and the low word ---- */
 
 static const fieldscribe_can_h woodward_mpu2s_telegram_identification_frame =
     {&woodward_mpu2s_layout_u16, {0x0000U, 0x0000U}};

@@ -135,7 +135,7 @@ CLAIMS = {
     "write": {
         "hitachi_l200 A020=50 --line tcp://192.168.0.20": Claim(2, "^$", "nobody can be asked here"),
         'hitachi_l200 "A003=50 Hz" A002=modbus --keep --line rtu:///dev/ttyUSB0 --unit 3': Claim(
-            2, "^$", r"A003 (.|\n)* enter (.|\n)*the memory stands 100000 of these\n"
+            2, "^$", r"A003 (.|\n)* enter (.|\n)*the memory is rated for 100000 of these\n"
         ),
         "hitachi_l200 run_command=run --yes --line tcp://192.168.0.20": Claim(0, "written: run_command = run"),
         "hitachi_l200 enter --line tcp://192.168.0.20": Claim(2, "^$", "  enter "),

@@ -155,7 +155,7 @@ def test_what_keeps_a_value() -> None:
     base = named(DEVICE, "base_frequency")
     assert wording.keeps_text(DEVICE, base) == (
         "only after the command enter (write any value to holding 0900h (2304) with function 06h); "
-        "the memory stands 100000 writes"
+        "the memory is rated for 100000 writes"
     )
     assert wording.keeps_text(DEVICE, named(DEVICE, "third")) == ""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Bits that travel together, and the points in them: coils and discrete inputs, the first one lowest in its byte."""
+"""Bits of one request and the points in them: coils and discrete inputs, the first one lowest in its byte."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class _Packed:
-    """So many bits in as few bytes as hold them, as replies carry them."""
+    """Packs bits into bytes as replies carry them."""
 
     def __init__(self, count: int) -> None:
         self._places = range(count)
@@ -36,7 +36,7 @@ class _Packed:
 
 
 class BitLayout(Layout):
-    """As `Layout` for the bits of a planned read: `words` are their addresses."""
+    """A `Layout` for the bits of a planned read: `words` are their addresses."""
 
     _full = 1
 

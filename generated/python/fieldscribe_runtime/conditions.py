@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Conditions of points and of steps: alternatives of tests that hold together."""
+"""Conditions of points and steps: one of several groups of tests must hold."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
 Test = tuple[str, str, tuple[int | str, ...]]
-"""Compares a variant axis by name, or a point by its raw number: what, how, and with which constants."""
+"""A comparison of a variant axis (by name) or a point (by raw number): its name, the operator, the constants."""
 Clauses = tuple[tuple[Test, ...], ...]
-"""Tests that hold together; one of the alternatives does."""
+"""Groups of tests: all tests of at least one group must hold."""
 
 _TESTS: Mapping[str, Callable[[int, int], bool]] = {
     "<": operator.lt,
@@ -30,7 +30,7 @@ def holds(value: int | str, test: str, than: tuple[int | str, ...]) -> bool:
 
 
 def may_hold(clauses: Clauses, held: Mapping[str, int | str | None]) -> bool:
-    """Return True if what is known contradicts no condition; what is missing there, or None, is not known."""
+    """Return True unless the known values contradict the condition; missing ones and None are unknown."""
     return not clauses or any(
         all((value := held.get(of)) is None or holds(value, test, than) for of, test, than in clause)
         for clause in clauses

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Devices over a transport, in two flavours that share everything but the waiting."""
+"""Devices over a transport, blocking and asynchronous; they share all but the waiting."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ if TYPE_CHECKING:
             """The names."""
 
     class Several(Protocol):
-        """A list, tuple or set of points and their names; a text is none, so that checkers find misspelt groups."""
+        """A list, tuple or set of points and names. A str does not match, so type checkers find misspelt groups."""
 
         def __iter__(self) -> Iterator[str | Point]:
             """Return the points."""
 
         def __contains__(self, one: object, /) -> bool:
-            """Return True if one is among them; a text says so only of texts."""
+            """Return True if an item is in it. `str` takes only `str` here, so it does not match."""
 
 
 T = TypeVar("T")
@@ -50,7 +50,7 @@ _pause: Callable[[float], object] = time.sleep
 
 
 class AnyDevice(Session):
-    """A device of any family. One thread at a time talks to it; a transport that devices share has to do the same."""
+    """A device of any family. Use it, and a transport that devices share, from one thread at a time."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
@@ -59,7 +59,7 @@ class AnyDevice(Session):
 
     @abstractmethod
     def _carry(self, request: Any) -> Any:
-        """Do what one step asks of the transport."""
+        """Carry out one step on the transport."""
 
     def _bound(self, point: PointAttribute[Any, Any]) -> Handle:
         """Return the point, bound to this device."""
@@ -69,9 +69,9 @@ class AnyDevice(Session):
         return handle
 
     def point(self, what: str) -> ReadWriteHandle[Any, Any]:
-        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), like its attribute.
 
-        It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
+        A read-only point has no `write`. Raises AccessError.
         """
         found: Any = self._bound(self._resolved(what))
         handle: ReadWriteHandle[Any, Any] = found
@@ -106,9 +106,9 @@ class AnyDevice(Session):
                 steps.close()
 
     def identify(self) -> dict[str, str]:
-        """Read what tells this device from others; return the value of each variant axis that what it holds fits.
+        """Read the points that identify this device; return the matching value of each variant axis.
 
-        An axis of which no value fits is left out. Raises OtherDeviceError for another device.
+        An axis without a matching value is left out. Raises OtherDeviceError for another device.
         """
         return self._run(self._identify_steps(), prepares=False)
 
@@ -125,23 +125,23 @@ class AnyDevice(Session):
     def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
-        With errors="return" a point that is absent, refused or without a value has its error as value, and only a lost
-        line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the
-        same error, until it was read in another way or `forget()` is called.
+        With errors="return", a point that is absent, refused or without a value has its error as its value; only a lost
+        line raises. A point that the device refused with exception 01h to 03h is not requested again but has the same
+        error, until it is read in another way or `forget()` is called.
         """
         values: dict[str, Any] = self._run(self._read_many_steps(what, errors))
         return values
 
     def write_together(self, values: Mapping[Any, Any]) -> None:
-        """Write several points by one request, as `write_with` asks for: values by the point or its name.
+        """Write several points in one request, as `write_with` requires; `values` by point or name.
 
-        Raises RequestError (not_together) where a point is missing, or one request cannot write them.
+        Raises RequestError (not_together) if a point is missing, or if one request cannot write them.
         """
         self._run(self._write_together_steps(values))
 
 
 class AnyAsyncDevice(Session):
-    """A device of any family, asynchronously. One task at a time talks to it; see `AnyDevice` for shared transports."""
+    """An asynchronous device of any family. Use it, and a transport that devices share, from one task at a time."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
@@ -150,7 +150,7 @@ class AnyAsyncDevice(Session):
 
     @abstractmethod
     async def _carry(self, request: Any) -> Any:
-        """Do what one step asks of the transport."""
+        """Carry out one step on the transport."""
 
     def _bound(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
         """Return the point, bound to this device."""
@@ -160,9 +160,9 @@ class AnyAsyncDevice(Session):
         return handle
 
     def point(self, what: str) -> AsyncReadWriteHandle[Any, Any]:
-        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), like its attribute.
 
-        It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
+        A read-only point has no `write`. Raises AccessError.
         """
         found: Any = self._bound(self._resolved(what))
         handle: AsyncReadWriteHandle[Any, Any] = found
@@ -197,9 +197,9 @@ class AnyAsyncDevice(Session):
                 steps.close()
 
     async def identify(self) -> dict[str, str]:
-        """Read what tells this device from others; return the value of each variant axis that what it holds fits.
+        """Read the points that identify this device; return the matching value of each variant axis.
 
-        An axis of which no value fits is left out. Raises OtherDeviceError for another device.
+        An axis without a matching value is left out. Raises OtherDeviceError for another device.
         """
         return await self._run(self._identify_steps(), prepares=False)
 
@@ -216,16 +216,16 @@ class AnyAsyncDevice(Session):
     async def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
-        With errors="return" a point that is absent, refused or without a value has its error as value, and only a lost
-        line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the
-        same error, until it was read in another way or `forget()` is called.
+        With errors="return", a point that is absent, refused or without a value has its error as its value; only a lost
+        line raises. A point that the device refused with exception 01h to 03h is not requested again but has the same
+        error, until it is read in another way or `forget()` is called.
         """
         values: dict[str, Any] = await self._run(self._read_many_steps(what, errors))
         return values
 
     async def write_together(self, values: Mapping[Any, Any]) -> None:
-        """Write several points by one request, as `write_with` asks for: values by the point or its name.
+        """Write several points in one request, as `write_with` requires; `values` by point or name.
 
-        Raises RequestError (not_together) where a point is missing, or one request cannot write them.
+        Raises RequestError (not_together) if a point is missing, or if one request cannot write them.
         """
         await self._run(self._write_together_steps(values))

@@ -67,7 +67,7 @@ class Place(Record):
 
     @property
     def area(self) -> str:
-        """The space, and what addresses in it count from: addresses of one area name the same words."""
+        """The space and its base: equal addresses in one area are the same words."""
         return self.space if self.base is None else f"{self.space} from {self.base}"
 
     @property
@@ -87,26 +87,26 @@ class Place(Record):
 
     @property
     def is_scattered(self) -> bool:
-        """True if words of others lie between its own."""
+        """True if there are words of other points between its own."""
         return self.span > len(self.addresses) > 1
 
     @property
     def runs(self) -> list[Place]:
-        """Its words as places that have no others between them, from the lowest address on."""
+        """Its words as places without gaps, from the lowest address on."""
         addresses = sorted(self.addresses)
         starts = [at for at, address in enumerate(addresses) if not at or address - 1 != addresses[at - 1]]
         ends = (*starts[1:], len(addresses))
         return [self.replaced(addresses=tuple(addresses[at:end])) for at, end in zip(starts, ends, strict=True)]
 
     def overlaps(self, other: Place) -> bool:
-        """Return True if some word or bit belongs to both."""
+        """Return True if both have a word or bit in common."""
         same = (self.area, self.telegram) == (other.area, other.telegram)
         same_element = self.index == other.index or None in (self.index, other.index)
         return same and same_element and not set(self.addresses).isdisjoint(other.addresses)
 
 
 class Documented(Record):
-    """A point that is documented only: why, where its words are if a master can reach them, and the manual's code."""
+    """A point that is only documented: the reason, its words if a master can reach them, and the manual's code."""
 
     reason: str
     at: Place | None = None
@@ -114,7 +114,7 @@ class Documented(Record):
     write_at: Place | None = None
 
     def __str__(self) -> str:
-        """Return the reason, and what still works."""
+        """Return the reason, and how to reach its words."""
         if self.at is None:
             return self.reason
         where = f"{self.at.telegram or self.at.space} {', '.join(map(str, self.at.addresses))}"
@@ -134,9 +134,9 @@ class Identification(Record):
 
 
 class Telegram(Record):
-    """A layout of words that travel together: `request` to the device, `response` or `cyclic` from it.
+    """A layout of words in one telegram: a `request` to the device, or a `response` or `cyclic` telegram from it.
 
-    `message` names the message whose frames carry it, where frames of their own do.
+    `message` names the CAN message whose frames carry it, if there is one.
     """
 
     name: str
@@ -178,18 +178,18 @@ def telegram(name: str, *addresses: int, index: int | None = None) -> Place:
 
 
 class Facts:
-    """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant.
+    """The facts of a point. `item` is the name of the attribute, `name` leaves out the variant.
 
-    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `display` is
-    with how many decimals people see its value, if the description says so. `fixed` is a
-    mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
-    `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
-    it too, such as another point or a firmware. `when` has the condition where other points decide: alternatives of
-    tests by raw numbers. `conditions` name what has to hold before it is written.
-    `takes_effect` says when the device uses a written value, `write_with` names what is written in the same request.
-    `selects` has points with the raw numbers that they must hold before the address means this point.
-    `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory), `choice` (if it
-    is written with `keep=True`, which wears it) or the command that has to follow; empty where the manual does not say.
+    `references` are the manual's other numberings of the point, `allowed` the raw numbers that may be written.
+    `display` is the number of decimals to show, if the description has it. `fixed` is a mask and the constant bits that
+    every write of the word sets. `changes_with` names points that change it. `only_for` is a variant axis and the
+    values for which the point exists; `uncertain` means that something else decides it too, such as another point or a
+    firmware. `when` is the condition on raw numbers of other points: one of several groups of tests. `conditions` must
+    be true before it is written. `takes_effect` says when the device uses a written value, `write_with` names what is
+    written in the same request. `selects` has points with the raw numbers that they must hold before the address means
+    this point. `keeps` says whether a written value survives power-off: `no`, `yes` (each write wears the memory),
+    `choice` (if written with `keep=True`, which wears it) or the command that has to follow; empty if the manual does
+    not say.
     """
 
     at: Place
@@ -225,7 +225,7 @@ class Facts:
 
     @property
     def where(self) -> str:
-        """The place for people: on the wire, which bits, the manual's other numberings, and where it is written."""
+        """The place in words: address, bits, the manual's other numberings, and the address to write."""
         bits = "" if self.bits is None else f" bits {self.bits[0]}..{self.bits[1]}"
         printed = ", ".join(f"{key} {number}" for key, number in self.references.items())
         written = "" if self.write_at is None else f", written at {self.write_at}"

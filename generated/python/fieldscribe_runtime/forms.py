@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What raw numbers mean: forms turn values into raw numbers and back without any I/O."""
+"""The meaning of raw numbers: forms convert values to raw numbers and back, without I/O."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ F = TypeVar("F", bound=enum.IntFlag)
 T = TypeVar("T")
 
 Allowed = tuple[tuple[Bound, Bound], ...]
-"""Closed intervals of raw numbers that may be written."""
+"""The closed intervals of raw numbers that may be written."""
 
 
 class Type(Record):
-    """A wire type: how many bits, and whether they are two's complement."""
+    """A wire type: the number of bits, and whether they are two's complement."""
 
     bits: int
     signed: bool = False
@@ -44,7 +44,7 @@ class Type(Record):
         return (-(1 << width - 1), (1 << width - 1) - 1) if self.signed else (0, (1 << width) - 1)
 
     def number(self, pattern: int, width: int) -> int:
-        """Return the number that the lowest `width` bits of `pattern` hold."""
+        """Return the number in the lowest `width` bits of `pattern`."""
         pattern &= (1 << width) - 1
         if self.coding == "bcd":
             digits = f"{pattern:0{width // 4}x}"
@@ -55,7 +55,7 @@ class Type(Record):
         return pattern - (1 << width) if self.signed and pattern >> width - 1 else pattern
 
     def pattern(self, raw: int, width: int) -> int:
-        """Return the bits of a number; those above `width` are its sign."""
+        """Return the bits of a number; the bits above `width` extend its sign."""
         if self.coding == "bcd":
             return int(str(raw), 16) if raw < 10 ** (width // 4) else raw
         if self.coding:
@@ -64,11 +64,11 @@ class Type(Record):
 
     @property
     def plain(self) -> bool:
-        """True if the bits are the number, in the order in which they travel."""
+        """True if the bits are the number, in the order of the wire."""
         return not self.low_byte_first and not self.coding
 
     def ordered(self, words: Sequence[int]) -> Sequence[int]:
-        """Return words with their high byte first, or as they travel."""
+        """Return words with their high byte first from words as on the wire, and back."""
         return [(word & 0xFF) << 8 | word >> 8 for word in words] if self.low_byte_first else words
 
 
@@ -79,15 +79,15 @@ F32, F64 = Type(32), Type(64)
 
 
 class Decodes(Generic[R_co]):
-    """A form by what decoding gives alone, so that type checkers infer it from that alone."""
+    """The decoding side of a form, so that type checkers infer R from it alone."""
 
 
 class Encodes(Generic[W_contra]):
-    """A form by what encoding takes alone."""
+    """The encoding side of a form."""
 
 
 class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
-    """What raw numbers mean: R is what decoding gives, W what encoding takes."""
+    """The meaning of raw numbers: decoding returns R, encoding takes W."""
 
     wire: Type
     needs: tuple[str, ...] = ()
@@ -98,24 +98,24 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
 
     @abstractmethod
     def decode(self, raw: int, raws: Raws) -> R_co:
-        """Return the value that a raw number means."""
+        """Return the value of a raw number."""
 
     @abstractmethod
     def converted(self, value: W_contra, raws: Raws) -> int | None:
-        """Return the raw number for a value, whether it may be written or not; None where there is none."""
+        """Return the raw number for a value, even if it may not be written; None if there is none."""
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return a function that decodes raw numbers from `low` to `high` quickly, and others the slow way."""
+        """Return a function that decodes raw numbers from `low` to `high` itself, and others by `slow`."""
         sure = self.sure_decode(low, high, slow)
         return slow if sure is slow else checked(sure, (low, high), self.needs, slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the same for what is known to be a number from `low` to `high`; it takes `raws` by position."""
+        """Return a decoder for numbers that are known to be in `low` to `high`; it takes `raws` by position."""
         del low, high
         return slow
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """Return a function that encodes usual values quickly, and leaves the rest to the slow way."""
+        """Return a function that encodes usual values itself, and others by `slow`."""
         del allowed
         return slow
 
@@ -129,7 +129,7 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         return raw
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """Return the raw number for an integer count of 10^-decimals units, whether it may be written or not."""
+        """Return the raw number for an integer count of 10^-decimals units, even if it may not be written."""
         return whole(count)
 
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
@@ -137,20 +137,20 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         return self.checked(self.converted_count(count, raws), allowed, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same number; None if it may not be written."""
-        ends = [(low_end(low, raws), high_end(high, raws)) for low, high in allowed]  # all, whichever holds
+        """Return the number; None if it may not be written."""
+        ends = [(low_end(low, raws), high_end(high, raws)) for low, high in allowed]  # all: any may raise
         return raw if any(low <= raw <= high for low, high in ends) else None
 
     def limits(self, width: int) -> tuple[int, int]:
-        """Return the least and the greatest number of `width` bits that the form knows, if nothing else bounds them."""
+        """Return the least and the greatest number of the form in `width` bits."""
         return self.wire.limits(width)
 
     def bounds(self, low: int, high: int) -> tuple[float, float] | None:
-        """Return the least and the greatest quantity for raw numbers of a range; None where there are none."""
+        """Return the least and the greatest quantity for raw numbers of a range; None if there are none."""
         return None
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """Return the raw number as people read it, in the unit; a quantity with `display` decimals, if given."""
+        """Return the value of a raw number as text without the unit; a quantity with `display` decimals, if given."""
         return str(raw) if display is None else decimal_text(raw, 1, display)
 
     def same(self, raw: int, other: int) -> bool:
@@ -158,16 +158,16 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         return raw == other
 
     def choices(self, unit: str) -> str | None:
-        """Return why a value is refused, if it is not for the range of raw numbers; limits with `unit`."""
+        """Return why a value is refused, if not for the range of raw numbers; limits have `unit`."""
         return None
 
     def name_of(self, raw: int) -> str | None:
-        """Return the name of a raw number, where it has one."""
+        """Return the name of a raw number; None if it has none."""
         return None
 
 
 def fixed_ends(allowed: Allowed) -> tuple[int, int] | None:
-    """Return the ends of what is allowed, where that is one interval that no other point moves."""
+    """Return the ends of the allowed numbers if they are one fixed interval, else None."""
     if len(allowed) != 1:
         return None
     low, high = allowed[0]
@@ -210,11 +210,11 @@ class Bit(Form[bool, bool]):
         self.wire = wire
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Both states as they are listed."""
+        """Return a decoder by table."""
         return listed({0: False, 1: True}, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """Both states as they are listed, if both may be written."""
+        """Return an encoder by table, if both states may be written."""
         return chosen(bool, {False: 0, True: 1}, slow) if allowed == ((0, 1),) else slow
 
     def decode(self, raw: int, raws: Raws) -> bool:
@@ -222,12 +222,12 @@ class Bit(Form[bool, bool]):
         return bool(raw)
 
     def converted(self, value: bool, raws: Raws) -> int | None:
-        """1 for True."""
+        """Return 1 for True."""
         return int(value) if isinstance(value, bool) else integral(value)
 
 
 class _Members(dict[int, T]):
-    """Members of enums by their raw numbers; those without a name are made when they come."""
+    """Members of enums by raw number; members for numbers without a name are made on demand."""
 
     def __init__(self, form: Form[T, Any], low: int, high: int) -> None:
         self._form, self._ends = form, (low, high)
@@ -242,13 +242,13 @@ class _Members(dict[int, T]):
 
 
 _STATES = 2
-"""So many members are all named where one is wanted."""
+"""Up to this many members are all listed in messages."""
 _REMEMBERED = 4096
-"""So many members without a name are remembered for each point."""
+"""The most members without a name that each point remembers."""
 
 
 class Named(Form[E, E]):
-    """An enum; a number without a name is a member of it, too. `closed`: only its own numbers may be written."""
+    """An enum; a number without a name is a member too. `closed`: only named numbers may be written."""
 
     names: type[E]
 
@@ -261,11 +261,11 @@ class Named(Form[E, E]):
             self.refused = UnknownValueError
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the members as they are listed, and others as they came before."""
+        """Return a decoder by a table of members, which remembers numbers without a name."""
         return listed(_Members(self, low, high), slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """Return the members that may be written, as they are listed."""
+        """Return an encoder by a table of the members that may be written."""
         ends = fixed_ends(allowed)
         if ends is None:
             return slow
@@ -286,7 +286,7 @@ class Named(Form[E, E]):
         return whole(value)
 
     def _meant(self, value: str | bool) -> str:
-        """Return the member that is meant, else how members are named."""
+        """Return the member with a name like this, else an example of a member."""
         named = self.names.__members__
         member = named.get(value.strip().upper()) if isinstance(value, str) else None
         names = [f"{self.names.__name__}.{name}" for name in ([member.name] if member else named)]
@@ -295,13 +295,13 @@ class Named(Form[E, E]):
         return f"a member of {self.names.__name__}" + (f" such as {names[0]}" if names else "")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same number if it is named (for a closed enum) and in range."""
+        """Return the number if it is in range, and for a closed enum named."""
         if self.closed and raw not in self._known:
             return None
         return super().checked(raw, allowed, raws)
 
     def limits(self, width: int) -> tuple[int, int]:
-        """Return the ends of a closed enum, else of the type."""
+        """Return the least and the greatest number of a closed enum, else of the type."""
         return (min(self._known), max(self._known)) if self.closed else super().limits(width)
 
     def name_of(self, raw: int) -> str | None:
@@ -316,7 +316,7 @@ class Named(Form[E, E]):
 
 
 class Flags(Form[F, F]):
-    """Named bits in a word; bits without a name survive."""
+    """Named bits in a word; bits without a name are preserved."""
 
     names: type[F]
 
@@ -325,7 +325,7 @@ class Flags(Form[F, F]):
         self.names = names
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return words that have come before, as they were then."""
+        """Return a decoder that remembers earlier words."""
         return listed(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What `help()` says of points and commands: what they are and how they are used."""
+"""The text of `help()` for points and commands: what they are and how to use them."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _KEPT = {
     "choice": "lost unless it is written with keep=True, which wears the EEPROM",
 }
 _LISTED = 12
-"""So many names are listed."""
+"""The most names that are listed."""
 
 
 def described(point: Point) -> str:
-    """Return what a point is and how it is read, written and converted."""
+    """Return what a point is and how to read, write and convert it."""
     facts = point.facts
     unit = f", in {facts.unit}" if facts.unit else ""
     access = [name for name, kind in (("read", Decoding), ("written", Encoding)) if isinstance(point, kind)]
@@ -42,7 +42,7 @@ def described(point: Point) -> str:
 
 
 def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
-    """Yield the lines on what its numbers mean, and which may be written."""
+    """Yield the lines about the meaning of its numbers, and which may be written."""
     facts = point.facts
     yield "Raw numbers", "{}..{}".format(*point.wire.limits(point.width))
     if names := _names(point):
@@ -65,7 +65,7 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _writing(facts: Facts) -> Iterator[tuple[str, str]]:
-    """Yield the lines on what a writer has to know."""
+    """Yield the lines about writing it."""
     if facts.conditions:
         yield "To write it takes", ", ".join([condition.replace("_", " ") for condition in facts.conditions])
     if facts.takes_effect != "at once":
@@ -75,7 +75,7 @@ def _writing(facts: Facts) -> Iterator[tuple[str, str]]:
 
 
 def _values(point: Point, name: str) -> Iterator[tuple[str, str]]:
-    """Yield the lines on how its values are kept and displayed, and on the factory setting."""
+    """Yield the lines about power-off, display and the factory setting."""
     facts = point.facts
     if facts.keeps:
         yield "At power-off a written value is", _KEPT.get(facts.keeps, f"lost unless {facts.keeps}.send() follows")
@@ -104,7 +104,7 @@ def _names(point: Point) -> str:
 
 
 def _range(point: Point) -> str:
-    """Return what may be written, in the unit where other points do not decide that."""
+    """Return what may be written, in the unit unless other points decide it."""
     form = _inner(point)
     unit = f" {point.facts.unit}" if point.facts.unit else ""
     if isinstance(form, Floating):
@@ -127,7 +127,7 @@ def _end(point: Point, bound: Bound) -> str:
 
 
 def _uses(point: Point, name: str) -> Iterator[str]:
-    """Yield the lines on how it is used, with an example of a conversion where no other points are needed."""
+    """Yield the lines about its use, with an example of a conversion if that needs no other points."""
     raw, value = _example(point) or ("raw", "value")
     own = _raws(point.scale_needs)
     limits = _raws(tuple(dict.fromkeys((*point.scale_needs, *point.limit_needs))))
@@ -145,7 +145,7 @@ def _uses(point: Point, name: str) -> Iterator[str]:
 
 
 def _raws(needs: tuple[str, ...]) -> str:
-    """Return the argument that says the raw numbers of other points."""
+    """Return the argument with the raw numbers of other points."""
     held = ", ".join([f'"{one}": ...' for one in needs])
     return f", raws={{{held}}}" if needs else ""
 
@@ -166,7 +166,7 @@ def _example(point: Point) -> tuple[str, str] | None:
 
 
 def _inner(point: Point) -> Any:
-    """Return the form without what stands around it."""
+    """Return the form inside the wrappers."""
     form: Any = point._form
     while hasattr(form, "form"):
         form = form.form

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Words that travel together, and the points in them: one prebuilt Struct takes each layout apart."""
+"""Words of one read or frame and the points in them: one prebuilt Struct unpacks each layout."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from .session import Value
 
     class Fields(Protocol):
-        """What takes bytes apart into fields and puts them together, as a `struct.Struct` does."""
+        """Unpacks bytes into fields and packs them, like a `struct.Struct`."""
 
         @property
         def size(self) -> int:
-            """How many bytes there are."""
+            """The number of bytes."""
 
         def unpack(self, data: bytes, /) -> tuple[int, ...]:
             """Return the fields; raises struct.error for more or fewer bytes."""
@@ -50,9 +50,9 @@ _LETTERS = {16: "H", 32: "I", 64: "Q"}
 
 
 class Piece(NamedTuple):
-    """A point: where it is among the fields of a Struct, what decodes that, and what makes a raw number of it.
+    """A point: its fields in the Struct, their decoder, and how they make a raw number.
 
-    `whole` says that one field is just the number.
+    `whole`: a single field is the raw number itself.
     """
 
     point: Point
@@ -65,9 +65,9 @@ class Piece(NamedTuple):
 class Layout:
     """Points in words that travel together, big-endian: in a planned read, or in a frame of a telegram.
 
-    Values are by the names of points, `size` is how many bytes the words take. A point is here if all of its words are.
-    `wanted` names points whose raw numbers scales elsewhere need, `needs` those that scales here need; `around` is how
-    many bytes of something else stand before the words and behind them.
+    Values are by names of points; `size` is the number of bytes of the words. A layout has the points of which it has
+    all words. `wanted` names points whose raw numbers other layouts need for scales, `needs` those that scales here
+    need. `around` is the number of other bytes before and after the words.
     """
 
     _full = 0xFFFF
@@ -95,18 +95,18 @@ class Layout:
         return f"<{type(self).__name__} of {self.size} bytes: {inside}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle by what makes the layout: a Struct cannot be pickled."""
+        """Copy and pickle by the arguments: a Struct cannot be pickled."""
         return type(self), (self.points, self.words, self._wanted_names, self._around)
 
     def _cut(self, around: tuple[int, int]) -> tuple[Fields, tuple[Piece, ...]]:
-        """Return what takes the bytes apart into fields, and where the points are in these."""
+        """Return the Struct of the bytes, and the points in its fields."""
         letters, pieces = _cut(self.points, self.words)
         return struct.Struct(f">{around[0]}x{letters}{around[1]}x"), pieces
 
     def decode(self, data: bytes, raws: Raws = NO_RAWS) -> dict[str, Value]:
-        """Return the values in the bytes of the words; `raws` holds the raw numbers of other points that scales need.
+        """Return the values in the bytes of the words; `raws` holds raw numbers of other points that scales need.
 
-        Points that are only written have none. Raises WrongLengthError, and what decoding a point raises.
+        Write-only points have no value. Raises WrongLengthError, and what decoding a point raises.
         """
         if not self._own:
             self.__dict__["decode"] = self.decoder  # from the first call on
@@ -117,7 +117,7 @@ class Layout:
 
     @cached_property
     def decoder(self) -> Way:
-        """What decodes, given all raw numbers that scales need."""
+        """The decoder, for all raw numbers that scales need."""
         return self._decoder(self._read)
 
     def _decoder(self, pieces: Sequence[Piece]) -> Way:
@@ -125,7 +125,7 @@ class Layout:
         return taken_apart(self._struct.unpack, plan, self._refuse)
 
     def _refuse(self, data: bytes, raws: Raws) -> Never:
-        """Say that these are not the bytes of the words."""
+        """Raise the error for bytes that are not those of the words."""
         del raws
         try:
             size = len(memoryview(data))
@@ -134,13 +134,13 @@ class Layout:
         raise WrongLengthError(f"takes {self.size} bytes, not {size}") from None
 
     def _known(self, raws: Raws) -> Raws:
-        """Return the same; raises WrongTypeError for what holds no numbers by name."""
+        """Return the raw numbers; raises WrongTypeError unless they are a mapping by name."""
         if not isinstance(raws, Mapping):
             raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
         return raws
 
     def decode_known(self, data: bytes, raws: Raws, errors: dict[str, CodecError] | None = None) -> dict[str, Value]:
-        """Return the same without the points whose scales need what is not there; `errors` takes the reasons."""
+        """Return the values of points whose scales need nothing unknown; `errors` takes the reasons for the others."""
         known, fields = {**raws, **self._numbers(self._own, data)}, self._struct.unpack(data)
         values: dict[str, Value] = {}
         for piece in self._read:
@@ -150,7 +150,7 @@ class Layout:
         return values
 
     def wanted(self, data: bytes) -> dict[str, int]:
-        """Return the raw numbers in the bytes that scales elsewhere need."""
+        """Return the raw numbers in the bytes that other layouts need."""
         return self._numbers(self._wanted, data)
 
     def _numbers(self, pieces: Mapping[str, Piece], data: bytes) -> dict[str, int]:
@@ -158,10 +158,10 @@ class Layout:
         return {name: piece.raw(fields[piece.at]) for name, piece in pieces.items()}
 
     def encode(self, values: Mapping[str, Any], raws: Raws = NO_RAWS) -> bytes:
-        """Return the bytes of the words for a value of every point; `raws` as for decoding, and what limits need.
+        """Return the bytes of the words for a value of every point; `raws` as for decoding, also for limits.
 
-        Raises AccessError where a point cannot be written or bits belong to none, RequestError (bad_value) unless there
-        are just the values of all points, and what encoding a point raises.
+        Raises AccessError if a point cannot be written or some bits belong to no point, RequestError (bad_value) unless
+        `values` has exactly the points, and what encoding a point raises.
         """
         quick = self._quick
         try:
@@ -174,14 +174,14 @@ class Layout:
         if not isinstance(values, Mapping):
             raise RequestError("bad_value", f"takes values by the names of points, as a dict, not {shown(values)}")
         different = ", ".join(sorted(map(str, values.keys() ^ self._names)))
-        raise RequestError("bad_value", f"takes a value of each point and no other: see {different}")
+        raise RequestError("bad_value", f"takes a value for each point and no others: check {different}")
 
     @property
     def _names(self) -> set[str]:
         return {point.facts.name for point in self.points}
 
     def _encode(self, values: Mapping[str, Any], raws: Raws) -> bytes:
-        """Return the same point by point, those first that others may need."""
+        """Encode point by point, starting with those that others may need."""
         known = dict(self._known(raws))
         words = dict.fromkeys(self.words, 0)
         for point in sorted(self._written, key=lambda one: bool(one.scale_needs or one.limit_needs)):
@@ -197,7 +197,7 @@ class Layout:
 
     @cached_property
     def _written(self) -> tuple[Encoding[Any], ...]:
-        """All points, which have to say every bit of the words; raises AccessError."""
+        """All points, if they cover every bit of the words; raises AccessError."""
         said = dict.fromkeys(self.words, 0)
         written: list[Encoding[Any]] = []
         for point in self.points:
@@ -209,12 +209,12 @@ class Layout:
             written.append(point)
         gaps = ", ".join([str(address) for address, bits in said.items() if bits != self._full])
         if gaps:
-            raise AccessError(f"no point says all bits of the words at {gaps}")
+            raise AccessError(f"no points cover all bits of the words at {gaps}")
         return tuple(written)
 
     @cached_property
     def _quick(self) -> Way:
-        """What makes the bytes: field by field where each is a point that needs no other one."""
+        """The encoder: field by field if each is a point that needs no other."""
         needs = any(point.scale_needs or point.limit_needs for point in self._written)
         if needs or not all(piece.whole for piece in self._pieces):
             return self._encode
@@ -222,7 +222,7 @@ class Layout:
 
 
 def has_needs(point: Point, known: Raws, errors: dict[str, CodecError] | None) -> bool:
-    """Return True if all that the scale needs is known; keep the error that names what is missing."""
+    """Return True if all that the scale needs is known; otherwise add the error to `errors`."""
     missing = [name for name in point.scale_needs if name not in known]
     if missing and errors is not None:
         error = MissingRawError(f"needs {' and '.join(missing)}, not known yet")
@@ -233,7 +233,7 @@ def has_needs(point: Point, known: Raws, errors: dict[str, CodecError] | None) -
 
 @contextmanager
 def noted(point: Point, errors: dict[str, CodecError] | None) -> Iterator[None]:
-    """Keep the error of a point whose number has no value, so that the others are decoded."""
+    """Add the error of a point without a value to `errors`, so that the others are decoded."""
     try:
         yield
     except CodecError as error:
@@ -257,7 +257,7 @@ def _is_whole(point: Point) -> bool:
 
 
 def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]:
-    """Return the letters of the Struct, and where the points are in its fields, in the order of these."""
+    """Return the format of the Struct, and the points in the order of its fields."""
     users = Counter(at for point in points for at in addresses_of(point))
     whole = {point.facts.at.address: point for point in points if _is_whole(point)}
     whole = {at: point for at, point in whole.items() if all(users[one] == 1 for one in addresses_of(point))}
@@ -278,7 +278,7 @@ def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]
 
 
 def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> Piece:
-    """Return a point in its fields."""
+    """Return the piece of a point."""
     decoder = point.sure_decoder if isinstance(point, Decoding) else itself
     if whole.get(point.facts.at.address) is point:
         return Piece(point, fields[0], decoder, int, True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Replies from bytes as they come, without any I/O: every transport receives through `Receiver`."""
+"""Finds replies in received bytes, without I/O; every transport uses `Receiver`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _QUOTED = 16
-"""How many bytes an error quotes."""
+"""The most bytes that an error quotes."""
 _HINT = "is the baud rate right?"
 
 
@@ -21,24 +21,24 @@ class Broadcast(bytes):
 
 
 class Pause(float):
-    """What asks for nothing: so many seconds later the next request follows."""
+    """A step that only waits: the next request follows after this many seconds."""
 
 
 class Reply(bytes):
-    """A reply that says how many `seconds` it took once its request was sent: a wait for the line does not count."""
+    """A reply with the `seconds` from sending its request to its arrival, without the wait for the line."""
 
     seconds: float
 
     @classmethod
     def timed(cls, reply: bytes, since: float) -> Reply:
-        """Return a reply to what was sent then."""
+        """Return a reply to a request that was sent at `since`."""
         made = cls(reply)
         made.seconds = monotonic() - since
         return made
 
 
 class NoFrameError(TimeoutError):
-    """Only bytes came that are no reply: `received`."""
+    """Bytes arrived, but no reply: `received`."""
 
     def __init__(self, message: str, received: bytes) -> None:
         super().__init__(message)
@@ -46,10 +46,10 @@ class NoFrameError(TimeoutError):
 
 
 class Framing(NamedTuple):
-    """What a receiver must know of the frames on a line: sizes in bytes, and whose frame one is.
+    """What a receiver must know of the frames on a line: sizes in bytes, and the sender of a frame.
 
-    `size` returns the length of the frame that begins with these bytes, or None while they are too few to tell.
-    `address` returns what a reply has in common with its request: a unit, or the bytes of a transaction.
+    `size` returns the length of the frame that starts with these bytes, or None if they are too few to tell. `address`
+    returns what a reply and its request have in common: the unit, or the bytes of the transaction.
     """
 
     size: Callable[[bytes], int | None]
@@ -58,7 +58,7 @@ class Framing(NamedTuple):
     longest: int
 
     def size_of(self, received: bytes) -> int | None:
-        """Return the length as `size` does; raises FrameError (long_frame) for one that no frame has."""
+        """Return the length as `size` does; raises FrameError (long_frame) if it is too long for a frame."""
         size = self.size(received)
         if size is not None and size > self.longest:
             text = f"{_quoted(received)}: the reply would have {size} bytes, and a frame has at most {self.longest}"
@@ -75,17 +75,17 @@ class Receiver:
         self._foreign = b""
         self.received = b""
         self.missing = framing.shortest
-        """So many bytes are missing at least."""
+        """The least number of missing bytes."""
 
     def take(self, data: bytes) -> bytes | None:
-        """Add bytes that came; return the reply once it is whole.
+        """Add received bytes; return the reply once it is complete.
 
-        Raises FrameError (long_frame) when there are more bytes than any frame has and no frame among them.
+        Raises FrameError (long_frame) if there are more bytes than any frame has, but no frame.
         """
         self.received = received = self.received + data if self.received else data
         framing = self._framing
         if framing.size(received) == len(received) <= framing.longest and framing.address(received) == self._address:
-            return received  # nearly always: the reply, and nothing else
+            return received  # nearly always: exactly the reply
         try:
             return self._reply()
         except FrameError as error:
@@ -108,7 +108,7 @@ class Receiver:
             self._foreign = frame
 
     def give_up(self) -> bytes:
-        """Return the last frame of another address, for the error that names it; raises TimeoutError without one."""
+        """Return the last frame with another address, for the error message; raises TimeoutError if there is none."""
         if self._foreign and not (self.received and self._framing.address(self.received) == self._address):
             return self._foreign
         if self.received:
@@ -117,15 +117,15 @@ class Receiver:
 
 
 def _quoted(received: bytes) -> str:
-    """Return how many bytes came, and the first of them."""
+    """Return the number of received bytes, and the first of them."""
     more = " ..." if len(received) > _QUOTED else ""
     return f"{len(received)} bytes came ({received[:_QUOTED].hex(' ').upper()}{more})"
 
 
 def receive(read: Callable[[int], bytes], framing: Framing, request: bytes) -> bytes:
-    """Return the whole reply to a request. `read` returns up to so many bytes, or none after its timeout.
+    """Return the complete reply to a request. `read` returns up to the given number of bytes; none: timeout.
 
-    Raises TimeoutError when nothing more comes, and FrameError as `Receiver.take` does.
+    Raises TimeoutError if no more bytes arrive, and FrameError as `Receiver.take` does.
     """
     receiver = Receiver(framing, request)
     while data := read(receiver.missing):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Facts that do not change. The standard library's dataclasses would import more than all of this package does."""
+"""Immutable records. The standard library's dataclasses would import more than this whole package."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ if TYPE_CHECKING:
 
 
 class _Signature:
-    """What `help()` says that a record is made with."""
+    """The signature of a record for `help()`."""
 
     def __get__(self, record: object, kind: type[Record]) -> Any:
-        import inspect  # nobody needs it before asking for help
+        import inspect  # only help() needs it
 
         either, none = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.empty
         fields = [inspect.Parameter(name, either, default=getattr(kind, name, none)) for name in kind._fields]
@@ -22,9 +22,9 @@ class _Signature:
 
 @dataclass_transform(frozen_default=True)
 class Record:
-    """An object of named fields, those of its class in order: equal to another one where all fields are.
+    """An object with the fields of its class in order; equal to another one if all fields are equal.
 
-    A field without a default has to be given.
+    A field without a default must be given.
     """
 
     _fields: ClassVar[tuple[str, ...]] = ()
@@ -61,7 +61,7 @@ class Record:
         return f"{type(self).__name__}({', '.join(fields)})"
 
     def replaced(self, **changes: Any) -> Self:
-        """Return the same with some fields changed."""
+        """Return a copy with some fields changed."""
         return type(self)(**{**self.__dict__, **changes})
 
     __replace__ = replaced

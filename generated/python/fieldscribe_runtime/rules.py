@@ -30,7 +30,7 @@ Raws = Mapping[str, int]
 NO_RAWS: Raws = {}
 
 _WIDEST = 64
-"""So many bits has a number at most that others need."""
+"""The most bits of a number that other points need."""
 
 Line = tuple[int, int, int]
 """A scale as (times, less, over): value = (raw * times - less) / over, exactly, and `over` is positive."""
@@ -43,7 +43,7 @@ def round_ratio(num: int, den: int) -> int:
 
 
 def decimal_text(num: int, den: int, decimals: int) -> str:
-    """`num / den` with so many decimals: to nearest, halves away from zero; what rounds to zero has no sign."""
+    """Return `num / den` with `decimals` decimals, to nearest, halves away from zero; never `-0`."""
     count = round_ratio(num * 10**decimals, den)
     digits = f"{abs(count):0{decimals + 1}d}"
     sign, split = "-" if count < 0 else "", len(digits) - decimals
@@ -51,14 +51,14 @@ def decimal_text(num: int, den: int, decimals: int) -> str:
 
 
 def round_float(value: float) -> int:
-    """Return a finite float to the nearest integer, halves away from zero."""
+    """Return the integer nearest to a finite float, halves away from zero."""
     whole = math.trunc(value)
     rest = value - whole  # exact: both lie within a factor of two, or whole is zero
     return whole + (rest >= 0.5) - (rest <= -0.5)
 
 
 def raw_of(point: str, raws: Raws) -> int:
-    """Return the raw number of another point, or an error that says that it is needed."""
+    """Return the raw number of another point; raises MissingRawError if it is not there."""
     try:
         raw = raws[point]
     except KeyError:
@@ -76,7 +76,7 @@ def raw_of(point: str, raws: Raws) -> int:
 
 
 def _binary32(pattern: int) -> Fraction:
-    """Return the number that the bits are; 0 for infinities and NaN."""
+    """Return the number with this bit pattern; 0 for infinities and NaN."""
     from fractions import Fraction  # only scales by floating-point points need it
 
     value: float = struct.unpack("<f", struct.pack("<I", pattern & 0xFFFF_FFFF))[0]
@@ -86,10 +86,9 @@ def _binary32(pattern: int) -> Fraction:
 class Factor(Record):
     """raw * slope + intercept of another point, to the power of 1 or -1.
 
-    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds;
-    `within` says it of other factors, where the scale is exact only there. With `f32` the raw number is the pattern of
-    a binary32 number, and that number is taken for it (0 for what is none).
-    `codes` are bands (first, last) of raw numbers that are no quantity.
+    With `ten_to`, it is ten to that number, and the pair is the range of the point's raw numbers where this holds;
+    `within` is the range where the scale is exact, for other factors. With `f32`, the raw number is a binary32 pattern,
+    and its number is used (0 if it is no number). `codes` are bands (first, last) of raw numbers that are no quantity.
     """
 
     point: str
@@ -102,7 +101,7 @@ class Factor(Record):
     within: tuple[int, int] | None = None
 
     def is_code(self, raws: Raws) -> bool:
-        """Return True if the point holds a special code, with which nothing can be computed."""
+        """Return True if the point holds a special code, which is no number to compute with."""
         return any(first <= raw_of(self.point, raws) <= last for first, last in self.codes)
 
     def number(self, raws: Raws) -> int | Fraction:
@@ -111,7 +110,7 @@ class Factor(Record):
         return (_binary32(raw) if self.f32 else raw) * self.slope + self.intercept
 
     def require_range(self, raws: Raws) -> None:
-        """Raise ResultOverflowError if the raw number is one with which nothing is computed."""
+        """Raise ResultOverflowError if the raw number is outside the range of the factor."""
         limits, raw = self.ten_to or self.within, raw_of(self.point, raws)
         if limits is not None and not limits[0] <= raw <= limits[1]:
             raise ResultOverflowError(f"{self.point} is {raw}, outside {limits[0]}..{limits[1]}")
@@ -168,7 +167,7 @@ class Rule(Record):
         return found[0] // shared, found[1] // shared, found[2] // shared
 
     def steps(self) -> tuple[float, float, float] | None:
-        """Return what a value is multiplied with and divided by, and what is added; None beyond binary64."""
+        """Return the multiplier, the divisor and the addend of a value; None beyond binary64."""
         try:
             return float(self.num), float(self.den), self.offset[0] / self.offset[1]
         except OverflowError:
@@ -188,14 +187,14 @@ class Rule(Record):
         return all(abs(raw * times - less) >> 1023 < over for raw in (low, high))
 
     def encode_count(self, count: int, decimals: int, raws: Raws, *, zero_allowed: bool = False) -> int:
-        """Return the raw number of `count` units of 10^-decimals, by integers alone."""
+        """Return the raw number of `count` units of 10^-decimals, in integer arithmetic."""
         num, den = self.ratio(raws, zero_allowed=zero_allowed)
         over, under = self.offset
         scale = den * 10**decimals
         return round_ratio(count * num * under + over * scale, scale * under)
 
     def decode_count(self, raw: int, decimals: int, raws: Raws) -> int:
-        """Return the count of 10^-decimals units, by integers alone; raises ResultOverflowError beyond 64 bits."""
+        """Return the count of 10^-decimals units, in integer arithmetic; raises ResultOverflowError beyond 64 bits."""
         num, den = self.ratio(raws)
         over, under = self.offset
         count = round_ratio((raw * under - over) * den * 10**decimals, num * under)
@@ -224,7 +223,7 @@ def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
 class Limit(Record):
     """A limit that other points set: `rule` applied to 1.
 
-    It does not hold while a point has a number in one of its bands (first, last) of `unless`.
+    It does not apply while a point has a number in one of its bands (first, last) of `unless`.
     """
 
     rule: Rule
@@ -233,7 +232,7 @@ class Limit(Record):
     unless: Mapping[str, tuple[tuple[int, int], ...]]
 
     def raw(self, raws: Raws) -> int | None:
-        """Return the limit as a raw number; None while it does not hold."""
+        """Return the limit as a raw number; None while it does not apply."""
         for point, bands in self.unless.items():
             held = raw_of(point, raws)
             if any(first <= held <= last for first, last in bands):
@@ -261,7 +260,7 @@ def high_end(bound: Bound, raws: Raws) -> int:
 
 
 def outside(intervals: Sequence[tuple[str, str]], unit: str) -> str:
-    """Return what a refused number is, by the limits of what may be written, as people read them."""
+    """Return why a number is refused, with the limits as texts."""
     texts = [low if low == high else f"{low}..{high}" for low, high in intervals]
     if all(low != high for low, high in intervals):
         return f"outside {' or '.join(texts)}{unit}"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: 0BSD
-"""What a device is asked, in which order: the part of all devices that does no I/O and knows no bus.
+"""The order of requests to a device: the part of all devices that does no I/O and knows no bus.
 
-Each operation is a generator: it yields what its family sends, is sent what came back, and returns a result. How words
-travel is the family's part: a subclass with `_get_steps` and `_store_steps`.
+Each operation is a generator: it yields what its family sends, receives the answer, and returns a result. Subclasses
+of the families define how words travel: `_get_steps` and `_store_steps`.
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 Steps = Generator[Any, Any, T]
-"""What goes in and out between the steps is the family's own."""
+"""The family defines what is yielded and sent between the steps."""
 Refusals = dict[str, FieldscribeError] | None
-"""Notes what the device refuses, by item; None if that is to be raised."""
+"""Collects what the device refuses, by item; None raises it instead."""
 Value = float | str | tuple[int, ...] | Special
-"""What reading a point can give (also bool, IntEnum and IntFlag)."""
+"""What reading a point can return (also bool, IntEnum and IntFlag)."""
 
 
 _TRIES = frozenset({"retries", "repeats"})
 _SECONDS = frozenset({"retry_pause", "patience", "fresh_for"})
 _NEVER = "never"
 _JOINT = frozenset({"coil", "holding", "telegram"})
-"""The spaces in which a request writes several points."""
+"""The spaces where one request can write several points."""
 _KEPT = frozenset({_NEVER, "rarely"})
 _LASTING = frozenset({0x01, 0x02, 0x03})
-"""Exceptions that say that a request does not suit the device: no such function, address, or number of words."""
+"""Exceptions for requests that the device will always refuse: illegal function, address, or number of words."""
 
 
 def _is_lasting(error: FieldscribeError) -> bool:
@@ -63,14 +63,14 @@ def _is_lasting(error: FieldscribeError) -> bool:
 
 
 class Session(NamedPoints, ABC):
-    """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
+    """The state of one device on a bus: its unit number, its variants, and what was read before."""
 
     unit: int
     traffic: Traffic
     retries: int = 0
-    """So often a request is sent again after the line lost it or its reply; a command is sent once."""
+    """How often a request is repeated after it or its reply was lost; a command is never repeated."""
     retry_pause: float = 0.0
-    """Seconds between a failure and the next try."""
+    """Seconds between a failure and the repetition."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         check_variants(self.VARIANTS, variants)
@@ -79,18 +79,18 @@ class Session(NamedPoints, ABC):
         self.variants = variants
         self._kept: dict[str, int] = {}
         self._refused: dict[str, FieldscribeError] = {}
-        """What `read_many` does not request again, by item."""
+        """Refusals that last, by item: `read_many` does not request these points again."""
         self._first = self.AUTOMATIC.get("first", ())
-        """Commands that come before all else."""
+        """Commands that are sent before anything else."""
         self._selected: dict[str, int] = {}
-        """What was selected last, by point; forgotten when an exchange fails, or something else is written."""
+        """The current selection, by point; forgotten when an exchange fails or something else is written."""
         self._gaps: frozenset[tuple[str, int]] = frozenset()
-        """What lies between points, and no read may pass over: the space and the address."""
+        """Addresses between points that no read may span: space and address."""
 
     if not TYPE_CHECKING:
 
         def __setattr__(self, name: str, value: object) -> None:
-            """Refuse numbers that are none of tries, or of seconds."""
+            """Refuse invalid values of `retries` and `retry_pause`."""
             if name in _TRIES:
                 check_number(f"bad_{name}", name, value, (0, 0xFFFF))
             elif name in _SECONDS:
@@ -110,11 +110,15 @@ class Session(NamedPoints, ABC):
         """Write words or bits at a place, in ascending order of address."""
 
     def _retried_steps(self, left: int, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
+<<<<<<< HEAD
         """Carry out one request, again while the line loses it, as often as is left; failures are counted.
 
         What was selected is selected again first: the device may have restarted meanwhile.
         """
         selected = self._selected
+=======
+        """Carry out one request; repeat it up to `left` times while it or its reply is lost, and count failures."""
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         while True:
             try:
                 result = yield from ask(*arguments)
@@ -133,14 +137,14 @@ class Session(NamedPoints, ABC):
             left -= 1
 
     def _to_all_steps(self, frame: bytes) -> Steps[tuple[()]]:
-        """Send a frame that no unit answers: it brings no words."""
+        """Send a broadcast, which no unit answers."""
         with suppress(TimeoutError):
             self.traffic.sent(frame)
             yield Broadcast(frame)
         return ()
 
     def _gather_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
-        """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
+        """Read the raw numbers of several points (or of a whole `group`), by item, place by place."""
         del group
         places: dict[Place, list[Point]] = {}
         for point in points:
@@ -157,7 +161,7 @@ class Session(NamedPoints, ABC):
     def _part_steps(
         self, points: Sequence[Point], refusals: Refusals, ask: Callable[..., Steps[dict[str, int]]], *arguments: Any
     ) -> Steps[dict[str, int]]:
-        """Read some points by one request; where `refusals` are noted, by one each if the device refuses that."""
+        """Read some points in one request; if the device refuses it and `refusals` are collected, one request each."""
         self.traffic.is_split = refusals is not None and len(points) > 1
         try:
             yield from self._select_steps(points[0].facts.selects)
@@ -181,23 +185,23 @@ class Session(NamedPoints, ABC):
         return raws
 
     def _note_gaps(self, points: Sequence[Point], *arguments: object) -> None:
-        """Note that the device refuses a part for what lies between its points: each of them comes by itself."""
+        """Record that the device refuses addresses between points; each point is read by itself from then on."""
         del points, arguments
 
     def _note(self, point: Point, error: FieldscribeError, refusals: dict[str, FieldscribeError]) -> None:
-        """Note that a point is refused; if that lasts, for the next time, too."""
+        """Record that a point is refused; remember it if the refusal lasts."""
         refusals[point.facts.item] = error
         if _is_lasting(error):
             self._refused[point.facts.item] = copy(error)
 
     def _shared_word_steps(self, point: Point) -> Steps[int]:
-        """Yield the word that a bit group shares with others, as it is before the group is written."""
+        """Read the word that a bit group shares with other points, before the group is written."""
         if not isinstance(point, Decoding):
             raise AccessError("the other bits of its word cannot be read back")
         return (yield from self._get_steps(point.facts.at))[0]
 
     def _after_first_steps(self, steps: Steps[T]) -> Steps[T]:
-        """Carry out an operation, before it the commands that come first; they are done once all have succeeded."""
+        """Send the commands that must come first, then carry out an operation; skip them once all have succeeded."""
         try:
             for command in self._first:
                 yield from command.steps(self, {})
@@ -207,7 +211,7 @@ class Session(NamedPoints, ABC):
             steps.close()
 
     def _variant(self, axis: str) -> str:
-        """Return the value of an axis that the device was made with; raises AccessError where nobody said it."""
+        """Return the value of a variant axis; raises AccessError if the device was made without it."""
         value = self.variants.get(axis)
         if value is None:
             raise undecided(AccessError(f"depends on {axis}"), axis)
@@ -218,9 +222,9 @@ class Session(NamedPoints, ABC):
         return (yield from self._read_raw_steps(self._resolved(name)))
 
     def forget(self) -> None:
-        """Read everything anew: what changes rarely or never, and what the device has refused.
+        """Forget what was read: numbers that change rarely or never, and what the device has refused.
 
-        Commands that come before all else are given again, as after a restart of the device.
+        The commands that come before anything else are sent again, as after a restart of the device.
         """
         self._first = self.AUTOMATIC.get("first", ())
         self._kept.clear()
@@ -242,7 +246,7 @@ class Session(NamedPoints, ABC):
             raise
 
     def _add_condition(self, error: FieldscribeError, point: Point) -> None:
-        """Add to a refusal what other points must hold for the point to exist."""
+        """Add to a refusal the condition on other points under which the point exists."""
         if point.facts.when and isinstance(error, (ExceptionReplyError, RefusedError)):
             clauses = [" and ".join(map(self._told_test, clause)) for clause in point.facts.when]
             error.exists_when = " or ".join(clauses)
@@ -254,7 +258,7 @@ class Session(NamedPoints, ABC):
         return f"{of} {test} {', '.join(told)}"
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
-        """Return the raw number in words that came; it is remembered if the description says when it changes."""
+        """Return the raw number in received words; remember it if the description says how often it changes."""
         raw = point.joined(words) if len(words) == point.size else point.from_words(words)
         if point.facts.changes in _KEPT or point.facts.changes_with:
             self._kept[point.facts.item] = raw
@@ -271,10 +275,10 @@ class Session(NamedPoints, ABC):
         *,
         writes: bool = False,
     ) -> Steps[dict[str, int]]:
-        """Yield the raw numbers that a point needs of others: those known (by item), those remembered, the rest read.
+        """Return the raw numbers of others that a point needs: known ones (by item), remembered ones, or read now.
 
-        What is written must not follow from a number that has changed meanwhile, by another master or by hand: then
-        only what never changes is taken from memory.
+        Before a write, only numbers that never change are taken from memory: another master, or a person, may have
+        changed the others since.
         """
         raws: dict[str, int] = {}
         for name in names:
@@ -292,13 +296,13 @@ class Session(NamedPoints, ABC):
         return raws
 
     def _read_steps(self, point: Decoding[T]) -> Steps[T]:
-        """Read a point's value, and before it what its scale needs."""
+        """Read what a point's scale needs, then its value."""
         raws = yield from self._raws_steps(point, point.scale_needs)
         raw = yield from self._read_raw_steps(point)
         return point.decode(raw, raws)
 
     def _write_steps(self, point: Encoding[T], value: T, place: Place | None = None) -> Steps[None]:
-        """Write a value, to another `place` than the usual one where one is named."""
+        """Write a value, to the point's own place or to `place`."""
         point.require(value)
         needs = dict.fromkeys((*point.scale_needs, *point.limit_needs))
         raws = yield from self._raws_steps(point, needs, writes=True)
@@ -312,7 +316,7 @@ class Session(NamedPoints, ABC):
         yield from self._put_raw_steps(point, raw, place, raws)
 
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
-        """Write a raw number that was checked; raises EchoError if the device confirms another one."""
+        """Write a checked raw number; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
@@ -328,7 +332,7 @@ class Session(NamedPoints, ABC):
                 answered = point.from_words(error.answered)
                 if not point.same(raw, answered):
                     wrote, has = (point.told_exactly(one, raws) for one in (raw, answered))
-                    text = f"{wrote} was written, and the device answered {has}"
+                    text = f"{wrote} was written, but the device answered {has}"
                     raise EchoError(text, error.written, error.answered) from None
             except FieldscribeError as error:
                 self._add_condition(error, point)
@@ -336,7 +340,7 @@ class Session(NamedPoints, ABC):
         self._selected = dict(point.facts.selects)
 
     def _write_together_steps(self, values: Mapping[Any, Any], *, as_raw: bool = False) -> Steps[None]:
-        """Write several points in one request; each is checked with the new numbers of those before it."""
+        """Write several points in one request; each is checked with the new numbers of the points before it."""
         points = {self._writable_point(one): value for one, value in values.items()}
         place = self._joint_place(points)
         raws: dict[str, int] = {}
@@ -369,7 +373,7 @@ class Session(NamedPoints, ABC):
         return point
 
     def _joint_place(self, points: Collection[Point]) -> Place:
-        """Return the place of points that one request writes; raises RequestError (not_together)."""
+        """Return the common place of points that one request writes; raises RequestError (not_together)."""
         names = {point.facts.name for point in points}
         for point in points:
             if missing := [name for name in point.facts.write_with if name not in names and self._found(name)]:
@@ -381,7 +385,7 @@ class Session(NamedPoints, ABC):
             (place.replaced(addresses=()), point.facts.selects) for point, place in zip(points, places, strict=True)
         }
         if len(kinds) != 1 or places[0].space not in _JOINT or addresses[-1] - addresses[0] >= len(addresses):
-            raise RequestError("not_together", "takes points that one request can write: side by side, in one space")
+            raise RequestError("not_together", "takes points that one request can write: adjacent, and in one space")
         return places[0].replaced(addresses=tuple(addresses))
 
     def _put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
@@ -396,21 +400,29 @@ class Session(NamedPoints, ABC):
         yield from self._store_steps(place, values)
         self._selected = {}
 
+<<<<<<< HEAD
     def _select_steps(self, selects: tuple[tuple[str, int], ...]) -> Steps[None]:
         """Write what points must hold before the address of another one means it, unless they hold it."""
         before = self._selected
         for count, (name, raw) in enumerate(selects):
             if before.get(name) != raw:
                 self._selected = dict(selects[:count])
+=======
+    def _select_steps(self, point: Point) -> Steps[None]:
+        """Write what other points must hold before the address means this point, except what they hold already."""
+        selected = self._selected
+        for name, raw in point.facts.selects:
+            if selected.get(name) != raw:
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
                 yield from self._put_raw_steps(self._resolved(name), raw, None, NO_RAWS)
         self._selected = dict(selects) or before
 
     def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.
 
-        Of a group those points are left out that do not travel the way the link is set, and those whose condition does
-        not hold by what the device has now. With `errors` "return", a point
-        that is absent, that the device refuses, or whose number has no value, has the error as its value.
+        A group leaves out points that the link, as it is set, does not carry, and points whose condition is false now.
+        With `errors` "return", a point that is absent, that the device refuses, or whose number has no value has the
+        error as its value.
         """
         if errors not in ("raise", "return"):
             raise RequestError("bad_errors", f"errors is 'raise' or 'return', not {shown(errors)}")
@@ -424,12 +436,12 @@ class Session(NamedPoints, ABC):
         return {**values, **absent} if absent else values
 
     def _there_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
-        """Return the points of a group that are in this device; families with blocks look there."""
+        """Return the points of a group that this device has; families with blocks look there."""
         yield from ()
         return points
 
     def _existing_steps(self, points: list[Decoding[Any]]) -> Steps[list[Decoding[Any]]]:
-        """Return the points whose conditions may hold by what the device has now; what they compare is read."""
+        """Return the points whose conditions may be true now; reads the points that conditions compare."""
         names = dict.fromkeys(
             name for point in points for name in names_in(point.facts.when) if name not in dict(point.facts.selects)
         )
@@ -440,7 +452,7 @@ class Session(NamedPoints, ABC):
         return [point for point in points if may_hold(point.facts.when, {**held, **dict(point.facts.selects)})]
 
     def _selected_steps(self, points: Sequence[Point], group: str | None, refusals: Refusals) -> Steps[dict[str, int]]:
-        """Read the raw numbers of several points, those together whose addresses mean them at the same time."""
+        """Read the raw numbers of several points, together where they need the same selection."""
         parts: dict[tuple[tuple[str, int], ...], list[Point]] = {}
         for point in points:
             parts.setdefault(point.facts.selects, []).append(point)
@@ -452,7 +464,7 @@ class Session(NamedPoints, ABC):
     def _values_steps(
         self, points: Sequence[Decoding[Any]], group: str | None, refusals: Refusals
     ) -> Steps[dict[str, Any]]:
-        """Yield the values of points, by name, and before them what their scales need."""
+        """Read what the scales of points need, then return the values by name."""
         find = self._needed if refusals is None else lambda _, name: self._found(name)
         needed = [find(point, name) for point in points for name in point.scale_needs]
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
@@ -468,14 +480,14 @@ class Session(NamedPoints, ABC):
                 known = yield from self._raws_steps(point, point.scale_needs, raws, refusals)
                 values[point.facts.name] = point.decode(raws[point.facts.item], known)
             except FieldscribeError as error:
-                if refusals is None or (error.lost and not refusals):  # what is in them was read already
+                if refusals is None or (error.lost and not refusals):  # their contents were read already
                     raise
                 error.group = group
                 values[point.facts.name] = error
         return values
 
     def _identify_steps(self) -> Steps[dict[str, str]]:
-        """Read what tells the device from others, then what tells its variants, until one value of each axis fits."""
+        """Read what identifies the device, then its variants, until one value of each axis matches."""
         held: dict[str, int | str] = {}
         variants: dict[str, str] = {}
         for variant, rows in groupby(self.IDENTIFICATIONS, lambda row: row.variant):
@@ -487,7 +499,7 @@ class Session(NamedPoints, ABC):
         return variants
 
     def _misfit_steps(self, rows: Iterable[Identification], held: dict[str, int | str]) -> Steps[str | None]:
-        """Return what a point holds in place of what is wanted; None if all fit."""
+        """Return the first difference from what the points should hold; None if all match."""
         for row in rows:
             name, values = row.point, row.values
             point = self.POINTS[name]
@@ -514,6 +526,6 @@ class Session(NamedPoints, ABC):
         return all(self._carried(one) for one in (point, *needed) if one is not None)
 
     def _carried(self, point: Point) -> bool:
-        """Return True if the words of a point travel the way the link is set; families say where that differs."""
+        """Return True if the link, as it is set, carries the words of a point; families override it."""
         del point
         return True

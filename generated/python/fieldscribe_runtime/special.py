@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Special codes: raw numbers that are no quantity, and what decoding gives for them."""
+"""Special codes: raw numbers that are no quantity, and what decoding returns for them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 class Special(Record):
-    """A special code, which a point holds in place of a quantity.
+    """A special code, which a point holds instead of a quantity.
 
-    With `no_value` it says that there is no value; only a `writable` one may be written.
+    `no_value`: it means that there is no value. `writable`: it may be written.
     """
 
     name: str
@@ -28,10 +28,10 @@ class Special(Record):
 
 
 class Codes:
-    """The special codes of a point: `codes.inactive` or `codes["inactive"]`, or what a raw number is: `codes(0)`.
+    """The special codes of a point: `codes.inactive` or `codes["inactive"]`, or the code of a raw number: `codes(0)`.
 
-    A code is a raw number, or the first and the last one of a band. Those named in `no_value` say that there is no
-    value, those in `writable` may be written.
+    A code is a raw number, or the first and the last one of a band. `no_value` names those that mean that there is no
+    value, `writable` those that may be written.
     """
 
     def __init__(
@@ -49,7 +49,7 @@ class Codes:
         self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
 
     def __call__(self, raw: int) -> Special | None:
-        """Return the code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
+        """Return the special code of a raw number; None for a quantity. Raises WrongTypeError for a non-integer."""
         if type(raw) is not int:
             raw = raw_number(raw, 0)
         found = self._single.get(raw)
@@ -59,16 +59,16 @@ class Codes:
 
     @property
     def finder(self) -> Callable[[int], Special | None]:
-        """What a raw number is, without asking for bands where there are none."""
+        """The function that finds the code of a raw number; it skips bands if there are none."""
         return self if self._bands else self._single.get
 
     def __getitem__(self, name: str) -> Special:
-        """Return the code of that name; raises KeyError, also for a band, in which a raw number is meant."""
+        """Return the code with a name; raises KeyError, also for a band, which needs a raw number."""
         if not isinstance(name, str) or name not in self._spans:
             raise KeyError(self._no_such(name))
         low, high = self._spans[name]
         if low != high:
-            raise KeyError(f"{name} is all of {low}..{high}: call the codes with the raw number that is meant")
+            raise KeyError(f"{name} is all of {low}..{high}: call the codes with a raw number")
         return self._made(name, low)
 
     def __getattr__(self, name: str) -> Special:
@@ -100,7 +100,7 @@ class Codes:
         return f"special.{code.name}" if low == high else f"special({code.raw})"
 
     def not_a_text(self, given: str) -> str:
-        """Return why a text is not taken for a value, and the code that is meant by it."""
+        """Return why a text is no value, with the special code of this name."""
         named = given if given in self._spans and self._spans[given][0] == self._spans[given][1] else "name"
         return f"takes a number or a special code, as in special.{named}, not {shown(given)}"
 

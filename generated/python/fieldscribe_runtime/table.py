@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""A device's points, found by what people call them: names, old names, codes and groups, for the variants told."""
+"""Finds a device's points by name, old name, code or group, for its known variants."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def check_unit(unit: int, units: tuple[int, int]) -> None:
 
 
 def check_variants(axes: Mapping[str, tuple[str, ...]], variants: Mapping[str, str | None]) -> None:
-    """Raises RequestError (bad_variant) for an axis or a value that the device has not."""
+    """Raises RequestError (bad_variant) for an axis or a value that the device does not have."""
     for axis, value in variants.items():
         if axis not in axes:
             known = f", only by {', '.join(axes)}" if axes else ""
@@ -45,7 +45,7 @@ def check_variants(axes: Mapping[str, tuple[str, ...]], variants: Mapping[str, s
 
 
 def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
-    """Return True if the known variants have a point; a point of a variant needs that variant to be known."""
+    """Return True if the known variants have a point; False if its variant is not known."""
     axis, values = point.facts.only_for or ("", ())
     left = variants.get(axis) in (None, *values)
     variant = point.facts.variant
@@ -53,7 +53,7 @@ def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
 
 
 def _declares(kind: type, name: str) -> bool:
-    """Return True if a class says that its objects have such an attribute."""
+    """Return True if a class declares an attribute."""
     return name in getattr(kind, "__annotations__", ())
 
 
@@ -64,25 +64,25 @@ class PointTable:
     GROUPS: ClassVar[tuple[str, ...]] = ()
     """The groups that `read_many` reads."""
     BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
-    """Planned reads by group, where the family plans."""
+    """Planned reads by group, if the family plans them."""
     VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     IDENTIFICATIONS: ClassVar[tuple[Identification, ...]] = ()
     DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
-    """Points that are no attributes, by name, with the reason."""
+    """Points that are only documented, by name, with the reason."""
 
     AUTOMATIC: ClassVar[Mapping[str, tuple[SteppedCommand, ...]]] = {}
-    """Commands that a device gives by itself: `first` (before all else), `before write`."""
+    """Commands that a device sends by itself: `first` (before anything else), `before write`."""
 
     OLD_NAMES: ClassVar[Mapping[str, Renamed]] = {}
-    """What points were called before."""
+    """Former names of points."""
 
     if not TYPE_CHECKING:  # type checkers report names that do not exist
 
         def __getattr__(self, name: str) -> Any:
-            """Say why a point that the manual has is no attribute, or not of this device."""
+            """Raise AttributeError that says why the device has no such point."""
             found = next((vars(kind)[name] for kind in type(self).__mro__ if name in vars(kind)), None)
             if hasattr(found, "__get__"):
-                return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
+                return found.__get__(self, type(self))  # the property raised AttributeError: raise it again
             documented = type(self).DOCUMENTED.get(name)
             message = f"{type(self).__name__!r} object has no attribute {name!r}"
             if documented is not None:
@@ -92,10 +92,10 @@ class PointTable:
             raise AbsentError(message, name=name, obj=self)
 
         def __setattr__(self, name: str, value: object) -> None:
-            """Refuse what the class does not know: a misspelt point that is assigned to would pass without a word."""
+            """Refuse unknown attributes: otherwise assigning to a misspelt point would pass silently."""
             if name[:1] != "_" and not any(name in vars(kind) or _declares(kind, name) for kind in type(self).__mro__):
                 near = nearest(self.POINTS.values(), name)
-                own = f"an attribute of your own is declared in your class, as in `{name}: object`"
+                own = f"declare an attribute of your own in your class, as in `{name}: object`"
                 meant = f"did you mean {' or '.join(near)}? Use its write method" if near else own
                 text = f"{type(self).__name__!r} object has no attribute {name!r}: {meant}"
                 raise AttributeError(text, name=name, obj=self)
@@ -113,15 +113,15 @@ class PointTable:
 
 
 class NamedPoints(PointTable):
-    """The points of a device whose variants are known as far as its maker was told."""
+    """The points of a device, for the variants that are known."""
 
     variants: Mapping[str, str | None]
 
     def rows(self, values: Mapping[str, object]) -> list[dict[str, Any]]:
-        """Return values by name, as `read_many` gives them, as rows for a data frame, `csv.DictWriter` or `json.dumps`.
+        """Return values by name, as from `read_many`, as rows for a data frame, `csv.DictWriter` or `json.dumps`.
 
-        `value` is None where there is none: `status` is "ok", "special" or that of an error, and `detail` the name of
-        the special code or the message of the error. `raw` is None, too, if the scale needs other points.
+        Without a value, `value` is None: `status` is "ok", "special" or that of an error, and `detail` the name of the
+        special code or the error message. `raw` is also None if the scale needs other points.
         """
         if not isinstance(values, Mapping):
             raise RequestError("bad_value", f"takes values by name, as read_many gives them, not {shown(values)}")
@@ -143,7 +143,7 @@ class NamedPoints(PointTable):
         return row
 
     def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
-        """Return a point by name, old name or code, that of this device's variant; raises AccessError."""
+        """Return the point of this device's variant by name, old name or code; raises AccessError."""
         check_name("point", what)
         name = what
         if (old := self.OLD_NAMES.get(what)) is not None:
@@ -163,11 +163,11 @@ class NamedPoints(PointTable):
         return points[0]
 
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
-        """Return the points of that name, one for each variant that has its own."""
+        """Return the points with a name, one for each variant that has its own."""
         return [point for point in self.POINTS.values() if point.facts.name == name]
 
     def _labelled(self, label: str) -> PointAttribute[Any, Any] | None:
-        """Return the point that errors call so, by code and name."""
+        """Return the point with a label (code and name), as in errors."""
         code, _, name = label.rpartition(" ")
         found = self._found(name) if code else None
         return found if found is not None and found.label == label else None
@@ -176,7 +176,7 @@ class NamedPoints(PointTable):
         return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
 
     def _absence(self, name: str) -> tuple[str, str | None]:
-        """Return why there is no such point, or not yet: then with the variant that nobody said."""
+        """Return why a point does not exist, and the variant axis if that is not known yet."""
         axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
         if not axes:
             return self._other_meaning(name), None
@@ -185,12 +185,12 @@ class NamedPoints(PointTable):
         return f"does not exist for {axes[0]} {self.variants[axes[0]]}", None
 
     def _other_meaning(self, name: str) -> str:
-        """Return the meaning of a name of no point: a documented point, a command, a group, or similar names."""
+        """Return what a name is if it is no point: a documented point, a command, a group, or names like it."""
         for documented, facts in self.DOCUMENTED.items():
             if name in (documented, documented.rstrip("_")) or is_code(facts.code, name):
                 return f"is documented only{'' if documented == name else f', as {documented}'}: {facts}"
         if isinstance(getattr(type(self), name, None), (Command, SteppedCommand)):
-            return f"is a command of this device: {name}.send() gives it"
+            return f"is a command of this device: {name}.send() sends it"
         if name in self._groups():
             return f"is a group of this device: read_many({name!r}) reads it"
         near = nearest([*self.POINTS.values()], name)
@@ -201,13 +201,13 @@ class NamedPoints(PointTable):
         return list(dict.fromkeys([point.facts.group for point in self.POINTS.values() if point.facts.group]))
 
     def _meant_by_group(self, group: str) -> str:
-        """Return what may be meant where there is no such group."""
+        """Return a hint for an unknown group."""
         if self._found(group) is not None or find(self.POINTS.values(), group):
             return f"; it is a point: read_many([{group!r}]) reads it"
         return f", only {', '.join(self._groups())}"
 
     def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
-        """Return the point that another one needs; raises AccessError that says so."""
+        """Return a point that another one needs; the AccessError names both."""
         found = self._found(name)
         if found is None:
             why, axis = self._absence(name)
@@ -215,7 +215,7 @@ class NamedPoints(PointTable):
         return found
 
     def _require(self, point: Point) -> None:
-        """Raises AccessError if the point belongs to another variant than the one given for this device."""
+        """Raises AccessError if the point belongs to another variant than this device."""
         axis, value = point.facts.variant or ("", None)
         if self.variants.get(axis, value) not in (value, None):
             raise AbsentError(f"{point.label} exists only for {axis} {value}")
@@ -227,7 +227,7 @@ class NamedPoints(PointTable):
         return exists(point, self.variants)
 
     def _surely_has(self, point: Point) -> bool:
-        """Return True if the point is there for all that is known: no condition is open."""
+        """Return True if the known variants have the point for certain."""
         axis, _ = point.facts.only_for or ("", ())
         known = not axis or self.variants.get(axis) is not None
         return known and not point.facts.uncertain and self._has(point)
@@ -235,7 +235,7 @@ class NamedPoints(PointTable):
     def _listed(
         self, what: Iterable[str | Point], absent: dict[str, FieldscribeError] | None = None
     ) -> list[Decoding[Any]]:
-        """Return the points that are meant; raises AccessError, or notes it by name where `absent` takes it."""
+        """Return the points of a group or list; raises AccessError, or stores it by name in `absent`."""
         if isinstance(what, (Point, bytes, bytearray)) or not isinstance(what, Iterable):
             raise AccessError(f"takes the name of a group, or a list of points and their names, not {shown(what)}")
         points: list[Decoding[Any]] = []
@@ -256,7 +256,7 @@ class NamedPoints(PointTable):
         return point
 
     def _own(self, one: Any) -> PointAttribute[Any, Any]:
-        """Return the point that a caller means by a name, a code, or a point of this device."""
+        """Return a point by its name or code, or checks that a point is of this device."""
         if isinstance(one, ByVariant):
             same = getattr(type(self), one.name, None) is one
             return self._resolved(one.name.rstrip("_") if same else one)

@@ -26,9 +26,9 @@ _CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-be"}
 class Text(Form[str, str]):
     """Characters in words; the raw number is all words, the first one highest.
 
-    A word has two, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. Blanks fill the
-    text up, or zeros (`padding`), the first of which ends it. Of UTF-8 the bytes are counted as characters, of UTF-16
-    the words.
+    A word has two characters, the first in its high byte, or one in its low byte; `low_first` swaps the bytes. The text
+    is padded with spaces, or with zeros (`padding`), the first of which ends it. UTF-8 counts bytes as characters,
+    UTF-16 counts words.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Text(Form[str, str]):
         self._step = 2 if self._size == per_word == 1 else 1
 
     def decode(self, raw: int, raws: Raws) -> str:
-        """Return the characters without the spaces behind them; raises MalformedError for what is no Unicode."""
+        """Return the characters without trailing spaces; raises MalformedError for invalid Unicode."""
         size, codes = self._size, self._characters_of(raw)
         if not self.padding:
             ends = (at for at in range(0, len(codes), size) if not any(codes[at : at + size]))
@@ -59,7 +59,7 @@ class Text(Form[str, str]):
         try:
             return codes.decode(self._codec).rstrip(" ")
         except UnicodeDecodeError as error:
-            raise MalformedError(f"the words are no {self.encoding}: {error.reason}") from error
+            raise MalformedError(f"the words are no valid {self.encoding}: {error.reason}") from error
 
     def converted(self, value: str, raws: Raws) -> int | None:
         """Return the words of a text that fits and has only printable characters."""
@@ -80,13 +80,13 @@ class Text(Form[str, str]):
         return codes[self._step - 1 :: self._step][: self.characters * self._size]
 
     def _words_of(self, codes: bytes, fill: bytes) -> int:
-        """Return the words of bytes, filled up."""
+        """Return the words of bytes, padded."""
         data = bytearray(self.wire.bits // 8)
         data[self._step - 1 :: self._step] = (codes + fill * len(data))[: len(data) // self._step]
         return int.from_bytes(self._in_order(data), "big")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same words if they hold only printable characters."""
+        """Return the words if they hold only printable characters."""
         if not 0 <= raw < 1 << self.wire.bits:
             return None
         try:
@@ -102,18 +102,18 @@ class Text(Form[str, str]):
         return codes <= _LATIN or (self._codec != "latin-1" and {code for code in codes if code < 0x100} <= _LATIN)
 
     def _in_order(self, data: bytes | bytearray) -> bytes:
-        """Return the bytes, those of each word swapped where the low one comes first."""
+        """Return the bytes; those of each word are swapped if the low one comes first."""
         ordered = bytearray(data)
         if self.low_first:
             ordered[::2], ordered[1::2] = data[1::2], data[::2]
         return bytes(ordered)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """There is none: raises WrongTypeError."""
+        """Raises WrongTypeError: a text has no counts."""
         raise WrongTypeError("a text has no counts: use raw numbers or values")
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """There is none: raises WrongTypeError."""
+        """Raises WrongTypeError: a text has no counts."""
         raise WrongTypeError("a text has no counts: use raw numbers or values")
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
@@ -121,14 +121,14 @@ class Text(Form[str, str]):
         return self.decode(raw, raws)
 
     def choices(self, unit: str) -> str | None:
-        """Return what a text has to be."""
+        """Return what a refused text is."""
         what = {"utf-8": "bytes of utf-8", "utf-16": "words of utf-16"}.get(self.encoding, "")
         held = f"{self.characters} {what}" if what else f"{self.characters} printable {self.encoding} characters"
         return f"no text of at most {held}"
 
 
 class Digits(Form[tuple[E, ...], Sequence[E]]):
-    """A word whose decimal digits, the highest first, are each one of an enum's numbers."""
+    """A word whose decimal digits, the highest first, are numbers of an enum."""
 
     names: type[E]
     refused = UnknownValueError
@@ -140,7 +140,7 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         self._numbers = {int(entry): entry for entry in names}
 
     def _digits(self, raw: int) -> tuple[int, ...]:
-        """Return the digits as numbers; the first one is whatever the others leave."""
+        """Return the digits as numbers; the first one takes the rest of the number."""
         digits = []
         for _ in range(self.count - 1):
             raw, digit = divmod(raw, 10)
@@ -152,7 +152,7 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         return tuple([self.names(digit) for digit in self._digits(raw)])
 
     def converted(self, value: Sequence[E], raws: Raws) -> int | None:
-        """Return the word of that many members; a member of another enum raises UnknownValueError."""
+        """Return the word of these members; a member of another enum raises UnknownValueError."""
         if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
             raise WrongTypeError(f"takes {self.count} digits, not {shown(value)}")
         if len(value) != self.count:
@@ -167,16 +167,16 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         return raw if raw < 1 << self.wire.bits else None
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same word if every digit is one of the enum's numbers."""
+        """Return the word if every digit is a number of the enum."""
         inside = 0 <= raw < 1 << self.wire.bits
         return raw if inside and self._numbers.keys() >= set(self._digits(raw)) else None
 
     def name_of(self, raw: int) -> str | None:
-        """Return the name of one digit's number in lower case."""
+        """Return the name of a digit in lower case."""
         entry = self._numbers.get(raw)
         return None if entry is None else entry.name.lower()
 
     def choices(self, unit: str) -> str | None:
-        """Return what each digit has to be."""
+        """Return what a refused word is."""
         named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
         return f"not made of {self.count} digits out of {named}"

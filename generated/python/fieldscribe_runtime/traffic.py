@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What went over the line for one unit: counted, and written to the log `fieldscribe` if that takes debug messages."""
+"""Counts the traffic of one unit, and logs it to `fieldscribe` at debug level."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ _WARNING = 30
 
 
 class Traffic:
-    """Counts the requests of one unit, also those that are sent again, and its replies; times are in seconds.
+    """Counts the requests of one unit, including repetitions, and its replies; times are in seconds.
 
-    `replies` counts good frames that answer a request, refusals too; what is damaged, foreign or missing is in `errors`
-    alone, which count failed requests by the status of their error. `longest` and `mean` are how long replies took once
-    the request was sent, without the wait for a line that devices share; a transport of your own is timed as a whole.
+    `replies` counts valid frames that answer a request, refusals too. Damaged, foreign and missing replies are only in
+    `errors`, which counts failed requests by the status of their error. `longest` and `mean` are times from the end of
+    the request to the reply, without the wait for a shared line; a transport of your own is timed as a whole.
     """
 
     def __init__(self, unit: int) -> None:
@@ -48,9 +48,9 @@ class Traffic:
         self._is_logged = False
         self.about: Iterable[Labelled] = ()
         self._took: float | None = None
-        """How long the frame took that came for the last request."""
+        """The time of the last received frame, from its request on."""
         self.is_split = False
-        """A request that is refused now is followed by one for each of its points."""
+        """True while a refused request is followed by one for each of its points."""
         self.clear()
 
     def clear(self) -> None:
@@ -61,7 +61,7 @@ class Traffic:
 
     @property
     def mean(self) -> float:
-        """How long a reply takes on average."""
+        """The average time of a reply."""
         return self.total / self.replies if self.replies else 0.0
 
     def __repr__(self) -> str:
@@ -70,10 +70,10 @@ class Traffic:
         return f"<{type(self).__name__} {self.requests} requests, {self.replies} replies{errors}; {times}>"
 
     def sent(self, frame: Frame) -> float:
-        """Count a request; return when it is sent."""
+        """Count a request; return the time at which it is sent."""
         self.requests += 1
         self._took = None
-        if self._logger is None and "logging" in sys.modules:  # a program that logs has imported it: nobody else does
+        if self._logger is None and "logging" in sys.modules:  # only programs that log have imported it
             self._logger = sys.modules["logging"].getLogger("fieldscribe")
             if not self._logger.handlers:
                 self._logger.addHandler(sys.modules["logging"].NullHandler())  # no log set up: nothing is printed
@@ -86,21 +86,21 @@ class Traffic:
         return ", ".join([one.label for one in self.about])
 
     def came(self, frame: Frame, sent: float) -> None:
-        """Log a frame that came for a request that was sent then."""
+        """Log a received frame; `sent` is the time of its request."""
         seconds: float | None = getattr(frame, "seconds", None)
         took = self._took = monotonic() - sent if seconds is None else seconds
         if self._is_logged:
             self._logger.debug("unit %d <- %s after %.1f ms", self._unit, frame.hex(" ").upper(), took * 1000)
 
     def answered(self) -> None:
-        """Count what came last as a reply, if anything came: it is a good one."""
+        """Count the last received frame, if any, as a valid reply."""
         if self._took is not None:
             self.replies += 1
             self.total += self._took
             self.longest = max(self.longest, self._took)
 
     def failed(self, error: FieldscribeError, *, is_final: bool) -> None:
-        """Count a failure, and no request if none was sent; a final one, which the program gets, is a warning."""
+        """Count a failure (without a request if none was sent); log a final one as a warning."""
         self.errors[error.status] = self.errors.get(error.status, 0) + 1
         if not error.lost:
             self.answered()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""One task at a time, in one event loop after the other: asyncio's own locks are bound to the loop they are used in."""
+"""Locks for one event loop after another: asyncio's own locks are bound to one loop."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .errors import AccessError
 
 
 class Turns:
-    """Gives the lock of the event loop that runs: `async with turns.lock()`. `what` is used by one at a time."""
+    """Provides the lock of the running event loop: `async with turns.lock()`; `what` is its name in messages."""
 
     def __init__(self, what: str) -> None:
         self._what = what
@@ -18,18 +18,18 @@ class Turns:
 
     @staticmethod
     def pause(seconds: float) -> Any:
-        """Return what is awaited for so long."""
+        """Return an awaitable that takes this many seconds."""
         import asyncio
 
         return asyncio.sleep(seconds)
 
     def lock(self) -> Any:
-        """Return the lock, in the next loop once the one before is done; raises AccessError where it is not."""
-        import asyncio  # costs more than all of this package, so it is imported where it is needed
+        """Return the lock of the running loop; raises AccessError while another loop uses its lock."""
+        import asyncio  # imported late: it costs more than this whole package
 
         try:
             loop = asyncio.get_running_loop()
-        except RuntimeError:  # whoever drives the coroutines is no event loop
+        except RuntimeError:  # the coroutines run without an event loop
             loop = None
         if self._turn is None or loop is not self._loop:
             if self._turn is not None and self._turn.locked() and self._loop is not None and self._loop.is_running():

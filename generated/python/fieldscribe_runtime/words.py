@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Flags inside a word: named bits and bit groups of an IntFlag, which is shown and composed by what they mean."""
+"""Flags inside a word: named bits and bit groups of an IntFlag, printed and composed by name."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ M = TypeVar("M", bound="NamedNumber")
 
 
 class Flag:
-    """One bit of a word; on a word it is True when the name is true (`active` is the bit that means so)."""
+    """One bit of a word; on a word it is True if the bit is `active`."""
 
     width = 1
 
@@ -38,16 +38,16 @@ class Flag:
         return word >> self.low & 1
 
     def place(self, true: bool) -> int:
-        """Return the bit at its place, as it has to be for the name to be true, or not."""
+        """Return the bit at its place, for the name to be true or false."""
         return (self.active if true else 1 - self.active) << self.low
 
     def told(self, name: str, word: int) -> str:
-        """Return the name if it is true on a word, else nothing."""
+        """Return the name if it is true in a word, else an empty text."""
         return name if self.number(word) == self.active else ""
 
 
 class Field(Generic[N]):
-    """Several bits of a word; on a word it is their number, a member of `names` where they have names."""
+    """Several bits of a word; on a word it is their number, as a member of `names` if given."""
 
     @overload
     def __init__(self: Field[int], low: int, width: int) -> None: ...
@@ -81,7 +81,7 @@ class Field(Generic[N]):
         return plain << self.low
 
     def told(self, name: str, word: int) -> str:
-        """Return the name with its number on a word."""
+        """Return the name with its number in a word."""
         return f"{name}={self._named(word)}"
 
 
@@ -94,7 +94,7 @@ class Word:
 
     @staticmethod
     def _joined(*parts: int) -> int:
-        """Return a number of the bits of all parts."""
+        """Return all parts combined into one number."""
         return functools.reduce(operator.or_, parts, 0)
 
     def __repr__(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Forms around other forms: special codes beside the quantities, and bits that are always written as a constant."""
+"""Forms around other forms: special codes next to quantities, and constant bits."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _AS_IN_THE_FORM = (
 
 
 class Around(Form[R, W]):
-    """Another form as it is, but for what a subclass defines."""
+    """A form that delegates to another one, except for what a subclass overrides."""
 
     def __init__(self, form: Form[Any, W]) -> None:
         self.form = form
@@ -37,17 +37,17 @@ class Around(Form[R, W]):
                 setattr(self, name, getattr(form, name))
 
     def decode(self, raw: int, raws: Raws) -> R:
-        """As in the form."""
+        """Delegate to the form."""
         value: R = self.form.decode(raw, raws)
         return value
 
     def converted(self, value: W, raws: Raws) -> int | None:
-        """As in the form."""
+        """Delegate to the form."""
         return self.form.converted(value, raws)
 
 
 class _Coded(Around[R | Special, W]):
-    """Another form beside special codes."""
+    """A form with special codes around another form."""
 
     form: Form[Any, Any]
 
@@ -56,37 +56,35 @@ class _Coded(Around[R | Special, W]):
         self.codes = codes
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Return the special code, else as in the form."""
+        """Return a decoder of special codes, and of other numbers by the form."""
         return coded(self.codes.finder, self.form.sure_decode(low, high, slow))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """As in the form, where that gives no special code."""
+        """Return the form's encoder, which must not return a special code."""
         return uncoded(self.codes.finder, self.form.quick_encode(allowed, slow), slow)
 
     def decode(self, raw: int, raws: Raws) -> R | Special:
-        """Return the special code, else as in the form."""
+        """Return the special code, or the form's value."""
         return self.codes(raw) or self.form.decode(raw, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """As in the form; raises SpecialCodeError, because a count has no room for a code."""
+        """Return the form's count; raises SpecialCodeError for a code, which has no count."""
         code = self.codes(raw)
         if code is not None:
-            raise SpecialCodeError(
-                code.name, f"raw {raw} is the special code {code}, which has no count: decode gives it"
-            )
+            raise SpecialCodeError(code.name, f"raw {raw} is the special code {code}, which has no count: use decode")
         return self.form.decode_count(raw, raws)
 
     def converted(self, value: W, raws: Raws) -> int | None:
-        """As in the form; raises SpecialCodeError for a value whose raw number is a special code."""
+        """Return the form's raw number; raises SpecialCodeError if it is a special code."""
         raw = self.form.converted(value, raws)
         return None if raw is None else self._quantity(raw, "would be")
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """As in the form; raises SpecialCodeError for a count whose raw number is a special code."""
+        """Return the form's raw number; raises SpecialCodeError if it is a special code."""
         return self._quantity(self.form.converted_count(count, raws), "would be")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same number if it is a code that may be written, or the form takes it; raises SpecialCodeError."""
+        """Return the number if it is a writable code or the form allows it; raises SpecialCodeError."""
         code = self.codes(raw)
         if code is not None and code.writable:
             return raw
@@ -101,20 +99,20 @@ class _Coded(Around[R | Special, W]):
 
 
 class WithCodes(_Coded[R, W]):
-    """Another form beside special codes: those decode to `Special`, and no value is encoded to one."""
+    """A form with special codes: they decode to `Special`, and no value is encoded to one."""
 
     def __init__(self, form: Form[R, W], codes: Codes) -> None:
         super().__init__(form, codes)
 
 
 class WithWritableCodes(_Coded[R, W | Special]):
-    """The same with special codes of which some may be written."""
+    """The same, with special codes that may be written."""
 
     def __init__(self, form: Form[R, W], codes: Codes) -> None:
         super().__init__(form, codes)
 
     def converted(self, value: W | Special, raws: Raws) -> int | None:
-        """As in the form, or the raw number of a special code; raises UnknownValueError for one of another point."""
+        """Return the raw number of a special code or value; raises UnknownValueError for a code of another point."""
         if isinstance(value, str):
             raise WrongTypeError(self.codes.not_a_text(value))
         if not isinstance(value, Special):
@@ -125,14 +123,14 @@ class WithWritableCodes(_Coded[R, W | Special]):
 
 
 def with_fixed(form: Form[Any, Any], mask: int, bits: int) -> Form[Any, Any]:
-    """Return the form with bits that are always written as a constant; special codes stay outermost."""
+    """Return the form with constant bits; special codes stay outermost."""
     if isinstance(form, _Coded):
         return type(form)(FixedBits(form.form, mask, bits), form.codes)
     return FixedBits(form, mask, bits)
 
 
 class FixedBits(Around[R, W]):
-    """Another form, of a whole word in which some bits are always written as a constant."""
+    """The form of a whole word with constant bits."""
 
     def __init__(self, form: Form[R, W], mask: int, bits: int) -> None:
         super().__init__(form)
@@ -140,19 +138,19 @@ class FixedBits(Around[R, W]):
         self.bits = bits
 
     def converted(self, value: W, raws: Raws) -> int | None:
-        """As in the form, with the constant bits put in."""
+        """Return the form's raw number with the constant bits."""
         raw = self.form.converted(value, raws)
         return None if raw is None else self._put(raw)
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """As in the form, with the constant bits put in."""
+        """Return the form's raw number with the constant bits."""
         return self._put(self.form.converted_count(count, raws))
 
     def _put(self, raw: int) -> int:
         return raw & ~self.mask | self.bits
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same number if it has the constant bits and the form takes it."""
+        """Return the number if it has the constant bits and the form allows it."""
         if raw & self.mask != self.bits:
-            raise RangeError(f"raw {shown(raw)} has not {self.bits:04X}h in the bits {self.mask:04X}h, as it must")
+            raise RangeError(f"raw {shown(raw)} must have {self.bits:04X}h in the bits {self.mask:04X}h")
         return self.form.checked(raw, allowed, raws)

@@ -3275,4 +3275,4 @@ class Points(PointTable):
     enter = Command(
         at=holding(0x0900, function=0x06),
     )
-    """Enter. The memory stands 100000 of them."""
+    """Enter. The memory is rated for 100000 of them."""

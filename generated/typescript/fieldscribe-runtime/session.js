@@ -284,7 +284,7 @@ export class Session {
         const answered = point.fromWords(error.answered);
         if (point.same(raw, answered)) return;
         const [wrote, has] = [raw, answered].map((one) => point.told(one, raws));
-        const text = `${wrote} was written, and the device answered ${has}`;
+        const text = `${wrote} was written, but the device answered ${has}`;
         throw new EchoError(text, error.written, error.answered);
       }
     });

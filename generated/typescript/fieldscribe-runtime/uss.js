@@ -203,7 +203,7 @@ export class UssDevice extends Session {
     const width = words.length;
     const reply = await this._task({ unit: this.unit, task, parameter, index: at.index ?? 0, width, value });
     if (reply.value !== value) {
-      const text = `${value} was written to ${parameter}, and the device answered ${reply.value}`;
+      const text = `${value} was written to ${parameter}, but the device answered ${reply.value}`;
       const high = Math.floor(reply.value / 0x10000);
       throw new EchoError(text, words, reply.width === 2 ? [high, reply.value % 0x10000] : [reply.value]);
     }

@@ -217,7 +217,7 @@ class _SpanItems:
     def _command(self, command: Command, raw: int | None) -> Item:
         wrong = command.value is not None and raw is not None and raw != command.value
         finding = f"it takes {command.value}, here is {raw}" if wrong else ""
-        worn = f"the memory stands {command.wears} writes" if command.wears else ""
+        worn = f"the memory is rated for {command.wears} writes" if command.wears else ""
         subject, findings = f"command {command.name}", (finding,) if finding else ()
         parts = [f"{subject}: {title_text(command.title)}", finding, worn]
         text = line("; ".join(part for part in parts if part))

@@ -1,4 +1,4 @@
-"""Passive listening: what devices and their masters say, from a capture or on a line, by name and with units.
+"""Passive listening: shows what masters and devices exchange, from a capture or a line, with names and units.
 
 - `captures.py` opens a capture and returns its chunks; `packets.py` reads pcap and pcapng, writes pcapng, takes packets
   apart, and joins the segments of a connection.
@@ -10,5 +10,5 @@
 - `listener.py` gives each frame to the decoder of its device, and pairs requests with their answers.
 - `exchanges.py` says what an exchange is, and counts who polls what, how often, and what is wrong.
 
-Nothing here sends, and memory does not grow with a capture. Any bytes are safe.
+Nothing here sends. Memory use does not grow with a capture, and any bytes are safe.
 """

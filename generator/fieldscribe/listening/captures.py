@@ -1,4 +1,4 @@
-"""Opens captures, whatever they are: packets (pcap, pcapng), messages (BLF, ASC), or lines of text."""
+"""Opens captures of any kind: packets (pcap, pcapng), messages (BLF, ASC), or lines of text."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -11,7 +11,7 @@ from fieldscribe.user_errors import UnclearError
 
 _LONGEST_LINE = 1 << 16
 _ENOUGH = 1000
-"""The lines without a frame at the beginning after which a file is no log."""
+"""A file that starts with this many lines without a frame is no log."""
 
 
 def chunks_of(
@@ -22,7 +22,7 @@ def chunks_of(
 ) -> Iterator[Chunk]:
     """Yield the chunks of a capture; `each` gets every packet, `chunk_of` reads a line of text (None: it has none).
 
-    Raises UnclearError where a capture is cut off, lies, or is none.
+    Raises UnclearError if a capture is cut off or corrupt, or if the file is none.
     """
     if is_packet_file(stream.peek(4)):
         packets = Packets(ports)
@@ -69,16 +69,16 @@ _NONE = (
 
 
 _BLF, _ASC = b"LOGG", b"date"
-"""How such files begin."""
+"""The first bytes of such files."""
 
 
 def is_bus_file(start: bytes) -> bool:
-    """Return True if a file begins as BLF or ASC."""
+    """Return True if a file starts like BLF or ASC."""
     return start[:4] == _BLF or start[:4].lower() == _ASC
 
 
 def bus_chunks(stream: BufferedReader) -> Iterator[Chunk]:
-    """Yield the messages of a capture. Raises UnclearError without python-can, and where the file is damaged."""
+    """Yield the messages of a capture. Raises UnclearError without python-can, or if the file is damaged."""
     try:
         from can import BLFReader
     except ModuleNotFoundError as error:
@@ -92,9 +92,9 @@ def bus_chunks(stream: BufferedReader) -> Iterator[Chunk]:
                 place = "" if heard.channel is None else f"can{heard.channel}"
                 remote, identifier = heard.is_remote_frame, heard.arbitration_id
                 yield Chunk(heard.timestamp, MESSAGE, bytes(heard.data), place, identifier=identifier, remote=remote)
-    except Exception as error:  # the readers raise whatever a damaged file leads to
+    except Exception as error:  # the readers raise any exception for a damaged file
         raise UnclearError(f"it is no whole {'BLF' if is_blf else 'ASC'} file: {error}") from error
-    if size is not None and is_blf and reader.file_size > size:  # its reader ends there without a word
+    if size is not None and is_blf and reader.file_size > size:  # its reader just stops there
         raise UnclearError(f"it is no whole BLF file: it has {size} of {reader.file_size} bytes")
 
 
@@ -105,7 +105,7 @@ def _asc(stream: BufferedReader) -> Any:
 
 
 def _size(stream: BufferedReader) -> int | None:
-    """Return the bytes of a file; None of what is no file."""
+    """Return the bytes of a file; None if it is no file."""
     if not stream.seekable():
         return None
     size = stream.seek(0, SEEK_END)

@@ -1,6 +1,6 @@
-"""Bytes as they come from a line, a log or a capture, and the frames that are cut out of them.
+"""Chunks of bytes from a line, a log or a capture, and the frames in them.
 
-On a serial line only the length of a frame and its check tell where it ends.
+On a serial line, only the length and the checksum of a frame show where it ends.
 """
 
 import re
@@ -16,14 +16,14 @@ from fieldscribe.pasted_numbers import parse_hex
 from fieldscribe.user_errors import UnclearError
 
 BYTES, STREAM, MESSAGE, SILENT = "bytes", "stream", "message", ""
-"""How bytes travel: on a serial line, in a connection of a network, as messages with an identifier; or nothing came."""
+"""The kind of a chunk: serial bytes, bytes of a network connection, a message with an identifier, or nothing."""
 
 
 class Chunk(NamedTuple):
-    """Bytes that came together; without any, nothing came for a while.
+    """Bytes that arrived together; empty if nothing arrived for a while.
 
-    `place` tells lines and connections apart. `fresh`: bytes before these are lost. `sent`: whether they go to the
-    device, if that is known. `identifier` is that of a message; `remote` messages only ask for data.
+    `place` identifies the line or connection. `fresh`: bytes before these are lost. `sent`: whether they go to the
+    device, if that is known. `identifier` is that of a message; `remote` messages only request data.
     """
 
     time: float | None
@@ -37,10 +37,10 @@ class Chunk(NamedTuple):
 
 
 class Cut(NamedTuple):
-    """A frame that was cut out: as its family's decoder takes it, and as bytes.
+    """A frame: as its family's decoder takes it, and as bytes.
 
-    `unit` is the unit that it is for or from, if the bytes alone tell it. Requests and answers with another `exchange`
-    do not belong together. `damaged`: the bytes are no sound frame, so all that they say may be wrong.
+    `unit` is the unit that it is for or from, if the bytes alone show it. Only requests and answers with the same
+    `exchange` belong together. `damaged`: the frame is invalid, so its content may be wrong.
     """
 
     time: float | None
@@ -55,11 +55,11 @@ class Cut(NamedTuple):
 
 
 SERIAL, BUS_SOCKET = 147, 227
-"""Types of link that are written: bytes of a serial line (reserved for users), and messages of SocketCAN."""
+"""The link types of written captures: serial bytes (a type for private use), and SocketCAN messages."""
 
 
 class Packet(NamedTuple):
-    """A packet: when it was captured, on which type of link, and its bytes."""
+    """A packet: its time, link type and bytes."""
 
     time: float | None
     link: int
@@ -67,19 +67,19 @@ class Packet(NamedTuple):
 
 
 SILENCE = 0.1
-"""The seconds without a byte after which a frame is at its end; many times what any protocol asks for."""
+"""The seconds of silence that end a frame; many times what any protocol requires."""
 _MOST_LINES = 256
 
 SizeAt = Callable[[bytes, bool], int]
-"""Returns the size of the sound frame at the beginning of bytes; 0 if there is none, -1 if more bytes may make one.
+"""Returns the size of the valid frame at the start of bytes; 0 if there is none, -1 if more bytes may complete one.
 
-The second argument is True where a frame may begin, False within noise.
+The second argument is True if a frame may start there, False within noise.
 """
 
 
 @dataclass(slots=True)
 class _Line:
-    """The bytes that wait for more, of which the first ones (`noise`) begin no frame; when they and the last came."""
+    """The bytes that wait for more; the first `noise` bytes start no frame; times of the first and last byte."""
 
     waiting: bytes = b""
     noise: int = 0
@@ -88,7 +88,7 @@ class _Line:
 
 
 class ByteCutter:
-    """Cuts the chunks of lines into frames; what is no sound frame comes as a damaged one.
+    """Splits the chunks of lines into frames; invalid bytes become damaged frames.
 
     `longest` is the size of the longest frame; the byte `unit_at` of a frame is its unit.
     """
@@ -98,7 +98,7 @@ class ByteCutter:
         self._lines: OrderedDict[str, _Line] = OrderedDict()
 
     def take(self, chunk: Chunk) -> Iterator[Cut]:
-        """Return the frames that are complete with this chunk; a silence ends the frame before it."""
+        """Return the frames that this chunk completes; a silence ends the frame before it."""
         line = self._lines.setdefault(chunk.place, _Line())
         self._lines.move_to_end(chunk.place)
         silent = chunk.time is not None and line.last is not None and not 0 <= chunk.time - line.last <= SILENCE
@@ -116,7 +116,7 @@ class ByteCutter:
             yield from self._cut(place, line, ended=True)
 
     def _cut(self, place: str, line: _Line, *, ended: bool) -> Iterator[Cut]:
-        """Yield the frames in what waits. Behind noise, a sound frame ends the wait for one before it."""
+        """Yield the frames in the waiting bytes. A valid frame after noise ends the wait for one before it."""
         data, at, start, wanting = line.waiting, line.noise, 0, -1
         while at < len(data):
             size = self._size_at(data[at : at + self._longest], at == start)
@@ -156,9 +156,9 @@ def packet(cut: Cut) -> Packet:
 
 
 def serial_chunks(line: LineAddress, mode: str) -> Iterator[Chunk]:
-    """Yield what comes on a serial line, or through a socket; nothing for a while is a chunk, too.
+    """Yield chunks from a serial line, or through a socket; a silence is a chunk too.
 
-    `mode` is the usual form of a byte, such as 8N1. Raises UnclearError for a line that cannot be opened, or went away.
+    `mode` is the usual form of a byte, such as 8N1. Raises UnclearError if the line cannot be opened, or is lost.
     """
     try:
         import serial

@@ -1,7 +1,7 @@
-"""An exchange (a request with its answer) in words and for JSON; and what all exchanges of a capture amount to.
+"""An exchange (a request with its answer) as text and JSON, and the summary of all exchanges of a capture.
 
-Who polls what, how often and how fast it is answered, which errors there are, and what is against the manual. Tables
-have limits, so that hostile captures do not fill the memory; what no longer fits is counted together.
+Who polls what, how often and how fast it is answered, the errors, and violations of the manual. Tables have limits, so
+that hostile captures do not fill the memory; further rows are counted together.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,14 +15,14 @@ from fieldscribe.text import counted
 from fieldscribe.wording.frames import spaced
 
 _MOST_BYTES = 16
-"""How many bytes of what is no frame are printed."""
+"""The most bytes of noise that are printed."""
 
 
 class Content:
-    """What a request and its answer say, or one of them alone, whenever they are exchanged; without any, nothing.
+    """The content of a request and its answer, or of one of them; equal exchanges share it.
 
-    `action` is what is done, in a word. A frame for a unit without a description has no device. `findings` are what is
-    against the manual and which numbers are outside their range, by point; and what was refused.
+    `action` is what is done, in a word. A frame for a unit without a description has no device. `findings` are
+    violations of the manual and numbers out of range, by point; and refusals.
     """
 
     __slots__ = ("_text", "action", "device", "findings", "items", "reply", "request", "summary", "unit")
@@ -39,7 +39,7 @@ class Content:
         main = request if reply is None or (request and not reply.items) else reply
         self.items: Sequence[Item] = main.items if main else ()
         self.summary = main.summary if main else ""
-        """What is said of frames without items."""
+        """The text for frames without items."""
         self.findings: dict[str, str] = {}
         for result in (request, reply):
             if result is not None:
@@ -64,7 +64,7 @@ class Content:
 class Exchange(NamedTuple):
     """A request with its answer, one of them alone, or a frame that nobody answers, and its content.
 
-    `place` is who asks, where that is known; `took` is in seconds.
+    `place` is the sender of the request, if known; `took` is in seconds.
     """
 
     time: float | None
@@ -76,13 +76,13 @@ class Exchange(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The unit, the action, and what was read or written, in words; the bytes of what is foreign, or no frame."""
+        """The unit, the action, and what was read or written, in words; the bytes of foreign frames and noise."""
         text = self.content.text
         return text if self.content.action else "  ".join(filter(None, (text, spaced(self.cuts[0].data[:_MOST_BYTES]))))
 
     @property
     def frames(self) -> Iterator[tuple[str, FrameResult | None]]:
-        """The frames in the notation of their users, each with what it is."""
+        """The frames in their usual notation, each with its kind."""
         results = [result for result in (self.content.request, self.content.reply) if result is not None]
         for place, cut in enumerate(self.cuts):
             text = spaced(cut.data) if isinstance(cut.frame, bytes) else cut.frame.text
@@ -120,12 +120,12 @@ def item_text(item: Item) -> str:
 
 
 def finding_text(key: str, text: str) -> str:
-    """Return a finding with what it is about."""
+    """Return a finding with its subject."""
     return f"{key}: {text}" if text else key
 
 
 def seconds(time: float) -> str:
-    """Return a time as people read it: `4.2 ms`, `1.25 s`."""
+    """Return a time with its unit: `4.2 ms`, `1.25 s`."""
     return f"{1000 * time:.1f} ms" if time < 1 else f"{time:.2f} s"
 
 
@@ -133,12 +133,12 @@ _MOST_ROWS = 2000
 _MOST_NAMES = 4
 OTHERS = "others"
 _REST = ("", None, "")
-"""What counts together once a table is full."""
+"""The row for everything else once a table is full."""
 
 
 @dataclass(slots=True)
 class Poll:
-    """One thing that is asked again and again, or sent cyclically: how often, and in seconds when and how slowly."""
+    """A request that is repeated, or a cyclic message: its number, and times in seconds."""
 
     who: str = ""
     unit: int | None = None
@@ -155,7 +155,7 @@ class Poll:
 
     @property
     def every(self) -> float | None:
-        """The seconds from one to the next, on average."""
+        """The average seconds from one to the next."""
         if self.first is None or self.last is None or self.count < 2:
             return None
         return round((self.last - self.first) / (self.count - 1), 6)
@@ -184,7 +184,7 @@ class Poll:
 
 
 class Statistics:
-    """What a whole capture amounts to."""
+    """The summary of a capture."""
 
     def __init__(self) -> None:
         self.exchanges = 0
@@ -194,7 +194,7 @@ class Statistics:
 
     @property
     def wrong(self) -> bool:
-        """True if there are errors, or something is against the manual."""
+        """True if there are errors or violations of the manual."""
         return bool(self._errors or self._findings)
 
     def add(self, exchange: Exchange) -> None:
@@ -249,14 +249,14 @@ class Statistics:
 
 
 def _what(exchange: Exchange) -> str:
-    """Return the names of what is asked for; addresses where there is no name."""
+    """Return the names of what is requested; addresses for what has no name."""
     named = [*dict.fromkeys(item.about for item in exchange.content.items)]
     more = len(named) - _MOST_NAMES
     return ", ".join(named[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "") or exchange.content.summary
 
 
 def _count(table: dict[tuple[str, str], tuple[int, str]], key: tuple[str, str], text: str) -> None:
-    """Count something in a table, which keeps the text of the first of its kind."""
+    """Count an item in a table, which keeps the text of the first one of its kind."""
     if key not in table and len(table) >= _MOST_ROWS:
         key, text = ("", OTHERS), OTHERS
     count, first = table.get(key, (0, f"{key[0]}{text}"))

@@ -17,7 +17,7 @@ from fieldscribe.user_errors import UnclearError
 
 _ASKS, _ANSWERS = ("request", "request_or_reply"), ("reply", "exception")
 _MOST_OPEN = 1024
-"""How many requests may wait for an answer at the same time; also for how many frames it is kept what they say."""
+"""The most requests that may wait for an answer; also the most frames whose content is cached."""
 NO_ANSWER = "no answer"
 ALONE = "an answer without a request before it"
 NOISE = "bytes that are no frame"
@@ -25,12 +25,12 @@ FOREIGN = "for a unit without a description"
 
 
 class Station(NamedTuple):
-    """A device on the line; without a unit it stands for all units that no other station has."""
+    """A device on the line; without a unit it covers all units that no other station has."""
 
     device: Device
     unit: int | None = None
     settings: Settings = MappingProxyType({})
-    """What other points hold, where values depend on them."""
+    """The numbers of other points that values depend on."""
 
 
 class _Open(NamedTuple):
@@ -61,9 +61,9 @@ class Listener:
         self._open: OrderedDict[Hashable, _Open] = OrderedDict()
         self._requests: OrderedDict[Hashable, OpenRequests] = OrderedDict()
         self._contents: dict[tuple[int, int], Content] = {}
-        """By the identity of request and answer, what they say: decoders return the same for frames that come again."""
+        """The content by identity of request and answer: decoders return the same objects for repeated frames."""
         self._units: set[int | None] = set()
-        """The units that a sound frame was for or from."""
+        """The units that a valid frame was for or from."""
         self.others = 0
         """Chunks that cannot be frames of this family."""
 
@@ -75,7 +75,7 @@ class Listener:
         return [exchange for cut in self._cutter.take(chunk) for exchange in self._frame(cut)]
 
     def rest(self) -> Iterator[Exchange]:
-        """Return what is left at the end; requests at the very end may have been answered."""
+        """Return what is left at the end; the last requests may have been answered later."""
         for cut in self._cutter.rest():
             yield from self._frame(cut)
         for waiting in self._open.values():
@@ -133,7 +133,7 @@ class Listener:
         return self._exchange(waiting, None, None, (NO_ANSWER,) if silent else ())
 
     def _decoded(self, cut: Cut, requests: OpenRequests) -> tuple[Station | None, FrameResult | None]:
-        """Return the station that a frame is for or from, and its meaning there; None for a foreign one."""
+        """Return the station that a frame is for or from, and its decoded form there; None for a foreign one."""
         if cut.unit is not None:
             station = self._named.get(cut.unit, self._default)
             if station is None and cut.unit == self._stations[0].device.bus.broadcast:

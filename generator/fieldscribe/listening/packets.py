@@ -1,6 +1,6 @@
 """Reads captures of packets (pcap and pcapng) one packet after the other, and writes pcapng.
 
-Captures come from anywhere: lengths that cannot be are an error that names the packet, and nothing large is read.
+Captures are untrusted: an impossible length is an error that names the packet, and nothing large is read.
 """
 
 import struct
@@ -18,23 +18,23 @@ _CLASSIC = {
     b"\x4d\x3c\xb2\xa1": ("<", 1e9),
     b"\xa1\xb2\x3c\x4d": (">", 1e9),
 }
-"""The first bytes of a pcap file: the order of its bytes, and the parts of a second."""
+"""The first bytes of a pcap file, with its byte order and fractions of a second."""
 _SECTION = b"\x0a\x0d\x0d\x0a"
 _INTERFACE, _SIMPLE, _ENHANCED = 1, 3, 6
 _RESOLUTION = 9
-"""The option of an interface with the parts of a second."""
+"""The option of an interface with the fractions of a second."""
 _MOST_BYTES = 1 << 20
-"""The bytes of a packet or a block that are read; more make the file a lying one."""
+"""The most bytes of a packet or block; a larger one means that the file is corrupt."""
 _MOST_INTERFACES = 1024
 
 
 def is_packet_file(start: bytes) -> bool:
-    """Return True if a file begins as pcap or pcapng."""
+    """Return True if a file starts like pcap or pcapng."""
     return start[:4] in _CLASSIC or start[:4] == _SECTION
 
 
 def read_packets(stream: BinaryIO) -> Iterator[Packet]:
-    """Return the packets of a capture. Raises UnclearError where the file is cut off, or lies."""
+    """Return the packets of a capture. Raises UnclearError if the file is cut off or corrupt."""
     magic = _exactly(stream, 4, "the header")
     return _enhanced(stream) if magic == _SECTION else _classic(stream, *_CLASSIC[magic])
 
@@ -77,7 +77,7 @@ def _enhanced(stream: BinaryIO) -> Iterator[Packet]:
 
 
 def _interface(order: str, body: bytes) -> tuple[int, float]:
-    """Return the type of link of an interface, and the parts of a second of its times."""
+    """Return the link type of an interface, and the fractions of a second of its times."""
     link = int.from_bytes(body[:2], "little" if order == "<" else "big")
     at, parts = 8, 1e6
     while at + 4 < len(body):
@@ -103,7 +103,7 @@ def _packet(order: str, kind: int, body: bytes, interfaces: list[tuple[int, floa
 
 
 def _exactly(stream: BinaryIO, size: int, where: int | str) -> bytes:
-    """Return so many bytes. Raises UnclearError."""
+    """Return `size` bytes. Raises UnclearError."""
     if not 0 <= size <= _MOST_BYTES:
         place = f"packet {where}" if isinstance(where, int) else where
         raise UnclearError(f"{place} says that it has {size} bytes", "the capture is damaged from there on")
@@ -142,17 +142,17 @@ class PacketWriter:
 
 
 _HEADS = {1: (14, 12), 113: (16, 14), 276: (20, 0), 0: (4, -1), 108: (4, -1), 101: (0, -1), 228: (0, -1), 229: (0, -1)}
-"""Types of link of a network: the size of their head, and where it has the protocol; -1 for internet packets alone."""
+"""Network link types: the size of their header, and the offset of the protocol; -1 for plain IP packets."""
 _USERS = range(SERIAL, SERIAL + 16)
 _IP4, _IP6, _VLAN, _BUS, _TCP = 0x0800, 0x86DD, (0x8100, 0x88A8), (0x000C, 0x000D), 6
 _FIN, _SYN, _RST = 1, 2, 4
 _MOST_CONNECTIONS, _MOST_HELD, _HALF = 1024, 32, 1 << 31
-"""Limits: connections that are followed, segments that wait for one before them, half of the sequence numbers."""
+"""Limits: connections that are followed, segments that wait for an earlier one, half of the sequence numbers."""
 
 
 @dataclass(slots=True)
 class _Direction:
-    """One direction of a connection: the next sequence number, and segments that came too early."""
+    """One direction of a connection: the next sequence number, and segments that arrived too early."""
 
     due: int | None = None
     held: dict[int, bytes] = field(default_factory=dict)
@@ -166,7 +166,7 @@ class Packets:
         self._directions: OrderedDict[tuple[bytes, bytes], _Direction] = OrderedDict()
 
     def chunks(self, packet: Packet) -> Iterable[Chunk]:
-        """Return what a packet brings; any bytes are safe."""
+        """Return the chunks of a packet; any bytes are safe."""
         link, data = packet.link, packet.data
         if link == BUS_SOCKET:
             return _message(packet.time, data)
@@ -225,7 +225,7 @@ class Packets:
 
 
 def _in_order(way: _Direction, number: int, data: bytes) -> Iterator[tuple[bool, bytes]]:
-    """Yield the bytes that follow now, once each and in their order; True with those behind lost ones."""
+    """Yield the bytes that follow now, once each and in order; True with those after lost ones."""
     fresh = way.due is None
     due = number if way.due is None else way.due
     way.held[number] = data
@@ -262,7 +262,7 @@ def _ip_of(data: bytes) -> int:
 
 
 def _address(address: bytes) -> str:
-    """Return an address as people write it."""
+    """Return an address in its usual notation."""
     if len(address) == 4:
         return ".".join(map(str, address))
     return f"[{':'.join(f'{address[at] << 8 | address[at + 1]:x}' for at in range(0, 16, 2))}]"

@@ -1,4 +1,4 @@
-"""Opens a line, makes devices of the Python runtime on it from the model, and finds out which units answer."""
+"""Opens a line, makes runtime devices on it from the model, and scans for units that answer."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -17,7 +17,7 @@ __all__ = ["Answer", "AnyDevice", "Connection", "FieldscribeError", "Scanner", "
 
 
 class Connection:
-    """A line that devices are on. It opens when it is used first."""
+    """A line with devices. It opens when it is first used."""
 
     def __init__(self, line: LineAddress, timeout: float | None) -> None:
         """Raises UnclearError for a line that cannot be opened."""
@@ -34,24 +34,24 @@ class Connection:
 
     @property
     def usual_units(self) -> tuple[int, int]:
-        """Return the ends of the unit numbers that such a line may have. Raises UnclearError if that depends."""
+        """Return the lowest and highest unit number of the line. Raises UnclearError if that needs a description."""
         if not hasattr(self._part, "any_device"):
             raise UnclearError(f"on {self.line.scheme}:// nothing can be asked without a description", "give DEVICE")
         ends: tuple[int, int] = self._part.UNITS
         return ends
 
     def any_device(self, unit: int) -> AnyDevice:
-        """Return a device of which nothing is known but its unit."""
+        """Return a device without a description, with just a unit."""
         made: AnyDevice = self._part.any_device(self._open, unit)
         return made
 
     def probe(self, device: AnyDevice) -> str:
-        """Ask such a device for something that is only read; return what came. Raises FieldscribeError."""
+        """Send a harmless read to a device without a description; return the answer. Raises FieldscribeError."""
         text: str = self._part.probe(device)
         return text
 
     def device(self, model: Device, unit: int, retries: int = 0) -> AnyDevice:
-        """Return a device of the runtime on this line. Raises UnclearError for what the line or the device cannot."""
+        """Return a runtime device on this line. Raises UnclearError if line and device do not fit."""
         require_line(self.line, model)
         if model.id not in self._classes:
             self._classes[model.id] = device_class(model)
@@ -64,7 +64,7 @@ class Connection:
         return made
 
     def close(self) -> None:
-        """Give the line back."""
+        """Close the line."""
         self._open.transport.close()
 
 
@@ -72,7 +72,7 @@ _SETTINGS = {"bad_unit": "give --unit", "bad_framing": "take another kind of lin
 
 
 def advice(error: FieldscribeError) -> str:
-    """Return what to look at after an error of the line; empty for what the device itself refused."""
+    """Return a hint after an error of the line; empty if the device refused."""
     if not error.lost:
         return ""
     if error.status == "line":
@@ -81,9 +81,9 @@ def advice(error: FieldscribeError) -> str:
 
 
 class Answer(NamedTuple):
-    """What came from a unit, if anything: `answers`, `is_other` (another device than the one looked for).
+    """The answer of a unit, if any: `answers`, `is_other` (another device than the one looked for).
 
-    `is_of_another`: what came was the answer of another unit.
+    `is_of_another`: the answer was from another unit.
     """
 
     unit: int
@@ -94,7 +94,7 @@ class Answer(NamedTuple):
 
 
 def read_units(text: str | None, ends: tuple[int, int]) -> list[int]:
-    """Return unit numbers of a list such as `1-31,40`; all of a device without one. Raises UnclearError."""
+    """Return the unit numbers of a list such as `1-31,40`; all of a device without a list. Raises UnclearError."""
     units: dict[int, None] = {}
     for part in (text or f"{ends[0]}-{ends[1]}").split(","):
         low, dash, high = part.strip().partition("-")
@@ -109,19 +109,19 @@ def read_units(text: str | None, ends: tuple[int, int]) -> list[int]:
 
 
 class Scanner:
-    """Asks the units of a line one after the other for something that is only read."""
+    """Sends a harmless read to the units of a line, one after the other."""
 
     def __init__(self, connection: Connection, model: Device | None) -> None:
-        """Raises UnclearError where such a line needs a description."""
+        """Raises UnclearError if the line needs a description."""
         self._connection, self._model = connection, model
         self.requests = 0
         self.ends = connection.usual_units if model is None else model.bus.units
         self._points = [] if model is None else _harmless_points(model)
 
     def answers(self, units: list[int]) -> Iterator[Answer]:
-        """Yield what comes from each unit; one whose answer came late is asked once more.
+        """Yield the answer of each unit; a unit whose answer came late is asked once more.
 
-        Raises FieldscribeError where the line itself fails.
+        Raises FieldscribeError if the line itself fails.
         """
         silent: int | None = None
         for unit in units:
@@ -163,14 +163,14 @@ class Scanner:
 
 
 def _remark(error: FieldscribeError) -> str:
-    """Return what to say of an answer that is no good one."""
+    """Return the text for an invalid answer."""
     if error.lost:
         return f"an answer that is damaged: {error}; two units of one number, or other settings of the line?"
     return str(error)
 
 
 def _harmless_points(model: Device) -> list[str]:
-    """Return the point that is read of each unit: the first that needs no other, one that is only read if there is."""
+    """Return the point to read from each unit: the first that needs no other, a read-only one if possible."""
     readable = [point for point in model.points if point.readable and point.generated and point.base is None]
     alone = [point for point in readable if point.telegram is None and not point.arguments and not point.variant]
     simple = [point for point in alone if not point.flags] or alone

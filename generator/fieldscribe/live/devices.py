@@ -1,4 +1,4 @@
-"""The device of the Python runtime for a description, made from the model as the generated class is."""
+"""Makes the runtime device of a description from the model, like the generated class."""
 
 import enum
 from collections.abc import Iterable, Iterator, Mapping
@@ -28,7 +28,7 @@ from fieldscribe.text import upper
 
 
 def evaluated(node: Node, names: Mapping[str, Any]) -> Any:
-    """Return the object that an expression makes; `names` are the classes, functions and constants that it may name."""
+    """Return the object of an expression; `names` are the classes, functions and constants that it may use."""
     if isinstance(node, Call):
         keywords = {name: evaluated(item, names) for name, item in node.keywords.items()}
         return names[node.name](*[evaluated(item, names) for item in node.positional], **keywords)
@@ -60,7 +60,7 @@ def _numbers(name: str, entries: Iterable[Entry], runtime: Mapping[str, Any]) ->
 
 
 def _readers(point: Point, scope: Scope, classes: dict[str, Any], runtime: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return what reads each flag of a word by its attribute; classes of its numbers are added to the others."""
+    """Return the flags of a word by attribute; adds the classes of their numbers to the others."""
     readers = {}
     for flag in point.flags:
         named = scope.names.field_class(point, flag.name) or ""
@@ -78,7 +78,7 @@ def _word(name: str, point: Point, readers: Mapping[str, Any], runtime: Mapping[
 
 
 def _composer(point: Point, readers: Mapping[str, Any]) -> Any:
-    """Return the method `of`; flags whose bits are always written as a constant are none of its parameters."""
+    """Return the method `of`; flags with constant bits are not among its parameters."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     free = [word_attribute(flag.name) for flag in point.flags if mask_of(flag.width, flag.low) & ~mask]
 
@@ -102,10 +102,10 @@ def device_class(
 def device_class(
     device: Device, *, awaiting: bool = False, points: type[runtime.PointTable] | None = None
 ) -> type[AnyDevice | AnyAsyncDevice]:
-    """Return the class of a device, with all that the generated class has; `awaiting` is the one with `await`.
+    """Return the class of a device, like the generated class; `awaiting` makes the async one.
 
-    It is made with a transport and a unit (and a link, where the family has one), and by keyword with the variants and
-    the numbers that are given. `points` is the class of its points, where that is made already.
+    It takes a transport and a unit (and a link, if the family has one), and by keyword the variants and the given
+    numbers. `points` is the class of its points, if that exists already.
     """
     bus, names = in_python(device), Identifiers(device)
     base: Any = getattr(import_module(bus.module), f"Async{bus.device}" if awaiting else bus.device)
@@ -116,7 +116,7 @@ def device_class(
 
 
 def points_class(device: Device) -> type[runtime.PointTable]:
-    """Return the class of a device's points, without a line: pure codecs."""
+    """Return the class of a device's points without a line, for conversions only."""
     bus, scope = in_python(device), scope_of(device, Identifiers(device))
     module: Any = import_module(bus.module)
     names = {**vars(runtime), **{name: getattr(module, name) for name in bus.exports}}

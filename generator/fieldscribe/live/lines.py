@@ -27,12 +27,12 @@ from fieldscribe.user_errors import UnclearError, did_you_mean
 
 _PARITIES = {"none": "N", "even": "E", "odd": "O"}
 SERIAL_KEYS = ("baud", "parity", "stop", "bits", "echo")
-"""What may stand behind `?` of a serial line."""
+"""The settings after `?` of a serial line."""
 
 
 @dataclass(frozen=True, slots=True)
 class LineAddress:
-    """A line as it was named: the text, its scheme, what stands behind `://`, and the settings behind `?`."""
+    """A parsed line: the text, its scheme, the part after `://`, and the settings after `?`."""
 
     text: str
     scheme: str
@@ -78,20 +78,20 @@ class LineAddress:
         }
 
     def wrong(self, why: str) -> UnclearError:
-        """Return the error for a line that cannot be."""
+        """Return the error for an invalid line."""
         return UnclearError(f"the line `{shortened(self.text)}`: {why}", f"lines are {', '.join(examples())}")
 
 
 class Closable(Protocol):
-    """A transport of the runtime, as far as the line itself needs it."""
+    """The part of a runtime transport that the line needs."""
 
     def close(self) -> None:
-        """Give the line back."""
+        """Close the line."""
 
 
 @dataclass(frozen=True, slots=True)
 class OpenLine:
-    """A line with the transport of the runtime that it has, and the seconds to wait for an answer (None: the usual)."""
+    """A line with its runtime transport, and the seconds to wait for an answer (None: the default)."""
 
     address: LineAddress
     transport: Closable
@@ -99,7 +99,7 @@ class OpenLine:
 
 
 def read_line(text: str) -> LineAddress:
-    """Return a line by its text. Raises UnclearError for a scheme, or a setting of it, that does not exist."""
+    """Return a line from its text. Raises UnclearError for an unknown scheme or setting."""
     scheme, separator, rest = text.strip().partition("://")
     known = {name: keys for family in families() for name, keys in _schemes(family).items()}
     if not separator or scheme not in known:
@@ -117,7 +117,7 @@ def read_line(text: str) -> LineAddress:
 
 
 def require_line(line: LineAddress, device: Device) -> None:
-    """Raises UnclearError if such a device is on no such line."""
+    """Raises UnclearError if the device cannot be on this kind of line."""
     known = schemes_of(family(device.family))
     if line.scheme not in known:
         message = f"{device.id} is a {device.family} device, and none is on a line {line.scheme}://"
@@ -151,14 +151,14 @@ _KEYS = {"description": str, "line": str, "unit": int, "variant": dict, "with": 
 
 
 class Station(NamedTuple):
-    """A device on a line, by what it is, where, and which."""
+    """A device on a line: its description, line, unit and variant."""
 
     description: str
     line: str | None = None
     unit: int | None = None
     variants: tuple[str, ...] = ()
     settings: tuple[str, ...] = ()
-    """What `--with` gives: numbers that addresses depend on."""
+    """The numbers of `--with`, which addresses depend on."""
 
 
 class Project(NamedTuple):

@@ -1,4 +1,4 @@
-"""Reads points of a device, and says their values with names and units."""
+"""Reads points of a device, and returns their values with names and units."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -14,22 +14,22 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 _MOST_SILENT = 2
-"""How many points may stay without an answer before any has one."""
+"""The most points without an answer before the first answer."""
 
 
 class PartialReads:
-    """Reads points of one device. `gone` is the error with which the line was lost meanwhile."""
+    """Reads points of one device. `gone` is the error if the line was lost in between."""
 
     def __init__(self, device: AnyDevice) -> None:
         self._device = device
         self._answering = ""
-        """A point that the device answered: whether it still does tells a lost point from a lost line."""
+        """A point that the device answered before: reading it again tells a lost point from a lost line."""
         self.gone: FieldscribeError | None = None
 
     def read(self, what: str | Sequence[str], items: Sequence[str]) -> dict[str, Any]:
         """Return the value or the error of each point by name; `what` are these points, or their group.
 
-        Raises FieldscribeError if nothing is answered at all.
+        Raises FieldscribeError if nothing answers.
         """
         try:
             return self._asked(what)
@@ -62,7 +62,7 @@ class PartialReads:
         return values
 
     def _lost_line(self, error: FieldscribeError, silent: int) -> FieldscribeError | None:
-        """Return the error of the line where nothing answers any more; None if only a point does not."""
+        """Return the error of the line if nothing answers any more; None if only a point does not."""
         if isinstance(error, LineError) or not self._answering:
             return error if silent >= _MOST_SILENT or isinstance(error, LineError) else None
         try:
@@ -77,13 +77,13 @@ GOOD = ("ok", "special")
 
 
 NOT_THERE = ("no_access", "bad_link", "behind_end")
-"""The states of points that a device lacks, or its link does not carry."""
+"""The states of points that a device does not have, or its link does not carry."""
 
 
 class Reading(NamedTuple):
-    """What a point holds: its value as a number or text for programs, and as text with its unit for people.
+    """The reading of a point: its value for programs, and as text with its unit.
 
-    `value` is None where there is none; `status` and `detail` say why.
+    Without a value, `value` is None, and `status` and `detail` have the reason.
     """
 
     name: str
@@ -106,14 +106,14 @@ class Reading(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """The points to read, by their names in code, and the names of those that only a group brought."""
+    """The points to read, by their names in code, and the names of those that come only from a group."""
 
     items: list[str]
     by_group: frozenset[str]
 
 
 def chosen(model: Device, names: list[str]) -> Choice:
-    """Return the points that are named, by themselves or by what has them. Raises UnclearError."""
+    """Return the named points, or those of a named group, record or array. Raises UnclearError."""
     groups = {group.name for group in model.groups} - {point.item for point in model.points}
     items: dict[str, None] = {}
     by_group: set[str] = set()
@@ -131,7 +131,7 @@ def chosen(model: Device, names: list[str]) -> Choice:
 
 
 def _elements(model: Device, name: str) -> list[Point]:
-    """Return the points of a record, or those of an array or of sets, by their code or by what their names share."""
+    """Return the points of a record, or those of an array or of sets, by their code or common name."""
     if any(name == point.item for point in model.points):
         return []
     found = {id(match.point) for match in find(model, name)}
@@ -149,14 +149,14 @@ def _names(name: str, point: Point) -> tuple[str, ...]:
 
 
 def may_be_read(model: Device, point: Point) -> bool:
-    """Return True if a point is read with its group: one that only a variant has needs that to be chosen."""
+    """Return True if a point is read with its group: a point of a variant needs that variant to be chosen."""
     variant = point.variant
     is_there = variant is None or model.variants[variant.axis] == (variant.value,)
     return is_there and point.readable and point.generated and not absent(point.when, model.variants)
 
 
 def _point(model: Device, name: str, groups: set[str]) -> str:
-    """Return the name in code of a point that is read. Raises UnclearError, for a group that is nearly named, too."""
+    """Return the name in code of a readable point. Raises UnclearError, also for a misspelt group."""
     from difflib import get_close_matches
 
     near = [] if find(model, name) else get_close_matches(name, groups, 1)
@@ -169,9 +169,9 @@ def _point(model: Device, name: str, groups: set[str]) -> str:
 
 
 def in_words(error: FieldscribeError, *, alone: bool = False) -> str:
-    """Return an error of the runtime as the command line says it; `alone` leaves out what was asked for.
+    """Return a runtime error for the command line; `alone` leaves out what was requested.
 
-    What a program passes when the device is made is an option here.
+    Arguments of the device's constructor are options here.
     """
     asked = [] if alone else [error.group and f"group {error.group}", error.point]
     option = "with" if error.status == "bad_base" else "variant"
@@ -180,7 +180,7 @@ def in_words(error: FieldscribeError, *, alone: bool = False) -> str:
 
 
 class Reader:
-    """Reads points of one device again and again, and says what they hold as `decode` does."""
+    """Reads points of one device repeatedly, with texts as in `decode`."""
 
     def __init__(self, model: Device, device: AnyDevice) -> None:
         self._model, self._device = model, device
@@ -188,9 +188,9 @@ class Reader:
         self._meanings: dict[str, Meanings] = {}
 
     def read(self, choice: Choice) -> list[Reading]:
-        """Read points with as few requests as the device allows; what a group has and this device not is left out.
+        """Read points with as few requests as the device allows; leaves out points of a group that the device lacks.
 
-        A point without a good answer has the error. Raises FieldscribeError for a line that loses all.
+        A point without a valid answer has the error. Raises FieldscribeError if the line is lost.
         """
         items = self._existing(choice)
         values = PartialReads(self._device).read(items, items)
@@ -199,18 +199,18 @@ class Reader:
         return [one for one in readings if one.name not in choice.by_group or one.status not in NOT_THERE]
 
     def _existing(self, choice: Choice) -> list[str]:
-        """Return the points without those of groups whose condition does not hold by what the device has now."""
+        """Return the points, except points of groups whose condition is false now."""
         inside = [self._device.POINTS[item] for item in choice.items if item in self._device.POINTS]
         points: list[Any] = [point for point in inside if point.facts.name in choice.by_group]
         try:
             existing = self._device._run(self._device._existing_steps(points))
         except FieldscribeError:
-            return choice.items  # each of them says so when it is read
+            return choice.items  # each of them fails when it is read
         gone = {point.facts.item for point in points} - {point.facts.item for point in existing}
         return [item for item in choice.items if item not in gone]
 
     def _text(self, row: dict[str, Any], value: Any) -> str:
-        """Return a value with its unit; of one whose scale other points decide, as many digits as its number has."""
+        """Return a value with its unit; if other points decide the scale, with as many digits as needed."""
         if row["status"] not in GOOD:
             point = self._points.get(row["name"])
             if point is not None and not point.generated:

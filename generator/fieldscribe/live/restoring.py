@@ -1,7 +1,7 @@
-"""In which order the settings of a snapshot are written, so that the device allows each; and their journal.
+"""Finds an order in which a device allows all writes of a snapshot's settings; and their journal.
 
-The journal has a line before and after each write, on the disk before the next step. Whatever ends a restore, it tells
-what was written: the next start reads it.
+The journal has a line before and after each write, on the disk before the next step. If a restore is interrupted, the
+next one reads what was written.
 """
 
 import json
@@ -24,10 +24,10 @@ from fieldscribe.wording import label
 
 @dataclass(slots=True)
 class Order:
-    """What is written, in order, as items with raw numbers; and what is not.
+    """The writes in order, as items with raw numbers; and what is not written.
 
-    `refused` says why a number cannot be written; `unknown` are names that the description does not have; `others` can
-    be written and differ, but are no settings by the description; `same` counts what the device holds already.
+    `refused` has the reasons for numbers that cannot be written; `unknown` are names that the description does not
+    have; `others` can be written and differ, but are no settings; `same` counts what the device holds already.
     """
 
     writes: dict[str, int] = field(default_factory=dict)
@@ -38,7 +38,7 @@ class Order:
 
 
 def ordered(model: Device, now: Snapshot, wanted: Snapshot, is_chosen: Callable[[Point], bool] = is_setting) -> Order:
-    """Return the order in which a device that holds `now` gets what it has in `wanted` of the chosen points.
+    """Return the order of writes from `now` to `wanted`, for the chosen points.
 
     Raises UnclearError for another kind of device.
     """
@@ -78,9 +78,9 @@ def ordered(model: Device, now: Snapshot, wanted: Snapshot, is_chosen: Callable[
 
 
 def _same_value(point: Point, raw: int, theirs: codec.Settings, ours: codec.Settings) -> int | None:
-    """Return the number that means here what a raw number means there; None if there is none.
+    """Return the raw number here for the value of a raw number there; None if there is none.
 
-    These are the same unless the scale depends on what the devices hold differently.
+    They are equal unless the scale depends on points that differ between the devices.
     """
     if all(theirs.get(name) == ours.get(name) for name in point.scale_arguments) or point.special(raw):
         return raw
@@ -91,7 +91,7 @@ def _same_value(point: Point, raw: int, theirs: codec.Settings, ours: codec.Sett
 
 
 def _will_exist(model: Device, point: Point, raws: Mapping[str, int]) -> bool:
-    """Return True if a point that the device does not have now exists once the others are written."""
+    """Return True if a point that the device does not have now will exist after the other writes."""
     if point.when is None:
         return False
     values: dict[str, int | str] = {each.name: raws[each.item] for each in model.points if each.item in raws}
@@ -100,7 +100,7 @@ def _will_exist(model: Device, point: Point, raws: Mapping[str, int]) -> bool:
 
 
 def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: dict[str, int]) -> None:
-    """Add points that are as wanted now, but that a write of another point changes, or that it travels with."""
+    """Add points that are correct now, but that another write changes, or that must be written with another point."""
     names = {points[item].name for item in differing}
     together = [point for point in points.values() if point.write_with]
     while changed := [
@@ -114,7 +114,7 @@ def _add_changed(points: Mapping[str, Point], differing: dict[str, int], equal: 
 
 
 class _Sorter:
-    """Writes on paper: next is what waits for nothing and what the device allows by what it then holds."""
+    """Simulates the writes: the next one depends on no open write, and the device allows it then."""
 
     def __init__(self, model: Device, points: Mapping[str, Point], held: Mapping[str, int], order: Order) -> None:
         self._model, self._points, self._order = model, points, order
@@ -122,7 +122,7 @@ class _Sorter:
 
     def sort(self, wanted: Mapping[str, int]) -> None:
         """Add the writes to the order."""
-        for last in (False, True):  # what takes effect later comes last: settings of the line are among that
+        for last in (False, True):  # what takes effect later comes last, such as settings of the line
             self._part(
                 {item: raw for item, raw in wanted.items() if (self._points[item].takes_effect is not None) is last}
             )
@@ -142,13 +142,13 @@ class _Sorter:
                 self._settings[self._points[item].name] = codec.setting_of(self._points[item], pending.pop(item))
 
     def _error(self, item: str, raw: int) -> str:
-        """Return why a raw number may not be written by what the device holds; empty if it may."""
+        """Return why a raw number may not be written now; empty if it may."""
         wrong, unchecked = written_remarks(self._model, self._points[item], raw, self._settings)
         return wrong or unchecked
 
 
 def _waits_for(point: Point) -> Iterable[str]:
-    """Yield the points that are written before this one: those it depends on, exists by, or is changed by."""
+    """Yield the points to write before this one: those it depends on, exists by, or is changed by."""
     return {*point.arguments, *point.changes_with, *(() if point.when is None else point.when.names)} - {point.name}
 
 
@@ -162,7 +162,7 @@ _MOST_BYTES = 32 << 20
 
 
 class Interrupted(NamedTuple):
-    """A restore that did not end: when and on which device, what was written, what perhaps was, and what was not."""
+    """An interrupted restore: time, device, and what was written, perhaps written, and not written."""
 
     started: str
     device: str
@@ -179,30 +179,30 @@ class Interrupted(NamedTuple):
 
 
 class Journal:
-    """The journal of a restore that runs. `names` are what it writes, in order."""
+    """The journal of a running restore. `names` are its writes, in order."""
 
     def __init__(self, path: Path, names: list[str], facts: dict[str, Any]) -> None:
-        """Begin behind what the file has of earlier ones. Raises OSError."""
+        """Start after the earlier entries of the file. Raises OSError."""
         self._stream = path.open("a", encoding="utf-8")
         if self._stream.tell():
-            self._stream.write("\n")  # the last line of one that was killed may have no end
+            self._stream.write("\n")  # the last line of a killed restore may be incomplete
         started = datetime.now(UTC).isoformat(timespec="seconds")
         self._note({"started": started, **facts, "writes": names})
 
     def begin(self, number: int, **facts: Any) -> None:
-        """Note that a write comes next; `facts` are what the point held before, and what it gets."""
+        """Log the next write; `facts` are the old and the new number."""
         self._note({"begin": number, **facts})
 
     def done(self, number: int) -> None:
-        """Note that the device has it."""
+        """Log that the device accepted it."""
         self._note({"done": number})
 
     def refused(self, number: int, why: str) -> None:
-        """Note that the device did not take it."""
+        """Log that the device refused it."""
         self._note({"refused": number, "why": why})
 
     def end(self) -> None:
-        """Note that all is done."""
+        """Log the end."""
         self._note({"ended": datetime.now(UTC).isoformat(timespec="seconds")})
 
     def close(self) -> None:
@@ -216,9 +216,9 @@ class Journal:
 
 
 def interrupted(path: Path) -> Interrupted | None:
-    """Return the last restore of a journal, if it did not end; None if it did, and without a journal.
+    """Return the last restore of a journal if it was interrupted; None if not, or without a journal.
 
-    A line that was not written whole counts as missing. Raises OSError.
+    An incomplete line counts as missing. Raises OSError.
     """
     try:
         lines = read_regular(path, _MOST_BYTES).data.decode("utf-8", "replace").split("\n")
@@ -241,7 +241,7 @@ def interrupted(path: Path) -> Interrupted | None:
 
 
 def _notes(lines: list[str]) -> Iterator[dict[str, Any]]:
-    """Yield the lines that are whole."""
+    """Yield the complete lines."""
     for text in lines:
         try:
             note = json.loads(text)

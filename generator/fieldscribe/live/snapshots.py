@@ -1,4 +1,4 @@
-"""What a device held at one time, as a file: names, values with units, and the raw numbers that restore them."""
+"""A snapshot of a device as a file: names, values with units, and the raw numbers that restore them."""
 
 import json
 from collections.abc import Callable, Iterator, Mapping
@@ -19,16 +19,16 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 DEFAULTS = "defaults"
-"""Where a snapshot is from that is no file: the manual."""
+"""The source of the snapshot of defaults: the manual."""
 
 _FORMAT = 1
 _MOST_BYTES = 32 << 20
 
 
 class Held(NamedTuple):
-    """What a point holds: its code, value, unit, text for people, and raw number (None if only the value is known).
+    """The number of a point: its code, value, unit, text, and raw number (None if only the value is known).
 
-    `kind` is `setting`, `written` for what else can be written, or `read`.
+    `kind` is `setting`, `written` (for other writable points), or `read`.
     """
 
     code: str | None
@@ -51,7 +51,7 @@ _TYPES: dict[str, tuple[type, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """A device at one time: what its points held by name, and why others have no number.
+    """A device at one time: the numbers of its points by name, and why others have none.
 
     `given` are the numbers that its addresses depend on, as in `slot=3`.
     """
@@ -69,7 +69,7 @@ class Snapshot:
 
     @property
     def title(self) -> str:
-        """Return which device it is of, and when."""
+        """Return its device and time."""
         return f"{self.device}, unit {self.unit}, {self.taken}" if self.taken else f"{self.device}, {self.line}"
 
     @property
@@ -84,9 +84,9 @@ class Snapshot:
 
 
 def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], None]) -> Snapshot:
-    """Read all groups of a device; nothing is known as given. Raises FieldscribeError for a line that is lost.
+    """Read all groups of a device; everything is read anew. Raises FieldscribeError if the line is lost.
 
-    What selects the meaning of addresses is left out: reading what it selects writes it.
+    Points that only select pages are left out: reading the selected points writes them.
     """
     raws: dict[str, int] = {}
     missing: dict[str, str] = {}
@@ -113,7 +113,7 @@ def take(model: Device, device: AnyDevice, line: str, progress: Callable[[str], 
 
 
 def defaults(model: Device) -> Snapshot:
-    """Return a device as the manual's defaults make it: only points that have one. Raises UnclearError without any."""
+    """Return the snapshot of the manual's defaults: only points that have one. Raises UnclearError without any."""
     raws = {point.item: point.default_raw for point in model.points if point.default_raw is not None}
     points = dict(_held(model, raws))
     for point in model.points:
@@ -126,13 +126,13 @@ def defaults(model: Device) -> Snapshot:
 
 
 def settings_of(model: Device, raws: Mapping[str, int]) -> dict[str, int | Fraction]:
-    """Return raw numbers by item as settings by name, as scales and limits use them."""
+    """Return raw numbers by item as settings by name, for scales and limits."""
     points = {point.item: point for point in model.points}
     return {points[item].name: codec.setting_of(points[item], raw) for item, raw in raws.items() if item in points}
 
 
 def _held(model: Device, raws: Mapping[str, int]) -> Iterator[tuple[str, Held]]:
-    """Yield what each point holds; scales use the numbers of the same device."""
+    """Yield the entry of each point; scales use the numbers of the same device."""
     points = {point.item: point for point in model.points}
     settings = settings_of(model, raws)
     for item, raw in raws.items():
@@ -144,7 +144,7 @@ def _held(model: Device, raws: Mapping[str, int]) -> Iterator[tuple[str, Held]]:
 
 
 def is_setting(point: Point) -> bool:
-    """Return True if the description says that a point is set once and kept, and no command or setpoint."""
+    """Return True if a point is a setting by its description, not a command or setpoint."""
     kept = point.keeps not in (None, "no") or point.changes == "never" or point.default is not None
     return point.writable and kept and point.changes != "always"
 
@@ -176,7 +176,7 @@ def read_snapshot(path: Path) -> Snapshot:
 
 
 def _texts(snapshot: Snapshot) -> Iterator[object]:
-    """Yield what must be texts."""
+    """Yield the entries that must be texts."""
     yield from (*snapshot.variants.values(), *snapshot.given, *snapshot.missing.values())
 
 
@@ -199,9 +199,9 @@ class Difference(NamedTuple):
 
 
 def compared(first: Snapshot, second: Snapshot, *, also_read: bool = True) -> list[Difference]:
-    """Return what differs by value and unit; of the manual's defaults, points without one do not count.
+    """Return what differs by value and unit; points without a default are not compared with the manual's defaults.
 
-    With `also_read` those count, too, that can only be read.
+    `also_read` also compares read-only points.
 
     Raises UnclearError for snapshots of two kinds of devices.
     """

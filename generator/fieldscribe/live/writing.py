@@ -1,4 +1,4 @@
-"""Plans what a command writes to a device, with all that a person should know before, and carries it out."""
+"""Plans and carries out the writes of a command, with what a person should know before."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -24,9 +24,9 @@ from fieldscribe.wording import label, title_text
 
 @dataclass(frozen=True, slots=True)
 class Write:
-    """One thing that is written: the attribute of the device, and the raw number (None for a command).
+    """One write: the attribute of the device, and the raw number (None for a command).
 
-    `text` says it to people, `notes` how it was rounded, `remarks` what to know before.
+    `text` describes it, `notes` have its rounding, `remarks` what to know before.
     """
 
     item: str
@@ -38,10 +38,10 @@ class Write:
     remarks: tuple[str, ...]
     arguments: Mapping[str, int] = field(default_factory=dict)
     is_lost: bool = False
-    """True if it is lost when switched off, and `keep` would keep it."""
+    """True if it is lost at power-off, and `keep` would keep it."""
 
     def carry_out(self, device: AnyDevice) -> None:
-        """Write it, once: without an answer nobody knows whether it arrived. Raises FieldscribeError."""
+        """Write it once: without an answer, it may have arrived or not. Raises FieldscribeError."""
         with carried_out_once(device):
             if self.raw is None:
                 getattr(device, self.item).send(**self.arguments)
@@ -51,7 +51,7 @@ class Write:
 
 
 def in_requests(model: Device, writes: list[Write]) -> list[list[Write]]:
-    """Return the writes by request: what the device takes together alone stands where the last of it stood."""
+    """Return the writes by request: points that must be written together go to the place of the last one."""
     names = {point.item: point.name for point in model.points}
     partners = {point.item: point.write_with for point in model.points if point.write_with}
     made: list[list[Write]] = []
@@ -67,7 +67,7 @@ def in_requests(model: Device, writes: list[Write]) -> list[list[Write]]:
 
 
 def carry_out(request: list[Write], device: AnyDevice) -> None:
-    """Write what travels in one request, once. Raises FieldscribeError."""
+    """Write the points of one request, once. Raises FieldscribeError."""
     if len(request) == 1:
         request[0].carry_out(device)
         return
@@ -76,9 +76,9 @@ def carry_out(request: list[Write], device: AnyDevice) -> None:
 
 
 class Planner:
-    """Plans writes one after the other: what is planned counts for the scales and limits of what follows.
+    """Plans writes in order: scales and limits use the numbers of earlier planned writes.
 
-    `keep` is for values that survive power-off; with `lenient` points that nothing keeps are no error. `known` are the
+    `keep` makes values survive power-off; with `lenient`, a point that cannot be kept is no error. `known` are the
     settings that are read already.
     """
 
@@ -110,7 +110,7 @@ class Planner:
         return writes
 
     def _require_partners(self, points: list[Point]) -> None:
-        """Raise UnclearError if a point is missing that the device takes together with another one alone."""
+        """Raise UnclearError if a point is missing that must be written together with another one."""
         others = {point.name for point in self._points.values()} - {point.name for point in points}
         for point in points:
             if missing := [name for name in point.write_with if name in others]:
@@ -139,7 +139,7 @@ class Planner:
         return Write(point.item, encoded.raw, keep, reading, encoded.text, encoded.notes, remarks, is_lost=is_lost)
 
     def _reading(self, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
-        """Return what a read would tell of a point once it is written."""
+        """Return the reading that a point will have after the write."""
         reading = reading_of(self._model, point, raw, settings)
         if not point.readable or point.scale_arguments:
             return reading
@@ -147,7 +147,7 @@ class Planner:
         return Reading(**self._device.rows({point.item: handle.decode(raw)})[0], text=reading.text)
 
     def _needed(self, point: Point) -> dict[str, int | Fraction]:
-        """Return what the other points hold that a scale or limit depends on."""
+        """Return the numbers of other points that a scale or limit needs."""
         for name in point.arguments:
             if name not in self._settings:
                 other = choose_point(self._model, name)
@@ -156,7 +156,7 @@ class Planner:
         return {name: self._settings[name] for name in point.arguments}
 
     def _kept_by_request(self, point: Point) -> bool:
-        """Return True if the request that writes a point keeps the value. Raises UnclearError if nothing keeps it."""
+        """Return True if the write request itself keeps the value. Raises UnclearError if nothing keeps it."""
         is_chosen = family(self._model.family).chooses_memory and point.telegram is None
         if self._lenient and (point.keeps == "no" or (point.keeps is None and not is_chosen)):
             return False
@@ -167,10 +167,14 @@ class Planner:
         return point.keeps in (None, "choice")
 
     def _remarks(self, point: Point, keep: bool) -> Iterator[str]:
+<<<<<<< HEAD
         """Yield what to know before a point is written."""
         for name, raw in point.selects:
             other = choose_point(self._model, name)
             yield f"written first, unless it stands: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
+=======
+        """Yield what to know before writing a point."""
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         if point.conditions:
             yield f"write only when: {', '.join(point.conditions).replace('_', ' ')}"
         if keep or point.keeps == "yes":
@@ -189,7 +193,7 @@ class Planner:
         command = self._commands[name]
         arguments = _arguments(name, getattr(command, "arguments", {}), given)
         wears = getattr(command, "wears", None)
-        remarks = (f"the memory stands {wears} of these",) if wears else ()
+        remarks = (f"the memory is rated for {wears} of these",) if wears else ()
         numbers = "".join(f", {argument} {number}" for argument, number in arguments.items())
         text = line(f"{name} ({title_text(command.title)}){numbers}")
         reading = Reading(name, None, None, "", text, None, "ok", "")
@@ -215,7 +219,7 @@ def _arguments(name: str, ends: Mapping[str, tuple[int, int]], given: str) -> di
 
 
 def reading_of(model: Device, point: Point, raw: int, settings: dict[str, int | Fraction]) -> Reading:
-    """Return what a point holds once it is written."""
+    """Return what a point holds after the write."""
     meaning = Meanings(model, point).of(raw, settings)
     text = Meanings(model, point).text(raw, settings)
     value: float | str | None = raw if meaning.value is None else meaning.value

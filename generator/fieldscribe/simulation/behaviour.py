@@ -1,7 +1,7 @@
-"""Lets a simulated device behave: evaluates the rules of a behaviour in exact rationals, by the simulator's clock.
+"""Runs the rules of a behaviour on a simulated device, in exact rationals, by the simulator's clock.
 
-Numbers move in straight lines between events, so that the times of the next events are computed: a ramp that arrives,
-a number that reaches what a condition compares it with, a delay that ends. Time counts in whole milliseconds.
+Numbers change linearly between events, so the times of the next events can be computed: a ramp ends, a number reaches
+a limit of a condition, a delay ends. Time counts in whole milliseconds.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,20 +16,20 @@ from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.memory import Memory
 
 SAMPLE = 10
-"""How many milliseconds a moving number may be old when a request reads it."""
+"""The greatest age of a moving number when a request reads it, in milliseconds."""
 
 SILENCE = "silent_master"
-"""The quantity that is 1 while the master is silent: from the last telegram on."""
+"""The quantity that is 1 while the master is silent, that is, after its last telegram."""
 
 _MOST_PASSES = 8
 _MOST_EVENTS = 5_000
 _DECIMALS = 10**9
 _LARGEST = Fraction(10**20)
-"""Numbers between the raw numbers are kept to 10^-9, and up to 10^20, so that they do not grow."""
+"""Numbers are rounded to 10^-9 and limited to 10^20, so that they do not grow."""
 
 
 class Behaviour:
-    """The rules of a behaviour at work on the memory of one device."""
+    """Applies the rules of a behaviour to the memory of one device."""
 
     def __init__(self, rules: Rules) -> None:
         self.rules = rules
@@ -47,18 +47,18 @@ class Behaviour:
         return self._plant
 
     def set(self, name: str, number: Fraction) -> None:
-        """Let a quantity be a number from now on."""
+        """Set a quantity."""
         self._numbers.pop(Ref(name, "plant"), None)
         self._plant[name] = number
         self.touch()
 
     def touch(self) -> None:
-        """Take notice that anything may have changed, and be exact with the next step in time."""
+        """Evaluate all rules again at the next step: anything may have changed."""
         self._exact = True
         self._stale.update(range(len(self._rules)))
 
     def advance(self, device: SimulatedDevice, now: float) -> None:
-        """Bring the memory to the time `now`, in seconds of the clock."""
+        """Update the memory to the time `now`, in seconds of the clock."""
         if not self._started:
             self._started, self._memory = True, device.memory
             self._points = device.memory.layout.points
@@ -70,20 +70,20 @@ class Behaviour:
         self._advance(_milliseconds(now) - self._origin)
 
     def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
-        """Take notice of a write: the rules see it at once."""
+        """Evaluate the rules after a write."""
         for point in points:
             self._stale |= self._readers.get(point.name, frozenset())
         self.advance(device, now)
 
     def heard(self, device: SimulatedDevice, now: float) -> None:
-        """Take notice of the master: it is silent from now on, and a delay while it is begins anew."""
+        """Note a telegram of the master: delays on its silence start anew."""
         self.advance(device, now)
         for number in (ZERO, Fraction(1)) if SILENCE in self._plant else ():
             self._put(Ref(SILENCE, "plant"), number)
             self._settle()
 
     def restarted(self, device: SimulatedDevice, now: float) -> None:
-        """Begin anew: what moves starts as before, all else holds what the memory kept."""
+        """Restart: moving numbers start as before, all others have what the memory kept."""
         self._begin(_milliseconds(now))
         for rule in self._rules:
             if rule.ref.kind == "value" and rule.ref.name in self.rules.start:
@@ -101,9 +101,9 @@ class Behaviour:
         self._next: int | None = None
         self._exact = False
         self._stale: set[int] = set(range(len(self._rules)))
-        """The rules that may have something to do, by their place."""
+        """The indices of the rules to evaluate."""
         self._waiting: set[int] = set()
-        """The rules that wait for the end of a delay."""
+        """The rules that are in a delay."""
         self._plant.update((name, quantity.start) for name, quantity in self.rules.plant.items())
 
     def _advance(self, now: int) -> None:
@@ -122,7 +122,7 @@ class Behaviour:
         self._exact = False
 
     def _go(self, now: int) -> None:
-        """Move all numbers along their lines."""
+        """Move all numbers to the time."""
         elapsed = Fraction(now - self._now, 1000)
         self._now = now
         self._stale |= self._waiting | self._readers.get(TIME, frozenset())
@@ -131,7 +131,7 @@ class Behaviour:
             self._put(ref, number + slope * elapsed)
 
     def _settle(self) -> None:
-        """Apply the rules until nothing changes any more at this time, and plan the next event."""
+        """Apply the rules until nothing changes at this time, and plan the next event."""
         for _ in range(_MOST_PASSES):
             for place, rule in enumerate(self._rules):
                 if place in self._stale:
@@ -158,7 +158,7 @@ class Behaviour:
             self._slopes[rule.ref] = aim[1]
 
     def _aim(self, ref: Ref, step: Step, number: Fraction) -> Pair:
-        """Return what a number is now by a move, and its slope; it keeps still where there is no result."""
+        """Return the number and slope that a move gives now; without a result the number stays."""
         found = self._result(step.target)
         if found is None:
             return number, ZERO
@@ -173,7 +173,7 @@ class Behaviour:
         return number, rate if target > number or (arrived and slope > 0) else -rate
 
     def _rate(self, step: Step, *, up: bool) -> Fraction | None:
-        """Return how fast a number moves; None if at once."""
+        """Return the rate of a move; None if it happens at once."""
         found = self._result(step.rates[0 if up else -1])
         return None if found is None else abs(found[0])
 
@@ -185,7 +185,7 @@ class Behaviour:
             return None
 
     def _is_ready(self, step: Step) -> bool:
-        """Return True if a move's condition has held for long enough."""
+        """Return True if the condition of a move has been true for its delay."""
         if step.clauses and not any(
             all(test.holds(self._read(test.ref)[0]) for test in clause) for clause in step.clauses
         ):
@@ -195,12 +195,12 @@ class Behaviour:
         return self._due(step, self._since.setdefault(step, self._now)) <= self._now
 
     def _due(self, step: Step, since: int) -> int:
-        """Return the time at which a move is ready whose condition has held since then."""
+        """Return the time at which a move is due whose condition became true at `since`."""
         delay = None if step.delay is None else self._result(step.delay)
         return since if delay is None else since - floor(-delay[0] * 1000)
 
     def _events(self) -> Iterator[int]:
-        """Yield the times, later than now, at which a rule may find something else."""
+        """Yield the times after now at which the result of a rule may change."""
         self._waiting.clear()
         moving = set(self._readers.get(TIME, ()))
         moving.update(*(self._readers.get(ref.name, ()) for ref in self._slopes))
@@ -218,13 +218,13 @@ class Behaviour:
                     yield from () if target is None else self._meeting(self._read(rule.ref), target)
 
     def _meeting(self, first: Pair, second: Pair) -> Iterator[int]:
-        """Yield the first millisecond after the time at which two numbers meet, if they do."""
+        """Yield the first millisecond after two numbers become equal, if they do."""
         approach = second[1] - first[1]
         if approach and (wait := (first[0] - second[0]) / approach) >= 0:
             yield self._now + floor(wait * 1000) + 1
 
     def _read(self, ref: Ref) -> Pair:
-        """Return a number and its slope; what was written over a moving number counts."""
+        """Return a number and its slope; a write to a moving number takes precedence."""
         if ref.kind == "time":
             return Fraction(self._now, 1000), Fraction(1)
         if ref.kind == "plant":
@@ -237,7 +237,7 @@ class Behaviour:
         return self._decoded(ref, held), ZERO
 
     def _raw(self, ref: Ref) -> int:
-        """Return the number that a point or a flag holds."""
+        """Return the number of a point or a flag."""
         raw = self._memory.raw(ref.name)
         flag = ref.flag
         if flag is None:
@@ -259,7 +259,7 @@ class Behaviour:
         return (held - offset) / ratio
 
     def _put(self, ref: Ref, number: Fraction) -> None:
-        """Let a point or a quantity be a number, as near as its bits allow."""
+        """Set a point or a quantity to the nearest number that its bits allow."""
         number = _rounded(number)
         self._numbers[ref] = number
         self._stale |= self._readers.get(ref.name, frozenset())
@@ -285,7 +285,7 @@ class Behaviour:
 
 
 def _readers(rules: Sequence[Rule], points: Mapping[str, Point]) -> dict[str, frozenset[int]]:
-    """Return the places of the rules that read a point or a quantity, or whose point needs it for its scale."""
+    """Return the indices of the rules that read a point or a quantity, or whose point needs it for its scale."""
     readers: dict[str, set[int]] = {}
     for place, rule in enumerate(rules):
         for ref in (rule.ref, *(ref for step in rule.steps for ref in step.refs)):

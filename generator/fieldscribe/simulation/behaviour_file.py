@@ -1,4 +1,4 @@
-"""Reads behaviour.yaml, the file beside device.yaml that says what a simulated device does, and checks it."""
+"""Reads behaviour.yaml, the file next to device.yaml with the rules of a simulated device, and checks it."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
@@ -23,14 +23,14 @@ from fieldscribe.simulation.behaviour_rules import TIME, Amount, Quantity, Ref, 
 
 FILE = "behaviour.yaml"
 _SECONDS = {"ms": Fraction(1, 1000), "s": Fraction(1), "min": Fraction(60), "h": Fraction(3600)}
-_NO_NUMBER = "take a quantity under `plant` in its place"
+_NO_NUMBER = "use a quantity under `plant` instead"
 
 Dimension = dict[str, int]
 """The units of an expression, each with its power."""
 
 
 def find_behaviour(device_file: Path) -> Path | None:
-    """Return the behaviour beside a device.yaml; None if there is none."""
+    """Return the behaviour file of a device.yaml; None if there is none."""
     path = device_file.parent / FILE
     return path if os.path.lexists(path) else None
 
@@ -53,7 +53,7 @@ def read_behaviour(path: Path, device: Device, report: Report) -> Rules | None:
 
 
 class _Reader:
-    """Turns the nodes of a file into rules; what is wrong is reported and left out."""
+    """Turns the nodes of a file into rules; reports and leaves out what is wrong."""
 
     def __init__(self, node: Map, device: Device, report: Report) -> None:
         self.node, self.device, self.report = node, device, report
@@ -69,7 +69,7 @@ class _Reader:
     def rules(self) -> Rules:
         """Return the rules of the file."""
         if self.node["behaviour"] != self.device.id:
-            message = f"this is the behaviour of `{self.node['behaviour']}`, beside the description of another device"
+            message = f"this is the behaviour of `{self.node['behaviour']}`, next to the description of another device"
             self.report.error("bad-behaviour", message, self.node.span("behaviour"), f"write `{self.device.id}`")
         self.plant = {name: self._quantity(name, given) for name, given in self.node.get("plant", {}).items()}
         start = dict(self._start())
@@ -87,7 +87,7 @@ class _Reader:
         return Quantity(name, Fraction(facts.get("start", 0)), facts.get("unit", ""), titles)
 
     def _start(self) -> Iterator[tuple[str, Fraction]]:
-        """Yield what points start with."""
+        """Yield the start values of points."""
         stated: Map = self.node.get("start") or Map(self.node.file, self.node.start)
         for word, value in stated.items():
             point = self._point(word, stated.key_span(word))
@@ -149,7 +149,7 @@ class _Reader:
         return None
 
     def _resolved(self, ref: Ref, move: Move, span: Span) -> Step:
-        """Return a move with what its names stand for. Raises FactError or FormulaError."""
+        """Return a move with its names resolved. Raises FactError or FormulaError."""
         target = self._named(ref, move.target) or self._amount(move.target, span)
         if not (move.rates or move.once) and ref in target.refs.values():
             hint = "write `when` to count, or `ramp to … at …` to move on"
@@ -160,7 +160,7 @@ class _Reader:
         return Step(target, tuple(rates), clauses, move.once, delay)
 
     def _named(self, ref: Ref, written: moves.Amount) -> Amount | None:
-        """Return the number of a name that the moved point or flag has for it; None if the target is no such name."""
+        """Return the number of a name of the moved point or flag; None if the target is no such name."""
         expression = written.expression
         points = self.by_name.get(ref.name)
         known = {} if points is None else _names_of(points[0], ref.flag)
@@ -169,7 +169,7 @@ class _Reader:
         return Amount(Number(Fraction(known[expression.name]), expression.column), {})
 
     def _amount(self, written: moves.Amount, span: Span) -> Amount:
-        """Return an expression with what its names stand for. Raises FactError."""
+        """Return an expression with its names resolved. Raises FactError."""
         refs = {}
         for name in names(written.expression):
             place = span.moved(written.column + name.column, len(name.name))
@@ -189,7 +189,7 @@ class _Reader:
         raise FormulaError(f"this is not in {wanted_text}", written.column, hint)
 
     def _test(self, stated: conditions.Comparison, move: Move, span: Span) -> Test:
-        """Return a comparison with what its words stand for. Raises FactError or FormulaError."""
+        """Return a comparison with its words resolved. Raises FactError or FormulaError."""
         name, column = stated.name, move.condition_column
         if stated.op in (conditions.EXISTS, conditions.NOT_EXISTS):
             raise FormulaError("a simulated device has all its points", column + stated.column, "leave this out")
@@ -207,7 +207,7 @@ class _Reader:
         return Test(ref, stated.op, tuple(constants))
 
     def _target(self, word: str, span: Span) -> Ref | None:
-        """Return what a key under `moves` stands for; None after a finding."""
+        """Return the target of a key under `moves`; None after a finding."""
         name, _, part = word.partition(".")
         try:
             ref = self._ref(name, part, raw=False, span=span)
@@ -215,12 +215,12 @@ class _Reader:
             error.report(self.report)
             return None
         if ref.kind == "time":
-            self.report.error("unknown-point", "the time moves by itself", span, "move a point or a quantity")
+            self.report.error("unknown-point", "the time cannot be moved", span, "move a point or a quantity")
             return None
         return ref
 
     def _ref(self, name: str, part: str, *, raw: bool, span: Span) -> Ref:
-        """Return what a name stands for, with the flag after its point. Raises FactError."""
+        """Return the reference of a name, with its flag if it has one. Raises FactError."""
         names = [name, *(point.name for point in self.by_code.get(name, ()))]
         name = next((each for each in names if each in self.plant), name)
         if name in self.plant or name == TIME:
@@ -266,7 +266,7 @@ class _Reader:
 
 
 def _has_number(point: Point) -> bool:
-    """Return True if a behaviour can count with what the point holds."""
+    """Return True if a behaviour can compute with the point."""
     return point.untyped is None and point.text is None and bool(point.addresses)
 
 
@@ -284,7 +284,7 @@ def _units_of(text: str) -> Dimension:
 
 
 def _dimension(expression: Expression, refs: Mapping[Name, Ref]) -> Dimension:
-    """Return the units of an expression; of a sum, those of a part that has any."""
+    """Return the units of an expression; for a sum, those of the first part with units."""
     match expression:
         case Name():
             return _units_of(refs[expression].unit)

@@ -1,4 +1,4 @@
-"""The rules of a behaviour as data: what moves, what conditions compare, and how fast and when."""
+"""The rules of a behaviour as data: targets, conditions, rates and delays."""
 
 import operator
 from collections.abc import Callable, Mapping
@@ -12,10 +12,10 @@ from fieldscribe.model import Flag, Titles
 
 ZERO = Fraction(0)
 TIME = "time"
-"""The name of the seconds since the start of the simulation."""
+"""The name of the time: seconds since the start of the simulation."""
 
 Pair = tuple[Fraction, Fraction]
-"""A number, and how fast it changes in a second."""
+"""A number and its change per second."""
 
 _TESTS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
     "==": operator.eq,
@@ -29,9 +29,9 @@ _TESTS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 
 @dataclass(frozen=True, slots=True)
 class Ref:
-    """What a name stands for: the value of a point in its unit, its raw number, a flag of it, a quantity, or the time.
+    """A resolved name: the value of a point in its unit, its raw number, a flag of it, a quantity, or the time.
 
-    `unit` is its symbol, an empty text for plain numbers.
+    `unit` is its symbol; empty for plain numbers.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Test:
     constants: tuple[Fraction, ...]
 
     def holds(self, number: Fraction) -> bool:
-        """Return True if the comparison is true of a number."""
+        """Return True if the comparison is true for a number."""
         return number in self.constants if self.op == "in" else _TESTS[self.op](number, self.constants[0])
 
 
@@ -70,9 +70,9 @@ class Amount:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Step:
-    """One move: to a target, at once or at a rate (up, down), while one of the clauses holds.
+    """One move: to a target, at once or at a rate (up, down), while one of the clauses is true.
 
-    With `once` it happens when they come true. `delay` is how long they must hold before, in seconds.
+    With `once`, it happens when they become true. `delay` is how long they must be true before, in seconds.
     """
 
     target: Amount
@@ -83,7 +83,7 @@ class Step:
 
     @property
     def refs(self) -> list[Ref]:
-        """Return everything that it reads."""
+        """Return all names that it reads."""
         amounts = [self.target, *self.rates, *([] if self.delay is None else [self.delay])]
         compared = [test.ref for clause in self.clauses for test in clause]
         return [*(ref for amount in amounts for ref in amount.refs.values()), *compared]
@@ -91,20 +91,20 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """The moves of one number; the first that applies counts."""
+    """The moves of one number; the first that applies is used."""
 
     ref: Ref
     steps: tuple[Step, ...]
 
     @property
     def delays(self) -> bool:
-        """Return True if a move waits for a while."""
+        """Return True if a move has a delay."""
         return any(step.delay is not None for step in self.steps)
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity that no point holds."""
+    """A quantity of the behaviour, which is no point."""
 
     name: str
     start: Fraction

@@ -1,6 +1,6 @@
-"""A bench: lines with their devices, made from mappings as a bench file, the command line and tests give them.
+"""A bench: lines with their devices, made from mappings of a bench file, the command line or a test.
 
-A mapping that comes from a file has the place of each key, which messages then begin with.
+A mapping from a file has the place of each key, which error messages start with.
 """
 
 from collections.abc import Mapping
@@ -47,13 +47,13 @@ def layout_of(
 
 
 def has_behaviour(name: str, folder: Path = LOCAL) -> bool:
-    """Return True if a behaviour file stands beside a description. Raises UnclearError."""
+    """Return True if a description has a behaviour file. Raises UnclearError."""
     return find_behaviour(_file(name, folder)) is not None
 
 
 @lru_cache(maxsize=16)
 def rules_of(name: str, folder: Path = LOCAL) -> Rules:
-    """Return the rules of the behaviour beside a description. Raises UnclearError."""
+    """Return the rules of a description's behaviour file. Raises UnclearError."""
     file, report = _file(name, folder), Report()
     path = find_behaviour(file)
     if path is None:
@@ -87,7 +87,7 @@ Item = TypeVar("Item")
 _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
 MOST_DEVICES = 10_000
 _BITS = 11
-"""Of a character on a serial line, with start, parity and stop."""
+"""The bits of a character on a serial line, with start, parity and stop bits."""
 
 _TEXT, _WHOLE, _YES_NO = ((str,), "a text"), ((int,), "a whole number"), ((bool, str), "yes or no")
 _LIST, _MAP = ((list,), "a list"), ((dict,), "a mapping")
@@ -115,13 +115,13 @@ def read_bench(file: Path) -> Settings:
 
 
 class Bench:
-    """Lines whose devices share a clock; `folder` is where folders of descriptions count from. Raises UnclearError."""
+    """Lines whose devices share a clock; paths of descriptions are relative to `folder`. Raises UnclearError."""
 
     def __init__(self, settings: Settings, folder: Path = Path(), trace: Trace | None = None) -> None:
         _check(settings, _BENCH, "lines")
         self.clock = Clock(float(settings.get("time_scale", 1)))
         if not 0 <= self.clock.scale <= 1e6:
-            raise _wrong(settings, "time_scale", "a time scale is a number from 0 (time stands) to a million", "")
+            raise _wrong(settings, "time_scale", "a time scale is a number from 0 (time stops) to a million", "")
         self._folder, self._seed, self._trace = folder, settings.get("seed", 0), trace
         self._strict = settings.get("strict") in (True, "yes")
         self.lines = [self._line(_item(settings["lines"], place)) for place in range(len(settings["lines"]))]
@@ -222,18 +222,18 @@ def _at(span: Span | None, message: str, hint: str) -> UnclearError:
 
 
 HELP = """\
-get POINT           the value that a device holds
-set POINT=VALUE     let it hold another one, whatever its rules say
+get POINT           print the value of a point
+set POINT=VALUE     set a value, whatever the rules of the device say
 unmet CONDITION     refuse the writes that need a condition; `met CONDITION` ends that
-fault KIND ...      spoil answers: `fault late 0.5 x3`, `fault cut 4 10%`; `clear` ends all faults
+fault KIND ...      spoil answers: `fault late 0.5 x3`, `fault cut 4 10%`; `clear` removes all faults
 restart             switch the devices off and on: what was not stored is lost
-advance SECONDS     let time pass at once
+advance SECONDS     advance the clock at once
 quit                end
-after @UNIT, as in `@3 get A020`, a line is about that unit alone"""
+@UNIT before a command, as in `@3 get A020`, selects one unit"""
 
 
 def carry_out(bench: Bench, text: str) -> str:
-    """Return what to print for a line of text. Raises UnclearError, and EOFError for `quit`."""
+    """Carry out a console command and return what to print. Raises UnclearError, and EOFError for `quit`."""
     unit, _, words = text.strip().partition(" ") if text.strip().startswith("@") else ("", "", text.strip())
     verb, _, rest = words.strip().partition(" ")
     devices = [device for line in bench.lines for device in line.core.devices if unit in ("", f"@{device.unit}")]

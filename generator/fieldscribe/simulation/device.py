@@ -1,4 +1,4 @@
-"""A simulated device: a memory that obeys the rules of the manual. It knows no bus: the core of a family asks it."""
+"""A simulated device: a memory that obeys the rules of the manual. It knows no bus: the core of a family calls it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fieldscribe.wording.rules import condition_text
 
 
 class Clock:
-    """Seconds since the start, `scale` times as fast as real ones; with a scale of 0 only `advance` moves them."""
+    """Seconds since the start, `scale` times as fast as real ones; with a scale of 0, only `advance` changes them."""
 
     def __init__(self, scale: float = 1.0) -> None:
         self.scale = scale
@@ -31,31 +31,31 @@ class Clock:
         return (time.monotonic() - self._start) * self.scale + self._ahead
 
     def advance(self, seconds: float) -> None:
-        """Let so many seconds pass at once."""
+        """Advance the clock."""
         self._ahead += seconds
 
     def real(self, seconds: float) -> float:
-        """Return how many real seconds a delay takes; none while the clock stands."""
+        """Return the real seconds of a delay; 0 if the scale is 0."""
         return seconds / self.scale if self.scale else 0.0
 
 
 BUSY_FOR = 0.05
-"""The seconds for which a point says that a command is at work; no manual gives them."""
+"""The seconds for which a point reports that a command is being carried out; no manual gives them."""
 
 MOST_COMPLAINTS = 10_000
 CYCLIC = 10, 60.0
-"""So many writes to memory that wears, within so many seconds, are cyclic ones to a strict device."""
+"""A strict device complains of this many writes to wearing memory within this many seconds."""
 _OPENED = frozenset({"password"})
-"""The conditions that come true by a write: of what the point of that name holds, which no write changes."""
+"""Conditions that a write fulfils: the write must match what the point with this name holds."""
 
 
 class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
-    """The device does not do what a request asks for.
+    """The device refuses a request.
 
-    `kind` is `address` (nothing is there), `absent` (a point whose condition does not hold), `part` (a part of a
-    number), `write_only`, `read_only`, `condition` (one that must hold before a write), `together` (points that are
-    written with others only), or the status of the value: `out_of_range`, `unknown_value`, `special`, ... `point` is
-    the point that refuses, if it is one.
+    `kind` is `address` (nothing is there), `absent` (a point whose condition is false), `part` (a part of a number),
+    `write_only`, `read_only`, `condition` (one that must be true before a write), `together` (points that must be
+    written with others), or the status of the value: `out_of_range`, `unknown_value`, `special`, ... `point` is the
+    point that refuses, if there is one.
     """
 
     def __init__(self, kind: str, why: str, point: Point | None = None) -> None:
@@ -67,7 +67,7 @@ class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no
 
 @dataclass(frozen=True, slots=True)
 class Complaint:
-    """What a client did that the manual forbids: the rule, what happened, and where the manual has the rule."""
+    """A violation of the manual by a client: the rule, what happened, and the place in the manual."""
 
     rule: str
     what: str
@@ -83,31 +83,31 @@ class Complaint:
 
 
 class Behaviour(Plant, Protocol):
-    """What moves the numbers of a device; `simulation.behaviour` makes it from a behaviour file."""
+    """Changes the numbers of a device; `simulation.behaviour` makes it from a behaviour file."""
 
     def advance(self, device: SimulatedDevice, now: float) -> None:
-        """Bring the memory to the time `now`, in seconds of the clock; called before each access."""
+        """Update the memory to the time `now`, in seconds of the clock; called before each access."""
 
     def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
-        """Take notice of a write that was accepted; the memory has the new numbers."""
+        """Handle an accepted write; the memory has the new numbers."""
 
     def heard(self, device: SimulatedDevice, now: float) -> None:
-        """Take notice of the master; called with each telegram of a bus whose devices watch for them."""
+        """Handle a telegram of the master; called for each one on a bus whose devices watch for them."""
 
     def restarted(self, device: SimulatedDevice, now: float) -> None:
-        """Begin anew; the memory has what survived."""
+        """Restart; the memory has what survived."""
 
 
 class SimulatedDevice:
     """One device at a `unit` of a line.
 
-    `values` has the values of the points by name, in their units, whatever the rules say. `conditions` has what must
-    hold before some writes (`stopped`, `password`), all true at the start: set one to False and such writes are
-    refused. `complaints` grows while `strict` is set. `refusals` may name the number of the exception for a kind of
-    refusal; the core of the family knows the others. `wear` counts the writes that wear the memory.
+    `values` has the values of the points by name, in their units; writing one ignores the rules. `conditions` are what
+    must be true before some writes (`stopped`, `password`), all true at the start: set one to False and such writes
+    are refused. `complaints` collects violations if `strict` is set. `refusals` may give the exception number for a
+    kind of refusal; the core of the family knows the others. `wear` counts the writes that wear the memory.
     """
 
-    def __init__(  # noqa: PLR0913  # each is given by name
+    def __init__(  # noqa: PLR0913  # all keyword arguments
         self,
         layout: Layout,
         unit: int | None = None,
@@ -139,7 +139,7 @@ class SimulatedDevice:
         return self.memory.layout
 
     def advance(self) -> None:
-        """Bring the memory to the present."""
+        """Update the memory to the present time."""
         now = self.clock.now()
         for name in [name for name, until in self._busy.items() if until <= now]:
             del self._busy[name]
@@ -148,7 +148,7 @@ class SimulatedDevice:
             self.behaviour.advance(self, now)
 
     def read(self, area: Area, addresses: Sequence[int]) -> list[int]:
-        """Return the cells at these addresses. Raises Refusal: something must be there that can be read."""
+        """Return the cells at these addresses. Raises Refusal if nothing readable is there."""
         self.advance()
         readable = self.layout.readable.get(area, frozenset())
         for address in addresses:
@@ -162,7 +162,7 @@ class SimulatedDevice:
     def write(self, area: Area, cells: Mapping[int, int], *, keep: bool | None = None) -> list[Point]:
         """Write cells by address and return the points that they touch; nothing is written if one point refuses.
 
-        `keep` says whether the values survive a restart, where the request chooses that. Raises Refusal.
+        `keep`: the values survive a restart, if the request chooses that. Raises Refusal.
         """
         self.advance()
         command = self._command(area, cells)
@@ -181,7 +181,13 @@ class SimulatedDevice:
         for point in points:
             self._remember(point, keep)
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
+<<<<<<< HEAD
         writers = self.layout.writers.get(area, {})  # steps of commands also write where no point lies
+=======
+        for point in changed:
+            self.memory.put(point.name, numbers[point.name])
+        writers = self.layout.writers.get(area, {})  # steps of commands also write where no point is
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         self.memory.areas[area].update((at, word) for at, word in cells.items() if at not in writers)
         for point in changed:
             self.memory.put(point.name, numbers[point.name])
@@ -190,12 +196,12 @@ class SimulatedDevice:
         return points
 
     def heard(self) -> None:
-        """Take notice of the master, whose silence the device may watch."""
+        """Handle a telegram of the master; the device may watch for its silence."""
         if self.behaviour is not None:
             self.behaviour.heard(self, self.clock.now())
 
     def perform(self, command: Command) -> None:
-        """Carry out a command that is one write: it stores what waits for it, and takes its time."""
+        """Carry out a command of one write: store what waits for it, and be busy for a while."""
         if command.wears is not None:
             self._wears(command.name, command.source)
         stored = [name for name in self._lost if self.layout.points[name].keeps == command.name]
@@ -206,7 +212,7 @@ class SimulatedDevice:
             self._busy[command.busy] = self.clock.now() + BUSY_FOR
 
     def restart(self) -> None:
-        """Switch the device off and on: values that were written and not stored are as before."""
+        """Switch the device off and on: values that were written but not stored are lost."""
         for name, raw in self._lost.items():
             self.memory.put(name, raw)
         self._lost.clear()
@@ -214,21 +220,21 @@ class SimulatedDevice:
             self.behaviour.restarted(self, self.clock.now())
 
     def meet(self, conditions: Iterable[str], *, holds: bool) -> None:
-        """Let conditions hold or not. Raises ValueError for one that no write asks for."""
+        """Set conditions true or false. Raises ValueError for one that no write needs."""
         for name in conditions:
             if name not in self.conditions:
                 known = ", ".join(self.conditions) or "none"
-                raise ValueError(f"no write asks for the condition `{name[:40]}`; there are {known}")
+                raise ValueError(f"no write needs the condition `{name[:40]}`; there are {known}")
             self.conditions[name] = holds
 
     def complain(self, rule: str, what: str, source: Source | None = None) -> None:
-        """Take down what a client did against the manual, if the device is strict."""
+        """Record a violation of the manual, if the device is strict."""
         if self.strict and len(self.complaints) < MOST_COMPLAINTS:
             self.complaints.append(Complaint(rule, what, source))
             self.on_complaint(self.complaints[-1])
 
     def complain_of(self, refusal: Refusal, rule: str = "") -> None:
-        """Take down what a client did that was refused."""
+        """Record a violation that was refused."""
         source = None if refusal.point is None else refusal.point.source
         self.complain(rule or refusal.kind.replace("_", " "), refusal.why, source)
 
@@ -264,7 +270,7 @@ class SimulatedDevice:
         return list(touched.values())
 
     def _number(self, point: Point, cells: Mapping[int, int], together: set[str]) -> int:
-        """Return the raw number that a write would give a point. Raises Refusal for a part of one."""
+        """Return the new raw number of a point after a write. Raises Refusal for a part of a point."""
         place: Cells = self.layout.written[point.name]
         if missing := [address for address in place.addresses if address not in cells]:
             if self.strict:
@@ -277,7 +283,7 @@ class SimulatedDevice:
         return _on_a_step(point, raw_of(point, words))
 
     def _check(self, point: Point, raw: int, numbers: Mapping[str, int]) -> None:
-        """Raise Refusal if a point must not take a raw number now; `numbers` come with it, by name."""
+        """Raise Refusal if a point must not take a raw number now; `numbers` are written with it, by name."""
         for condition in point.conditions:
             if not self.conditions[condition]:
                 raise Refusal("condition", f"{label(point)} is written only when {condition}", point)
@@ -293,7 +299,7 @@ class SimulatedDevice:
             raise Refusal(error.status, f"{label(point)} does not take raw {raw}", point) from error
 
     def _remember(self, point: Point, keep: bool | None) -> None:
-        """Note what a point held before the first write that no restart survives, and what wears the memory."""
+        """Remember a point's number before its first write that is lost at a restart, and count wear."""
         if point.keeps == "yes" or (point.keeps == "choice" and keep):
             self._lost.pop(point.name, None)
             self._wears(point.name, point.source)
@@ -301,7 +307,7 @@ class SimulatedDevice:
             self._lost.setdefault(point.name, self.memory.raw(point.name))
 
     def _wears(self, name: str, source: Source) -> None:
-        """Count a write that wears the memory; complain of those that go on and on."""
+        """Count a write that wears the memory; complain if such writes are cyclic."""
         self.wear[name] = self.wear.get(name, 0) + 1
         times = self._stored_at.setdefault(name, deque(maxlen=CYCLIC[0]))
         times.append(self.clock.now())
@@ -315,7 +321,7 @@ class SimulatedDevice:
         return Refusal("absent", f"{label(points[0])} exists only when {' or '.join(conditions)}", points[0])
 
     def _look_at_conditions(self, area: Area, addresses: Sequence[int]) -> None:
-        """Raise Refusal where all that lies at an address exists only under a condition that does not hold now."""
+        """Raise Refusal if every point at an address exists only under a condition that is false now."""
         for address in addresses:
             points = self.layout.readers.get(area, {}).get(address, ())
             if points and not any(map(self.memory.exists, points)):
@@ -329,7 +335,7 @@ class SimulatedDevice:
 
 
 def _on_a_step(point: Point, raw: int) -> int:
-    """Return the raw number that the device keeps: the step below."""
+    """Return the raw number that the device stores: rounded down to its step."""
     start, step = max(((start, step) for start, step in point.steps if start <= raw), default=(0, 1))
     return with_fixed(point, start + (raw - start) // step * step) if point.steps and point.text is None else raw
 

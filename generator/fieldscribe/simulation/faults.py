@@ -1,4 +1,4 @@
-"""What can happen to an answer on its way, told by a few words such as `late 0.5 x3`."""
+"""Faults of an answer on its way, written in a few words such as `late 0.5 x3`."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from fieldscribe.user_errors import UnclearError
 
 KINDS = {
     "silent": "no answer comes",
-    "late": "the answer comes N seconds later (1)",
-    "cut": "only the first N bytes of it come (half of them)",
-    "doubled": "the answer comes twice",
-    "check": "its checksum is wrong (over TCP: the number of the transaction)",
+    "late": "the answer arrives N seconds later (1)",
+    "cut": "only its first N bytes arrive (half of them)",
+    "doubled": "the answer arrives twice",
+    "check": "its checksum is wrong (over TCP: its transaction number)",
     "unit": "another unit answers",
-    "function": "the answer is that of another function",
+    "function": "the answer has another function",
     "exception": "the device refuses",
     "damaged": "byte N of it is wrong (the first)",
-    "noise": "bytes that mean nothing stand before byte N (the first)",
+    "noise": "random bytes come before byte N (the first)",
     "drop": "the line breaks down after byte N (the first)",
 }
 """The faults, with what each means; N is the number after the name, with its default."""
@@ -29,7 +29,7 @@ _NUMBER, _TIMES, _SHARE = (re.compile(form) for form in (r"\d+(?:\.\d+)?", r"x(\
 
 
 class Outcome(NamedTuple):
-    """What becomes of an answer: bytes that go out after a delay, and whether the line breaks down then."""
+    """What is sent for an answer: bytes, a delay, and whether the line breaks down afterwards."""
 
     data: bytes
     delay: float
@@ -39,7 +39,7 @@ class Outcome(NamedTuple):
 
 @dataclass(slots=True)
 class Fault:
-    """A fault of a kind for the next `times` answers (None: for all), each with the probability `share`."""
+    """A fault for the next `times` answers (None: all), each with the probability `share`."""
 
     kind: str
     number: float | None = None
@@ -48,7 +48,7 @@ class Fault:
 
     @classmethod
     def of(cls, text: str) -> Fault:
-        """Return the fault of a text: a kind, then in any order N, `xTIMES` and `SHARE%`. Raises UnclearError."""
+        """Return the fault written as a kind, then in any order N, `xTIMES` and `SHARE%`. Raises UnclearError."""
         kind, *words = text.split() or [""]
         fault = cls(kind)
         if kind not in KINDS:
@@ -62,19 +62,19 @@ class Fault:
                 fault.share = float(match[1]) / 100
             else:
                 hint = f"write it as `{kind} 2 x3 50%`: with the number 2, for 3 answers, for every second one"
-                raise UnclearError(f"`{word[:40]}` says nothing about the fault `{kind}`", hint)
+                raise UnclearError(f"`{word[:40]}` does not belong to the fault `{kind}`", hint)
         return fault
 
 
 class Faults:
-    """The faults in force; the oldest one that strikes an answer counts."""
+    """The active faults; the oldest one that applies to an answer is used."""
 
     def __init__(self, seed: int = 0) -> None:
         self.waiting: list[Fault] = []
         self._random = Random(seed)  # noqa: S311  # no secret
 
     def outcome(self, data: bytes, delay: float, spoiled: Callable[[bytes, str], bytes]) -> Outcome:
-        """Return what becomes of an answer; `spoiled` makes it wrong as the family knows how."""
+        """Return what is sent for an answer; `spoiled` corrupts it in the family's way."""
         for fault in self.waiting:
             if fault.share < 1 and self._random.random() >= fault.share:
                 continue

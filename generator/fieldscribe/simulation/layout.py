@@ -1,4 +1,4 @@
-"""Which words of which area each point of a device takes; equal for all devices of a kind, and shared by them."""
+"""The words of each point of a device by area; all devices of a kind share one layout."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
 
 Area = tuple[str, int]
-"""A space or a telegram, and the index where one travels with the address (else 0)."""
+"""A space or a telegram, and the index if one is sent with the address (else 0)."""
 
 _LAST = 0xFFFF
 _BEHIND_HEAD = 2
@@ -22,7 +22,7 @@ _BEHIND_HEAD = 2
 
 
 class Cells(NamedTuple):
-    """Where a point lies: an area, and its addresses there, high part first; one cell holds `size` words."""
+    """The place of a point: an area, and its addresses there, high part first; one cell holds `size` words."""
 
     area: Area
     addresses: tuple[int, ...]
@@ -30,7 +30,7 @@ class Cells(NamedTuple):
 
 
 RawReader = Callable[[Mapping[Area, Mapping[int, int]]], int]
-"""Takes the raw number of a point out of words by area and address."""
+"""Returns the raw number of a point from words by area and address."""
 
 
 def joined_cells(numbers: list[int], size: int) -> int:
@@ -55,9 +55,14 @@ class Layout:
     """The points of one kind of device, each with its cells.
 
     `device` has the points of one value of each variant axis (the first, unless `variants` chooses another), at the
+<<<<<<< HEAD
     addresses that `given` numbers lead to (the least, unless given); found chains begin at the first of their places.
     `fixed` are words that belong to no point, such as the ids of found blocks. `counts` has what the points hold that
     say how many elements a block has before other points; 0 unless given.
+=======
+    addresses for the `given` numbers (the least by default); found chains start at the first of their places.
+    `fixed` are words that belong to no point, such as the ids of found blocks.
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
     """
 
     def __init__(
@@ -82,19 +87,19 @@ class Layout:
         self.variants = {axis: values[0] for axis, values in self.device.variants.items()}
         existing = (point for point in self.device.points if not absent(point.when, self.device.variants))
         self.points: Mapping[str, Point] = {point.name: point for point in existing}
-        """The points by name; rules name points so."""
+        """The points by name, as rules name them."""
         self.names = self.points.keys() | self.variants
-        """What conditions name: points and variant axes."""
+        """The names in conditions: points and variant axes."""
         self.cells: dict[str, Cells] = {}
-        """Where each point is read."""
+        """The cells to read each point."""
         self.written: dict[str, Cells] = {}
-        """Where each writable point is written."""
+        """The cells to write each writable point."""
         self.readers: dict[Area, dict[int, tuple[Point, ...]]] = {}
-        """The points that have a part in a cell when it is read."""
+        """The points in each cell that can be read."""
         self.writers: dict[Area, dict[int, tuple[Point, ...]]] = {}
-        """The points that have a part in a cell when it is written."""
+        """The points in each cell that can be written."""
         self.windows: dict[Area, dict[int, tuple[Point, ...]]] = {}
-        """The points that have a cell only while others select them; each selection has an area of its own."""
+        """The points at a cell only while others select them; each selection has an area of its own."""
         self._selections: dict[tuple[tuple[str, int], ...], int] = {(): 0}
         for point in self.points.values():
             self._place(point)
@@ -102,7 +107,7 @@ class Layout:
             ((command.space, 0), command.address): command for command in self.device.commands
         }
         self.steps: dict[Area, set[int]] = {}
-        """The cells that steps of commands reach; where no point lies, they hold what was written."""
+        """The cells that steps of commands reach; if no point is there, they hold what was written."""
         for step in [step for command in self.device.stepped_commands for step in command.steps]:
             reached = range(step.address, step.address + len(step.words))
             self.steps.setdefault((step.space, 0), set()).update(reached)
@@ -113,7 +118,7 @@ class Layout:
             for factor in case.rule.factors
             if factor.ten_to
         }
-        """The points that start as low as they may be: exponents of ten, and times of the line."""
+        """The points that start at their lowest number: exponents of ten, and times of the line."""
         times = set(self.device.bus.timing.values())
         self.least.update(point.name for point in self.points.values() if {point.name, point.code} & times)
         self.order = tuple(_in_order(self.points))
@@ -133,7 +138,7 @@ class Layout:
         return made if all(max(words, default=0) <= _LAST for words in made.fixed.values()) else self
 
     def raw_reader(self, name: str) -> RawReader:
-        """Return the function that takes the raw number of a point out of words; it is made once."""
+        """Return the function that returns the raw number of a point from words; it is made once."""
         if name not in self._raws:
             self._raws[name] = _raw_reader(self.points[name], self.cells[name])
         return self._raws[name]
@@ -189,7 +194,7 @@ class Layout:
                 words[place], words[place + 1] = base.block, length - _BEHIND_HEAD
                 place += length
         words[place], words[place + 1] = device.found.end, 0
-        for base in device.bases:  # after a block's first part: where its counts lead
+        for base in device.bases:  # after the first part of a block: at its counts
             if base.block is not None and not base.starts_block:
                 first = next(each for each in device.bases if each.starts_block and each.block == base.block)
                 starts[base.name] = given.get(first.name, starts[first.name]) + self._offset(base)
@@ -199,6 +204,7 @@ class Layout:
         """Return where a base is in its block."""
         return base.offset + sum(self.counts[name] * factor for name, _, factor in base.counts)
 
+<<<<<<< HEAD
     def _length(self, device: Device, base: Base) -> int:
         """Return how many words a found block has: up to the last of its points."""
         last = 0
@@ -207,6 +213,16 @@ class Layout:
                 points = (point for point in device.points if point.base == each.name)
                 last = max(last, max((self._offset(each) + max(point.addresses) for point in points), default=0))
         return last + 1
+=======
+def _length(device: Device, base: Base) -> int:
+    """Return the number of words of a found block: up to its last point."""
+    last = 0
+    for each in device.bases:
+        if each.block == base.block:
+            ends = (each.offset + max(point.addresses) for point in device.points if point.base == each.name)
+            last = max(last, max(ends, default=0))
+    return last + 1
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 
 
 def _in_order(points: Mapping[str, Point]) -> Iterator[Point]:

@@ -20,10 +20,11 @@ _OF_LINE, _OF_BENCH = ("framing", "faults"), ("seed", "strict", "time_scale")
 
 
 class Simulated:
-    """A running simulated device: `port`, `path` or `url` say where it answers.
+    """A running simulated device: it answers at `port`, `path` or `url`.
 
-    `values` has its values by name; writing them asks no rule. `conditions` has what must hold before some writes, all
-    true. `complaints` has what clients did against the manual, if it is strict. `restart()` switches it off and on.
+    `values` has its values by name; writing them ignores the rules. `conditions` are what must be true before some
+    writes, all true at first. `complaints` are violations of the manual by clients, if it is strict. `restart()`
+    switches it off and on.
     """
 
     def __init__(self, line: Line, server: Server) -> None:
@@ -35,11 +36,11 @@ class Simulated:
 
     @property
     def requests(self) -> int:
-        """Return how many requests came."""
+        """Return the number of requests."""
         return self.line.requests
 
     def fault(self, text: str) -> None:
-        """Put a fault in force, such as `late 0.5 x3`; see `faults.KINDS`."""
+        """Add a fault, such as `late 0.5 x3`; see `faults.KINDS`."""
         self.line.faults.waiting.append(Fault.of(text))
 
 
@@ -53,14 +54,13 @@ def simulated(
     trace: Trace | None = None,
     **settings: Any,
 ) -> Iterator[Simulated]:
-    """Run a device, by its id or the path of its folder, as long as the context lasts.
+    """Run a device, by its id or the path of its folder, until the end of the context.
 
-    `on` is the line: `tcp`, `serial` (a new pseudo terminal) or `can` (the bus of python-can's interface `virtual` that
-    is named after the device). `variants` are texts such as `voltage=400V`. With its `behaviour`, the numbers move as
-    the file beside the description says. The other settings are those of a bench file: `unit`, `values`, `given`,
-    `unmet`, `refusals`, `framing`, `faults`, `seed`, `strict`, `time_scale`. A strict device raises AssertionError at
-    the end, with all that clients did against the manual. With a `time_scale` of 0 the time stands, but for `advance`.
-    Raises UnclearError.
+    `on` is the line: `tcp`, `serial` (a new pseudo terminal) or `can` (a bus of python-can's interface `virtual`, named
+    after the device). `variants` are texts such as `voltage=400V`. With `behaviour`, its numbers follow the file next
+    to the description. The other settings are those of a bench file: `unit`, `values`, `given`, `unmet`, `refusals`,
+    `framing`, `faults`, `seed`, `strict`, `time_scale`. A strict device raises AssertionError at the end, with all
+    violations of the manual by clients. With a `time_scale` of 0, only `advance` lets time pass. Raises UnclearError.
     """
     line: dict[str, Any] = {key: settings.pop(key) for key in _OF_LINE if key in settings}
     bench = {key: settings.pop(key) for key in _OF_BENCH if key in settings}

@@ -26,9 +26,9 @@ from fieldscribe.simulation.memory import LOCK
 
 @dataclass(slots=True)
 class Answer:
-    """What a request leads to: the bytes that go out (none for a broadcast), `delay` seconds after the request.
+    """The result of a request: the bytes to send (none for a broadcast), `delay` seconds after the request.
 
-    `more` are further frames after the first. `refused` says why, if the answer is a refusal.
+    `more` are further frames after the first. `refused` is the reason, if the answer is a refusal.
     """
 
     device: SimulatedDevice | None
@@ -39,7 +39,7 @@ class Answer:
 
 
 class Core(Protocol):
-    """The sans-I/O end of a line: `devices` answer what comes."""
+    """The protocol of a line without I/O: its `devices` answer requests."""
 
     devices: Sequence[SimulatedDevice]
     framing: str
@@ -50,39 +50,39 @@ class Core(Protocol):
         return self
 
     def cut(self, data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
-        """Return the whole requests in the data, and how many bytes are done with: taken, or noise.
+        """Return the complete requests in the data, and the number of bytes used up by requests or noise.
 
-        `quiet` says that nothing more comes that belongs to these bytes. Any bytes are safe, and what is no request
-        costs no request after it.
+        `quiet`: no more bytes follow that belong to these. Any bytes are safe, and noise never costs the request
+        after it.
         """
 
     def answer(self, request: bytes) -> Answer | None:
-        """Return what a request leads to; None if no device here takes notice of it."""
+        """Return the result of a request; None if no device here receives it."""
 
     def spoiled(self, answer: bytes, what: str) -> bytes:
-        """Return an answer that is wrong in one way, and right in all others, checksums included.
+        """Return an answer with one mistake but otherwise correct, checksums included.
 
-        `what` is `check` (the checksum alone), `unit`, `function` (another one answers), or `exception` (the usual
-        refusal in place of the answer). A core returns the answer as it is if its frames have no such thing.
+        `what` is `check` (a wrong checksum), `unit` or `function` (of another one), or `exception` (the usual refusal
+        instead of the answer). A core returns the answer unchanged if its frames have no such part.
         """
 
     def due(self, now: float) -> tuple[list[bytes], float | None]:
-        """Return the frames that go out unasked by the time `now`, and when the next ones do; None for never."""
+        """Return the cyclic frames due by the time `now`, and the time of the next ones; None for never."""
         del now
         return [], None
 
 
 _MOST_WAITING = 4096
-"""Bytes that may wait for the rest of a request."""
+"""The most bytes that wait for the rest of a request."""
 
 Trace = Callable[[str], None]
 """Takes one line of the trace, a JSON object."""
 
 
 class Line:
-    """A line with the devices of a core; `name` says in the trace which one it is.
+    """A line with the devices of a core; `name` is its name in the trace.
 
-    `on` is the kind of line, `at` its port, path or channel, `speed` its bits a second; each may be left open.
+    `on` is the kind of line, `at` its port, path or channel, `speed` its bits per second; all are optional.
     """
 
     def __init__(self, core: Core, clock: Clock, *, name: str = "", seed: int = 0) -> None:
@@ -91,7 +91,7 @@ class Line:
         self.requests, self.speed, self.on, self.at = 0, 0, "", ""
 
     def answer(self, request: bytes, core: Core | None = None) -> list[Outcome]:
-        """Return what goes out because of one request, of a client whose framing is that of `core`."""
+        """Return what to send for one request of a client with the framing of `core`."""
         core = core or self.core
         with LOCK:
             self.requests += 1
@@ -107,7 +107,7 @@ class Line:
             return [outcome, *more] if outcome.data or outcome.drop else more
 
     def due(self) -> tuple[list[bytes], float | None]:
-        """Return the frames that go out unasked by now, and in how many real seconds the next ones do."""
+        """Return the cyclic frames that are due now, and the real seconds until the next ones."""
         with LOCK:
             now = self.clock.now()
             frames, after = self.core.due(now)
@@ -128,7 +128,7 @@ class Line:
 
 
 class Stream:
-    """One connection to a line, or its one serial port: keeps the bytes that are no whole request yet."""
+    """One connection to a line, or its one serial port: keeps the bytes of an incomplete request."""
 
     def __init__(self, line: Line) -> None:
         self.line = line
@@ -136,7 +136,7 @@ class Stream:
         self._core = line.core
 
     def received(self, data: bytes, *, quiet: bool = False) -> list[Outcome]:
-        """Return what goes out because of these bytes; `quiet` says that no more belong to them."""
+        """Return what to send for these bytes; `quiet`: no more bytes belong to them."""
         data = self.waiting + data
         self._core = self._core.settled(data)
         requests, done = self._core.cut(data, quiet=quiet)

@@ -1,4 +1,4 @@
-"""The words of one device. Points are read from the words, so that views, twins and bit groups always agree."""
+"""The words of one device. Points are read from them, so views of the same words always agree."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from fieldscribe.user_errors import UnclearError
 
 _ELECTRIC = {"voltage": 230, "current": 5, "frequency": 50, "power": 1000, "energy": 1000}
 _USUAL = _ELECTRIC | {"temperature": 40, "ratio": 50, "rotational speed": 1500, "time": 10}
-"""What a measured value is about, in the base unit of its quantity, where its range does not say."""
+"""Typical measured values in the base unit of their quantity, for points without a usable range."""
 
 
 _NUMBERS = 100
-"""The end of the numbers that a point starts with, if neither its range nor its unit says more."""
+"""The highest start number of a point if neither its range nor its unit helps."""
 
 _WIDE = 20_000
-"""The width of a range that is no more than what the bits can hold."""
+"""The width from which a range is just what the bits can hold."""
 
 
 def starting_raw(layout: Layout, point: Point, settings: Settings, random: Random) -> int:
-    """Return the raw number that a point holds at the start, with the settings that it depends on."""
+    """Return the raw number of a point at the start, given the settings that it depends on."""
     identifying, others = _identifying(layout, point)
     if identifying:
         return identifying[0]
@@ -53,7 +53,7 @@ def starting_raw(layout: Layout, point: Point, settings: Settings, random: Rando
 
 
 def _identifying(layout: Layout, point: Point) -> tuple[list[int], set[int]]:
-    """Return the raw numbers by which a point tells this device, the best one first, and those of other variants."""
+    """Return the raw numbers of a point that identify this device, best first, and those of other variants."""
     asked: list[list[int]] = []
     others: set[int] = set()
     for known in layout.device.identifications:
@@ -68,7 +68,7 @@ def _identifying(layout: Layout, point: Point) -> tuple[list[int], set[int]]:
 
 
 def corrected_raw(point: Point, raw: int, settings: Settings) -> int:
-    """Return the raw number, or the nearest one that may be written with the settings as all points have them."""
+    """Return the raw number, or the nearest one that may be written with the present settings."""
     if _allowed(point, raw, settings) or point.info.floating or point.text is not None:
         return raw
     try:
@@ -87,7 +87,7 @@ def _allowed(point: Point, raw: int, settings: Settings) -> bool:
 
 
 def _candidates(layout: Layout, point: Point, settings: Settings, random: Random) -> Iterator[int]:
-    """Yield raw numbers, the most plausible one first."""
+    """Yield raw numbers, the most plausible first."""
     if point.enum is not None:
         yield from (entry.raw for entry in point.enum.entries)
     if point.flags or point.digits is not None or point.width == 1 or point.name in layout.least:
@@ -117,7 +117,7 @@ def _ranges(point: Point, settings: Settings) -> Iterator[tuple[Fraction, Fracti
 V = TypeVar("V")
 
 LOCK = RLock()
-"""Held while a request is answered, and while a test reads or writes values from another thread."""
+"""Locks the memory for a request, or for values that a test reads or writes in another thread."""
 
 
 class Memory:
@@ -127,23 +127,28 @@ class Memory:
         self.layout = layout
         self.areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in areas.items()}
         self.settings: Mapping[str, int | Fraction] = Lookup(layout.points, self._setting)
-        """The settings that rules compute with, by the name of the point: always what the memory holds now."""
+        """The settings that rules need, by point name: always as in the memory."""
         self.facts: Mapping[str, int | str] = Lookup(
             layout.names, lambda name: layout.variants.get(name) or self.raw(name)
         )
-        """What conditions compare: raw numbers by the name of the point, values by variant axis."""
+        """The operands of conditions: raw numbers by point name, values by variant axis."""
 
     @classmethod
     def started(cls, layout: Layout, seed: int = 0) -> Memory:
+<<<<<<< HEAD
         """Return the memory of a device as delivered; what no manual says follows from the seed."""
         return cls(*_start(layout, seed))
+=======
+        """Return the memory of a device as delivered; numbers that no manual gives come from the seed."""
+        return cls(layout, _start(layout, seed))
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 
     def raw(self, name: str) -> int:
         """Return the raw number of a point."""
         return self.layout.raw_reader(name)(self.areas)
 
     def put(self, name: str, raw: int) -> None:
-        """Let a point hold a raw number, whatever the rules say."""
+        """Set the raw number of a point, whatever the rules say."""
         point = self.layout.points[name]
         self._put(point, self.layout.cells[name], raw)
         if point.write_place is not None:
@@ -170,22 +175,22 @@ class Memory:
         return setting_of(self.layout.points[name], self.raw(name))
 
     def exists(self, point: Point) -> bool:
-        """Return True if the condition of the point holds now."""
+        """Return True if the condition of the point is true now."""
         return point.when is None or point.when.holds(self.facts)
 
     def held(self, area: Area, addresses: Iterable[int]) -> list[int]:
-        """Return the cells at these addresses as a master sees them: those behind a window follow what is selected."""
+        """Return the cells at these addresses as a master sees them: windows show what is selected."""
         here, windows = self.areas.get(area, {}), self.layout.windows.get(area)
         if windows is None:
             return [here[address] for address in addresses]
         return [self._behind(here, windows.get(address, ()))[address] for address in addresses]
 
     def _behind(self, here: Mapping[int, int], window: Iterable[Point]) -> Mapping[int, int]:
-        """Return the cells among which one of a window is now; those of the area where nothing is selected."""
+        """Return the cells that a window shows now; those of the area if nothing is selected."""
         return next((self.areas[self.layout.cells[p.name].area] for p in window if self.exists(p)), here)
 
     def starts(self, point: Point) -> bool:
-        """Return True if a point has a number from the start: one in a window, whatever is selected first."""
+        """Return True if a point has a number from the start; in a window, whatever is selected first."""
         return point.when is None or point.when.holds(ChainMap(dict(point.selects), self.facts))  # type: ignore[arg-type]  # read only
 
     def _put(self, point: Point, cells: Cells, raw: int) -> None:
@@ -217,8 +222,13 @@ class Lookup(Mapping[str, V]):
         return len(self._names)
 
 
+<<<<<<< HEAD
 _starts: dict[tuple[int, int], tuple[Layout, Memory]] = {}
 """The first memories by layout and seed, so that a thousand devices of a kind start as quickly as one."""
+=======
+_starts: dict[tuple[int, int], tuple[Layout, dict[Area, dict[int, int]]]] = {}
+"""The initial words by layout and seed, so that a thousand devices of a kind start as quickly as one."""
+>>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 _MOST_STARTS = 64
 
 
@@ -263,23 +273,23 @@ Value = str | int | float
 
 
 class Plant(Protocol):
-    """The quantities of a behaviour, which no point holds."""
+    """The quantities of a behaviour, which are no points."""
 
     @property
     def plant(self) -> Mapping[str, Fraction]:
         """The quantities by name."""
 
     def set(self, name: str, number: Fraction) -> None:
-        """Let a quantity be a number from now on."""
+        """Set a quantity."""
 
     def touch(self) -> None:
-        """Take notice that points were written."""
+        """Handle a write of points."""
 
 
 class Values(MutableMapping[str, Value]):
-    """The values by name or code; writing one asks no rule, so that a device may hold what it would refuse.
+    """The values by name or code; writing one ignores the rules, so a device may hold what it would refuse.
 
-    The quantities of a behaviour are values, too.
+    It includes the quantities of a behaviour.
     """
 
     def __init__(self, memory: Memory, advance: Callable[[], None], plant: Plant | None = None) -> None:
@@ -313,7 +323,7 @@ class Values(MutableMapping[str, Value]):
         return len(self._memory.layout.points)
 
     def _go_on(self) -> None:
-        """Bring the memory to the present, and let what is written now have its effect."""
+        """Update the memory to the present; afterwards evaluate the rules for what was written."""
         if self._plant is not None:
             self._plant.touch()
         self._advance()
@@ -346,7 +356,7 @@ def value_of(point: Point, raw: int, settings: codec.Settings) -> Value:
 
 
 def _number(name: str, value: Value | Fraction | Decimal) -> Fraction:
-    """Return the number that a quantity shall be. Raises ValueError for what is none."""
+    """Return a number for a quantity. Raises ValueError for anything else."""
     try:
         return Fraction(value)
     except (ValueError, OverflowError, ZeroDivisionError):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @pytest.fixture
 def simulated_device() -> Iterator[Callable[..., Simulated]]:
-    """Return a function with the arguments of `fieldscribe.simulation.simulated`; each call runs one more device."""
+    """Return a function with the arguments of `fieldscribe.simulation.simulated`; each call runs another device."""
     from fieldscribe.simulation.library import simulated  # every run of pytest imports this module
 
     with ExitStack() as running:

@@ -1,4 +1,4 @@
-"""Lines in the world: TCP ports, serial ports and pseudo terminals, CAN buses; all in one event loop."""
+"""Serves lines at TCP ports, serial ports, pseudo terminals and CAN buses, in one event loop."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ if TYPE_CHECKING:
 
 LOOPBACK = "127.0.0.1"
 _QUIET = 0.02
-"""Real seconds without a byte after which a request is not completed any more."""
+"""Real seconds without a byte after which an incomplete request is given up."""
 _EXTENDED = 1 << 31
 _HEAD = 4
 """The bytes of the identifier, in front of the data of a frame."""
 
 
 class Server:
-    """A line that is served at `url`: at a TCP port, or at the path of a serial port. `close` ends that."""
+    """A line that is served at `url`: a TCP port, or the path of a serial port; `close` stops it."""
 
     def __init__(self, url: str, close: Callable[[], None], *, port: int = 0, path: str = "") -> None:
         self.url, self.close, self.port, self.path = url, close, port, path
 
 
 class _End(asyncio.Protocol):
-    """One connection: bytes in, answers out, each in its time and none before an earlier one."""
+    """One connection: bytes in, answers out, each at its time and in order."""
 
     def __init__(self, line: Line, ends: set[_End]) -> None:
         self._loop = asyncio.get_running_loop()
@@ -42,7 +42,7 @@ class _End(asyncio.Protocol):
         self._free, self._pending = 0.0, 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Begin; of a serial port the direction out comes first."""
+        """Connect; a serial port connects its output first."""
         self._ends.add(self)
         if isinstance(transport, asyncio.WriteTransport):
             self._writer = transport
@@ -50,7 +50,7 @@ class _End(asyncio.Protocol):
             self._reader = transport
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """End: what waits is dropped."""
+        """End the connection; drop what waits."""
         self.close()
         self._reader = self._writer = None
         self._ends.discard(self)
@@ -58,7 +58,7 @@ class _End(asyncio.Protocol):
             self._timer.cancel()
 
     def data_received(self, data: bytes, *, quiet: bool = False) -> None:
-        """Answer what has come."""
+        """Answer received bytes."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
@@ -68,12 +68,12 @@ class _End(asyncio.Protocol):
             self._timer = self._loop.call_later(_QUIET, lambda: self.data_received(b"", quiet=True))
 
     def pause_writing(self) -> None:
-        """Read no more while the other end does not take its answers."""
+        """Pause reading while the other end does not take its answers."""
         if self._reader is not None:
             self._reader.pause_reading()
 
     def resume_writing(self) -> None:
-        """Read again."""
+        """Resume reading."""
         if self._reader is not None:
             self._reader.resume_reading()
 
@@ -107,7 +107,7 @@ class _End(asyncio.Protocol):
 
 
 async def serve(line: Line) -> Server:
-    """Serve a line where it says; a port is open for this machine alone without a host. Raises UnclearError."""
+    """Serve a line at its place; without a host, a port is open only to this machine. Raises UnclearError."""
     if line.on == "serial":
         return await serve_serial(line, line.at, line.speed)
     if line.on == "can":
@@ -122,7 +122,7 @@ async def serve(line: Line) -> Server:
 
 
 async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
-    """Serve a line at a TCP port; 0 chooses a free one. Raises UnclearError if the port cannot be had."""
+    """Serve a line at a TCP port; 0 chooses a free one. Raises UnclearError if the port is not available."""
     ends: set[_End] = set()
     try:
         listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
@@ -146,7 +146,7 @@ async def serve_serial(line: Line, path: str = "", baud: int = 0) -> Server:
     import tty  # POSIX only, as pseudo terminals are
 
     port, spare = (_opened(path, baud), -1) if path else os.openpty()
-    if not path:  # its other end stays open, so that clients may come and go
+    if not path:  # keep the other end open, so that clients can come and go
         tty.setraw(spare)
         path = os.ttyname(spare)
     loop, end = asyncio.get_running_loop(), _End(line, set())
@@ -198,7 +198,7 @@ async def serve_can(line: Line, interface: str, channel: str) -> Server:
 
 
 class _CanEnd:
-    """A bus: frames in, answers out, and what the devices send unasked."""
+    """A bus: frames in, answers and cyclic frames out."""
 
     def __init__(self, line: Line, bus: can.BusABC) -> None:
         import can
@@ -233,7 +233,7 @@ class _CanEnd:
     def _send(self, data: bytes) -> None:
         import can
 
-        if len(data) < _HEAD:  # a fault left no whole identifier
+        if len(data) < _HEAD:  # a fault cut the identifier
             return
         identifier = int.from_bytes(data[:_HEAD], "big")
         extended = bool(identifier & _EXTENDED)
@@ -243,5 +243,5 @@ class _CanEnd:
         )
         try:
             self._bus.send(message)
-        except (can.CanError, ValueError):  # nobody takes the frame: a device would try again
+        except (can.CanError, ValueError):  # nobody acknowledges the frame: a device would try again
             return

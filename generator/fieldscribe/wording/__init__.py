@@ -416,7 +416,7 @@ def keeps_text(device: Device, point: Point) -> str:
         return f"by {point.keeps}"
     value = "any value" if command.value is None else str(command.value)
     where = f"{command.space} {address_text(command.address)} with function {hex_text(command.function, 2)}"
-    wears = f"; the memory stands {command.wears} writes" if command.wears else ""
+    wears = f"; the memory is rated for {command.wears} writes" if command.wears else ""
     return f"only after the command {command.name} (write {value} to {where}){wears}"
 
 

@@ -1,15 +1,15 @@
 /*
  * SPDX-License-Identifier: 0BSD
  *
- * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
- * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
- * no library, and keeps no state: everything in it may be called in an interrupt.
- *
- * Headers of points need only this file. Headers of frames also need functions that a program must define exactly once:
- * one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
- *
- * ..._encode checks a value against the limits of its point. The macro of a special code is a raw number and needs no
- * encoding. `in steps of` in a comment says how the device rounds values; nothing here checks it.
+  * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
+  * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
+  * no library, and keeps no state: every function may run in an interrupt.
+  *
+  * Headers of points need only this file. Headers of frames also need functions that a program must define exactly
+  * once: one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
+  *
+  * ..._encode checks a value against the limits of its point. The macro of a special code is already a raw number; do
+  * not encode it. `in steps of` in a comment says how the device rounds values; nothing here checks it.
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
@@ -24,7 +24,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Raised when this file no longer fits headers that were generated earlier. */
+/* Increased when this file no longer fits headers that were generated earlier. */
 #define FIELDSCRIBE_INTERFACE 1
 
 #if !defined(FIELDSCRIBE_NO_FLOAT)
@@ -38,13 +38,13 @@
 #elif (DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32)
 #error "A double has not 53 bits here: define FIELDSCRIBE_NO_FLOAT, or FIELDSCRIBE_FLOAT32 if all values fit a float."
 #endif
-#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 concerns only half floats */
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 affects only half floats */
 #error "The arithmetic here has excess precision (x87): take -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
 #endif
 #if DBL_MANT_DIG == 53
 #define FIELDSCRIBE_DOUBLE /* a double is a binary64 number */
 #endif
-/* Machines that may round a product and a sum once. Clang says so only on x86 and ARM, MSVC nowhere. */
+/* Machines with fused multiply-add. Clang defines a macro only on x86 and ARM, MSVC nowhere. */
 #if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
     defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
     (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
@@ -58,17 +58,17 @@
 /* The result of a conversion; 0 is success. */
 typedef enum fieldscribe_status {
     FIELDSCRIBE_OK = 0,
-    FIELDSCRIBE_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
+    FIELDSCRIBE_OUT_OF_RANGE,  /* the value or raw number may not be written, or does not exist */
     FIELDSCRIBE_NOT_A_NUMBER,  /* the value is NaN */
-    FIELDSCRIBE_UNKNOWN_VALUE, /* the number has no name, and the enum is closed */
-    FIELDSCRIBE_ZERO_FACTOR,   /* a point that the scale needs is zero, or holds a special code */
-    FIELDSCRIBE_NO_CASE,       /* the scale has no case for the number in the other point */
+    FIELDSCRIBE_UNKNOWN_VALUE, /* the number has no name, and the enum allows no others */
+    FIELDSCRIBE_ZERO_FACTOR,   /* another point that the scale needs is zero or a special code */
+    FIELDSCRIBE_NO_CASE,       /* the scale has no case for the number of the other point */
     FIELDSCRIBE_OVERFLOW,      /* the result does not fit */
     FIELDSCRIBE_SPECIAL,       /* the raw number is a special code: ..._special_name gives its name */
-    FIELDSCRIBE_MALFORMED      /* the words do not hold what they should: a text that is no UTF-8 or UTF-16 */
+    FIELDSCRIBE_MALFORMED      /* the words are no valid text (UTF-8 or UTF-16), or no date */
 } fieldscribe_status;
 
-/* Start of a function whose result callers must use, and of one that returns a status. */
+/* Starts a function whose result callers must use, and one that returns a status. */
 #if (defined(__cplusplus) && (__cplusplus >= 201703L)) || \
     (!defined(__cplusplus) && defined(__STDC_VERSION__) && (__STDC_VERSION__ >= 202311L))
 #define FIELDSCRIBE_CHECKED [[nodiscard]]
@@ -82,7 +82,7 @@ typedef enum fieldscribe_status {
 /* The number of rows of an array. */
 #define FIELDSCRIBE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* A whole number if the status is OK, else 0. */
+/* The number if the status is OK, else 0. */
 typedef struct fieldscribe_whole {
     fieldscribe_status status;
     int64_t number;
@@ -100,7 +100,7 @@ static inline fieldscribe_whole fieldscribe_no_whole(fieldscribe_status status)
     return whole;
 }
 
-/* The number if it lies within the limits. */
+/* Return the number if it is within the limits. */
 static inline fieldscribe_whole fieldscribe_whole_in(int64_t number, int64_t low, int64_t high)
 {
     return ((number < low) || (number > high)) ? fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE)
@@ -151,13 +151,13 @@ FIELDSCRIBE_STATUS fieldscribe_check_u64(uint64_t number, uint64_t low, uint64_t
     return fieldscribe_within_u64(number, low, high) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
 }
 
-/* From low to high, both included. */
+/* A range with both ends included. */
 typedef struct fieldscribe_range {
     int32_t low;
     int32_t high;
 } fieldscribe_range;
 
-/* OK if the number lies in one of the ranges. */
+/* OK if the number is in one of the ranges. */
 FIELDSCRIBE_STATUS fieldscribe_check_ranges(int32_t number, const fieldscribe_range *ranges, size_t count)
 {
     fieldscribe_status status = FIELDSCRIBE_OUT_OF_RANGE;
@@ -196,7 +196,7 @@ static inline uint64_t fieldscribe_magnitude(int64_t number)
     return (number < 0) ? ((uint64_t)(-(number + 1)) + 1U) : (uint64_t)number;
 }
 
-/* ---- Store a number if the status is OK ---- */
+/* ---- Store a number and return its status ---- */
 
 FIELDSCRIBE_STATUS fieldscribe_keep_bool(fieldscribe_status status, bool number, bool *to)
 {
@@ -270,7 +270,7 @@ FIELDSCRIBE_STATUS fieldscribe_keep_s64(fieldscribe_status status, int64_t numbe
     return status;
 }
 
-/* Store a number if it lies within the limits. */
+/* Store a number if it is within the limits. */
 FIELDSCRIBE_STATUS fieldscribe_encode_bool(int32_t number, int32_t low, int32_t high, bool *raw)
 {
     if ((number < low) || (number > high)) {
@@ -394,7 +394,7 @@ FIELDSCRIBE_STATUS fieldscribe_store_s64(fieldscribe_whole whole, int64_t *to)
 
 /* ---- Scales in integers ---- */
 
-/* number / 2^bits, rounded down. */
+/* number / 2^bits, rounded towards minus infinity. */
 static inline int32_t fieldscribe_shift(int32_t number, uint32_t bits)
 {
     return (number < 0) ? (-1 - ((-1 - number) >> bits)) : (number >> bits);
@@ -417,8 +417,8 @@ static inline int64_t fieldscribe_halves_wide(int64_t number, uint32_t bits)
 }
 
 /*
- * number * (much + little / 2^fine) / 2^bits to the nearest integer: a quotient without a division. The compiler proves
- * for all numbers of a point that this is exact, halves away from zero, and that 32 bits suffice.
+ * number * (much + little / 2^fine) / 2^bits to the nearest integer: divides without a division. For each point that
+ * uses it, the compiler proves that the result is exact, with halves away from zero, and that 32 bits are enough.
  */
 static inline int32_t fieldscribe_nearly(int32_t number, int32_t much, int32_t little, uint32_t fine, uint32_t bits)
 {
@@ -434,7 +434,7 @@ static inline int64_t fieldscribe_nearly_wide(
     return fieldscribe_shift_wide((number * much) + fieldscribe_shift_wide(number * little, fine) + half, bits);
 }
 
-/* The quotient to the nearest integer, halves away from zero; the divisor is above zero. */
+/* The quotient to the nearest integer, halves away from zero; the divisor is positive. */
 static inline int64_t fieldscribe_divide(int64_t number, int64_t divisor)
 {
     const int64_t half = divisor / 2;
@@ -465,7 +465,7 @@ static inline fieldscribe_u128 fieldscribe_product(uint64_t a, uint64_t b)
     return product;
 }
 
-/* One bit of a long division: the next bit of the quotient. The divisor is at most 2^63, and the rest is below it. */
+/* The next bit of the quotient of a long division. The divisor is at most 2^63, the remainder `rest` less than it. */
 static inline uint64_t fieldscribe_quotient_bit(fieldscribe_u128 *number, uint64_t *rest, uint64_t divisor)
 {
     uint64_t bit = 0U;
@@ -479,7 +479,7 @@ static inline uint64_t fieldscribe_quotient_bit(fieldscribe_u128 *number, uint64
     return bit;
 }
 
-/* The next bits of a quotient, at most 32. `rest` is what is left over: it is below the divisor, that below 2^63. */
+/* The next bits of a quotient, at most 32. The remainder `rest` is less than the divisor, which is below 2^63. */
 static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t divisor, int32_t bits)
 {
     uint64_t left = *rest;
@@ -497,7 +497,7 @@ static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t diviso
     return quotient;
 }
 
-/* fieldscribe_twice_ratio of number / divisor in 64 bits; false, and nothing stored, if they may not be enough. */
+/* fieldscribe_twice_ratio of number / divisor in 64 bits; false, with nothing stored, if 64 bits may be too few. */
 static inline bool fieldscribe_short_ratio(
     uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
 {
@@ -542,8 +542,8 @@ static inline bool fieldscribe_short_ratio(
 }
 
 /*
- * Twice a * b / divisor * 2^shift, rounded down, and whether that left something over; false beyond 64 bits.
- * The divisor is in 1..2^63.
+ * 2 * a * b / divisor * 2^shift, rounded down; `left_over` tells if there is a remainder. False if the result needs
+ * more than 64 bits. The divisor is in 1..2^63.
  */
 static inline bool fieldscribe_twice_ratio(
     uint64_t a, uint64_t b, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
@@ -567,7 +567,7 @@ static inline bool fieldscribe_twice_ratio(
     return fits;
 }
 
-/* A sum of two numbers of 128 bits and 63 bits, each with its sign: its size, and whether it is negative. */
+/* The magnitude of the sum of a 128-bit and a 63-bit number; `apart`: their signs differ. */
 static inline fieldscribe_u128 fieldscribe_sum(fieldscribe_u128 number, uint64_t add, bool apart, bool *negative)
 {
     if (!apart) {
@@ -584,8 +584,8 @@ static inline fieldscribe_u128 fieldscribe_sum(fieldscribe_u128 number, uint64_t
 }
 
 /*
- * The count (size * factor + add) / divisor, each part with its sign, to the nearest integer, halves away from zero:
- * for numerators beyond 64 bits. Factor and addend are below 2^63, the divisor is in 1..2^63.
+ * The count (size * factor + add) / divisor, as sign and magnitude, to the nearest integer, halves away from zero: for
+ * numerators of more than 64 bits. Factor and addend are below 2^63, the divisor is in 1..2^63.
  */
 FIELDSCRIBE_STATUS fieldscribe_exact_count(bool negative, uint64_t size, uint64_t factor, bool subtracts, uint64_t add,
     uint64_t divisor, int64_t *count)
@@ -616,7 +616,7 @@ FIELDSCRIBE_STATUS fieldscribe_exact_count(bool negative, uint64_t size, uint64_
     return status;
 }
 
-/* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false when that is no int64_t. */
+/* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false if that does not fit. */
 static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den, int32_t shift, int64_t *result)
 {
     const bool negative = (number < 0) != ((num < 0) != (den < 0));
@@ -634,7 +634,7 @@ static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den
     return true;
 }
 
-/* a * b; false when that is no int64_t. */
+/* a * b; false if it does not fit int64_t. */
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
     fieldscribe_u128 size;
@@ -654,7 +654,7 @@ static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
     return true;
 }
 
-/* a + b; false when that is no int64_t. */
+/* a + b; false if it does not fit int64_t. */
 static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
 {
     uint64_t size;
@@ -672,9 +672,9 @@ static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
     return true;
 }
 
-/* ---- Patterns of binary32 numbers, and counts of them, in integers ---- */
+/* ---- binary32 patterns and counts, in integer arithmetic ---- */
 
-/* The size of the number is a mantissa times two to an exponent, which is above 104 for infinity and NaN alone. */
+/* The magnitude of a number as mantissa and power of two; the exponent is above 104 only for infinity and NaN. */
 static inline uint32_t fieldscribe_f32_mantissa(uint32_t bits)
 {
     return (bits & 0x7FFFFFU) | (((bits & 0x7F800000U) != 0U) ? 0x800000U : 0U);
@@ -686,12 +686,12 @@ static inline int32_t fieldscribe_f32_exponent(uint32_t bits)
     return (int32_t)((power != 0U) ? power : 1U) - 150;
 }
 
-/* The count of a pattern, where `tens` counts are one unit: 1 to 10^12; an overflow beyond -(2^63 - 1)..2^63 - 1. */
+/* The count of a pattern; `tens` counts (1 to 10^12) are one unit. OVERFLOW beyond -(2^63 - 1)..2^63 - 1. */
 FIELDSCRIBE_STATUS fieldscribe_count_of_f32(uint32_t bits, int64_t tens, int64_t *count)
 {
     const int32_t exponent = fieldscribe_f32_exponent(bits);
     uint64_t size = (uint64_t)fieldscribe_f32_mantissa(bits) * (uint64_t)tens;
-    bool fits = exponent < 40; /* from there on, 2^23 or more times 2^40 or more */
+    bool fits = exponent < 40; /* else at least 2^23 times 2^40 */
     if (fits && (exponent < 0)) {
         size = (exponent < -64) ? 0U : (size >> (-1 - exponent));
         size = (size / 2U) + (size & 1U);
@@ -708,7 +708,7 @@ FIELDSCRIBE_STATUS fieldscribe_count_of_f32(uint32_t bits, int64_t tens, int64_t
     return FIELDSCRIBE_OK;
 }
 
-/* The pattern nearest to a count, ties to even, where `tens` counts are one unit: 1 to 10^18. */
+/* The pattern nearest to a count, ties to even; `tens` counts (1 to 10^18) are one unit. */
 static inline fieldscribe_whole fieldscribe_f32_of_count(int64_t count, int64_t tens)
 {
     uint64_t rest = fieldscribe_magnitude(count);
@@ -724,7 +724,7 @@ static inline fieldscribe_whole fieldscribe_f32_of_count(int64_t count, int64_t 
     for (; (rest < over) && (power > 50); rest <<= 1) {
         --power;
     }
-    rest -= over; /* the leading bit; 24 more, of which the last rounds */
+    rest -= over; /* the leading bit; 24 more follow, the last for rounding */
     mantissa = 0x1000000U | fieldscribe_quotient_bits(&rest, over, 24);
     mantissa += ((rest != 0U) || ((mantissa & 2U) != 0U)) ? 1U : 0U;
     mantissa = (mantissa >> 1) + ((uint32_t)power << 23);
@@ -755,32 +755,32 @@ static inline fieldscribe_rule fieldscribe_rule_of(int64_t num, int64_t den, int
     return rule;
 }
 
-/* A rule that cannot be used; the first failure is kept. */
+/* Marks a rule as failed; keeps the first failure. */
 static inline fieldscribe_rule fieldscribe_rule_fails(fieldscribe_rule rule, fieldscribe_status status)
 {
     rule.status = fieldscribe_both(rule.status, status);
     return rule;
 }
 
-/* The scale has no case for the number in the other point. */
+/* A failed rule, for example because the scale has no case for the number of another point. */
 static inline fieldscribe_rule fieldscribe_no_rule(fieldscribe_status status)
 {
     return fieldscribe_rule_fails(fieldscribe_rule_of(1, 1, 0, 1), status);
 }
 
-/* The rule if something fits, else an overflow. */
+/* The rule, with OVERFLOW unless `fits`. */
 static inline fieldscribe_rule fieldscribe_rule_if(fieldscribe_rule rule, bool fits)
 {
     return fieldscribe_rule_fails(rule, fits ? FIELDSCRIBE_OK : FIELDSCRIBE_OVERFLOW);
 }
 
-/* The rule if the number lies within the limits, else an overflow. */
+/* The rule, with OVERFLOW unless the number is within the limits. */
 static inline fieldscribe_rule fieldscribe_rule_within(fieldscribe_rule rule, int64_t number, int64_t low, int64_t high)
 {
     return fieldscribe_rule_if(rule, fieldscribe_within_wide(number, low, high));
 }
 
-/* Multiply a limit by a factor, which may be zero. */
+/* Multiply a limit by a factor; it may be zero. */
 static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, int64_t factor)
 {
     int64_t num = rule.num;
@@ -820,7 +820,7 @@ static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, in
     return rule;
 }
 
-/* The number of a binary32 pattern: its mantissa and a power of two; zero, infinity and NaN are no factors. */
+/* Multiply or divide by the number of a binary32 pattern; zero, infinity and NaN are no factors. */
 static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides)
 {
     const int32_t exponent = fieldscribe_f32_exponent(bits);
@@ -831,8 +831,8 @@ static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint3
 }
 
 /*
- * count * num / den * 2^shift + offset / parts to the nearest integer, rounded once; false far beyond all raw numbers.
- * Twice the number of parts is known but for what a division leaves over.
+ * count * num / den * 2^shift + offset / parts to the nearest integer, rounded once; false if it is far outside all raw
+ * numbers. The sum is computed as twice the number of parts, plus the remainder of a division.
  */
 static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t den, int64_t *raw)
 {
@@ -849,14 +849,14 @@ static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t coun
         (!fieldscribe_add(sum, negative ? -(int64_t)twice : (int64_t)twice, &sum))) {
         return false;
     }
-    /* what is left over lies beyond the sum where both have one sign; else the size is a little less */
+    /* if the signs differ, the magnitude is a little less; otherwise the remainder does not change the rounding */
     if (left_over && (sum != 0) && ((sum < 0) != negative)) {
         sum += (sum < 0) ? 1 : -1;
     }
     return fieldscribe_multiply(rule->parts, 2, &parts) && fieldscribe_ratio_of(sum, 1, parts, 0, raw);
 }
 
-/* The raw number of `count`, where `tens` counts are one unit; false when it does not fit. */
+/* The raw number of `count`; `tens` counts are one unit. False if it does not fit. */
 static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
 {
     int64_t den = 0;
@@ -867,7 +867,7 @@ static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t 
                                : fieldscribe_lifted(rule, count, den, raw);
 }
 
-/* The raw number of a count, if it lies in low..high. */
+/* The raw number of a count, if it is in low..high. */
 static inline fieldscribe_whole fieldscribe_ruled_count(
     fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
 {
@@ -879,7 +879,7 @@ static inline fieldscribe_whole fieldscribe_ruled_count(
                                                             : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
 }
 
-/* The same by a rule without an offset. */
+/* The same for a rule without an offset. */
 static inline fieldscribe_whole fieldscribe_ratio_count(
     fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
 {
@@ -925,7 +925,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, 
     return fieldscribe_store_s64(whole, count);
 }
 
-/* The count of a raw number: it, times ten to a power of 0 to `most` (at most 9); another power is an overflow. */
+/* The count of a raw number: number * 10^power, power in 0..most (at most 9); OVERFLOW for any other power. */
 FIELDSCRIBE_STATUS fieldscribe_decode_power(int64_t raw, int32_t power, int32_t most, int64_t *count)
 {
     static const int32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
@@ -936,7 +936,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_power(int64_t raw, int32_t power, int32_t 
     return FIELDSCRIBE_OK;
 }
 
-/* The limit that a rule gives. */
+/* The limit that a rule computes. */
 static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
 {
     fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
@@ -946,7 +946,7 @@ static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
     return limit;
 }
 
-/* The same for a rule with a floating-point factor: a limit that does not fit exceeds every raw number. */
+/* The same for a rule with a floating-point factor; a limit that does not fit becomes INT64_MIN or INT64_MAX. */
 static inline fieldscribe_whole fieldscribe_limit_f32(fieldscribe_rule rule)
 {
     fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
@@ -956,7 +956,7 @@ static inline fieldscribe_whole fieldscribe_limit_f32(fieldscribe_rule rule)
     return limit;
 }
 
-/* A limit as a quotient, to the nearest integer; the divisor is not negative. */
+/* A limit as a quotient, to the nearest integer; the divisor is zero or positive. */
 static inline fieldscribe_whole fieldscribe_limit_ratio(int64_t number, int64_t divisor)
 {
     return (divisor == 0) ? fieldscribe_no_whole(FIELDSCRIBE_ZERO_FACTOR)
@@ -977,14 +977,14 @@ static inline fieldscribe_whole fieldscribe_no_more(fieldscribe_whole limit, int
     return limit;
 }
 
-/* OK if the number lies between two limits. */
+/* OK if the number is between two limits. */
 FIELDSCRIBE_STATUS fieldscribe_between(int64_t number, fieldscribe_whole low, fieldscribe_whole high)
 {
     return fieldscribe_both(
         fieldscribe_both(low.status, high.status), fieldscribe_check_wide(number, low.number, high.number));
 }
 
-/* OK if one of two checks allows the number; the failure to compute a limit comes first. */
+/* OK if one of two checks allows the number; a failure to compute a limit takes precedence. */
 FIELDSCRIBE_STATUS fieldscribe_either(fieldscribe_status one, fieldscribe_status other)
 {
     fieldscribe_status status = ((one == FIELDSCRIBE_OK) || (other == FIELDSCRIBE_OK)) ? FIELDSCRIBE_OK : one;
@@ -1005,13 +1005,13 @@ typedef struct fieldscribe_name {
     const char *name;
 } fieldscribe_name;
 
-/* The same for numbers that may need 64 bits, by their two's complement pattern. */
+/* The same for numbers of up to 64 bits, by their two's complement pattern. */
 typedef struct fieldscribe_wide_name {
     uint64_t bits;
     const char *name;
 } fieldscribe_wide_name;
 
-/* The name of a number that indexes the table of names; NULL if it has none. */
+/* The name of a number in a table without gaps; NULL if it has none. */
 static inline const char *fieldscribe_name_at(const char *const *names, size_t count, int64_t number)
 {
     return ((number >= 0) && ((uint64_t)number < count)) ? names[(size_t)number] : NULL;
@@ -1075,13 +1075,13 @@ static inline uint64_t fieldscribe_fix64(uint64_t raw, uint64_t mask, uint64_t b
     return (raw & ~mask) | bits;
 }
 
-/* The word with its bytes exchanged. */
+/* The word with its bytes swapped. */
 static inline uint16_t fieldscribe_exchanged(uint16_t word)
 {
     return (uint16_t)((((uint32_t)word & 0xFFU) << 8) | ((uint32_t)word >> 8));
 }
 
-/* Words to numbers and back, high word first. */
+/* Words to numbers and back, the high word first. */
 static inline uint32_t fieldscribe_join32(uint16_t high, uint16_t low)
 {
     return ((uint32_t)high << 16) | low;
@@ -1106,9 +1106,9 @@ static inline void fieldscribe_split64(
 }
 
 /*
- * Decimal digits of four bits each, and `most` that all these bits can hold. Bits that are no decimal number are a
- * number with too many digits: the bits themselves, or the least such number if that is greater. A number with too many
- * digits is its bits.
+ * Decimal digits of four bits each (BCD); `most` is the largest number that these bits can hold. Bits that are not
+ * decimal digits decode as a number with too many digits: the bits themselves, or the least such number if that is
+ * greater. A number with too many digits encodes as its own bits.
  */
 static inline uint32_t fieldscribe_of_bcd(uint32_t bits, uint32_t most)
 {
@@ -1134,14 +1134,14 @@ static inline uint32_t fieldscribe_bcd_of(uint32_t number, uint32_t most)
     if (number > 99999999U) {
         return number;
     }
-    for (left = 0x80000000U; left != 0U; left >>= 1) { /* bit by bit: a digit from 5 on, doubled, carries */
+    for (left = 0x80000000U; left != 0U; left >>= 1) { /* bit by bit: doubling a digit of 5 or more carries */
         const uint32_t carries = (bits + 0x33333333U) & 0x88888888U;
         bits = ((bits + ((carries >> 2) | (carries >> 3))) << 1) | (((number & left) != 0U) ? 1U : 0U);
     }
     return (bits > most) ? number : bits;
 }
 
-/* The same of up to 16 digits. */
+/* The same for up to 16 digits. */
 static inline uint64_t fieldscribe_of_bcd_wide(uint64_t bits, uint64_t most)
 {
     uint64_t number = 0U;
@@ -1167,13 +1167,13 @@ static inline uint64_t fieldscribe_bcd_of_wide(uint64_t number, uint64_t most)
     uint64_t places;
     for (places = most; places != 0U; places >>= 4) {
         bits += (left % 10U) * above;
-        above = (above & (UINT64_MAX >> 4)) << 4; /* no bit is lost, which sanitizers take for a mistake */
+        above = (above & (UINT64_MAX >> 4)) << 4; /* the mask keeps sanitizers from reporting lost bits */
         left /= 10U;
     }
     return (left == 0U) ? bits : number;
 }
 
-/* A sign, the highest bit, and the magnitude in the bits below it; minus zero is 0. */
+/* Sign and magnitude: the highest bit is the sign; minus zero decodes as 0. */
 static inline int64_t fieldscribe_of_sign_and_magnitude(uint64_t bits, uint64_t sign)
 {
     const uint64_t below = bits & (sign - 1U) & (uint64_t)INT64_MAX;
@@ -1186,7 +1186,7 @@ static inline uint64_t fieldscribe_sign_and_magnitude(int64_t number, uint64_t s
     return (fieldscribe_magnitude(number) & (sign - 1U)) | ((number < 0) ? sign : 0U);
 }
 
-/* The decimal digits of a word, highest first; the highest takes the rest of the number. */
+/* The decimal digits of a word, highest first; the highest one takes the rest of the number. */
 static inline void fieldscribe_digits_of(uint16_t raw, uint16_t *digits, size_t count)
 {
     uint16_t rest = raw;
@@ -1198,7 +1198,7 @@ static inline void fieldscribe_digits_of(uint16_t raw, uint16_t *digits, size_t 
     digits[0] = rest;
 }
 
-/* The same where the raw number may be a special code, which has no digits. */
+/* The same for a raw number that may be a special code, which has no digits. */
 FIELDSCRIBE_STATUS fieldscribe_quantity_digits(bool special, uint16_t raw, uint16_t *digits, size_t count)
 {
     if (special) {
@@ -1224,7 +1224,7 @@ FIELDSCRIBE_STATUS fieldscribe_check_digits(uint16_t raw, size_t count, const fi
     return status;
 }
 
-/* The word of these digits, if each has a name. */
+/* Store the word of these digits, if each has a name. */
 static inline fieldscribe_whole fieldscribe_number_of_digits(
     const uint16_t *digits, size_t count, const fieldscribe_name *names, size_t known)
 {
@@ -1242,13 +1242,13 @@ static inline fieldscribe_whole fieldscribe_number_of_digits(
     return fieldscribe_whole_of((int64_t)number);
 }
 
-/* A character is printable ASCII, or (where `latin`) ISO 8859-1. */
+/* True if a character is printable ASCII, or ISO 8859-1 if `latin`. */
 static inline bool fieldscribe_is_printable(unsigned char code, bool latin)
 {
     return (code >= 0x20U) && ((code <= 0x7EU) || (latin && (code >= 0xA0U)));
 }
 
-/* Store two characters in each word, the first in the high byte, and fill up with spaces. */
+/* Store two characters in each word, the first in the high byte, and pad with spaces. */
 FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bool latin, uint16_t *words, size_t count)
 {
     const unsigned char *const codes = (const unsigned char *)text;
@@ -1270,7 +1270,7 @@ FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bo
     return FIELDSCRIBE_OK;
 }
 
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+/* Store all characters without trailing spaces, then a 0; returns the length. */
 static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t count, char *text)
 {
     unsigned char *const codes = (unsigned char *)text;
@@ -1288,8 +1288,8 @@ static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t cou
 }
 
 /*
- * Texts in other layouts: `in_word` characters stand in a word. Of two the first has the high byte, a single one the
- * low byte, and the bytes are swapped where `low_first`. `fill` stands behind a text; the first 0 ends it.
+ * Texts in other layouts, with `in_word` characters in each word. Of two, the first is the high byte; a single one is
+ * the low byte; `low_first` swaps the bytes of each word. Words are padded with `fill`; a text ends at the first 0.
  */
 static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool low_first)
 {
@@ -1297,7 +1297,7 @@ static inline uint32_t fieldscribe_packed_shift(size_t at, size_t in_word, bool 
     return (is_low == low_first) ? 8U : 0U;
 }
 
-/* Store characters, fill up, and put a 0 beside a single one. Blanks at the end are not part of the text. */
+/* Store characters, padded; the other byte of a single one is 0. Trailing spaces are not part of the text. */
 static inline void fieldscribe_pack(const unsigned char *codes, size_t length, uint16_t *words, size_t most,
     size_t in_word, bool low_first, unsigned char fill)
 {
@@ -1313,7 +1313,7 @@ static inline void fieldscribe_pack(const unsigned char *codes, size_t length, u
     }
 }
 
-/* Store a text so; OUT_OF_RANGE if it does not fit, or has a character that is not printable. */
+/* Store a text; OUT_OF_RANGE if it does not fit or has a character that is not printable. */
 FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t length, bool latin, uint16_t *words,
     size_t most, size_t in_word, bool low_first, unsigned char fill)
 {
@@ -1331,7 +1331,7 @@ FIELDSCRIBE_STATUS fieldscribe_packed_words_of_text(const char *text, size_t len
     return FIELDSCRIBE_OK;
 }
 
-/* The characters up to the fill, without the blanks at the end, and a 0 behind them; returns how many there are. */
+/* Store the characters up to the padding, without trailing spaces, then a 0; returns the length. */
 static inline size_t fieldscribe_packed_text_of_words(
     const uint16_t *words, size_t most, size_t in_word, bool low_first, unsigned char fill, char *text)
 {
@@ -1352,7 +1352,7 @@ static inline size_t fieldscribe_packed_text_of_words(
     return length;
 }
 
-/* Bytes in words as characters in other layouts, and back; what stands beside a single one is 0. */
+/* Bytes from words in these layouts, and back; the other byte of a single one is 0. */
 static inline void fieldscribe_bytes_of_words(
     const uint16_t *words, size_t count, size_t in_word, bool low_first, uint8_t *bytes)
 {
@@ -1376,7 +1376,7 @@ static inline void fieldscribe_words_of_bytes(
 
 /* ---- UTF-8 and UTF-16 ---- */
 
-/* How many bytes a character has. */
+/* The number of bytes of a character in UTF-8. */
 static inline size_t fieldscribe_utf8_size(uint32_t number)
 {
     size_t size = 1U;
@@ -1392,7 +1392,7 @@ static inline size_t fieldscribe_utf8_size(uint32_t number)
     return size;
 }
 
-/* The bytes of the character that these begin with, and its number; 0 bytes if they begin with no UTF-8. */
+/* The first character of a text and the number of its bytes; 0 bytes if it is no valid UTF-8. */
 static inline size_t fieldscribe_utf8_first(const unsigned char *codes, size_t length, uint32_t *character)
 {
     const uint32_t lead = codes[0];
@@ -1425,7 +1425,7 @@ static inline size_t fieldscribe_utf8_first(const unsigned char *codes, size_t l
     return (fieldscribe_utf8_size(number) == size) ? size : 0U;
 }
 
-/* Whether a text is UTF-8 without control characters; counts its 16-bit units. */
+/* True if a text is UTF-8 without control characters; counts its UTF-16 units. */
 static inline bool fieldscribe_utf8_is_printable(const char *text, size_t length, size_t *units)
 {
     const unsigned char *const codes = (const unsigned char *)text;
@@ -1442,7 +1442,7 @@ static inline bool fieldscribe_utf8_is_printable(const char *text, size_t length
     return fine;
 }
 
-/* Store a text of UTF-8 as the packed ones; OUT_OF_RANGE if it does not fit or is none. */
+/* Store a UTF-8 text, two bytes a word; OUT_OF_RANGE if it does not fit or is not UTF-8. */
 FIELDSCRIBE_STATUS fieldscribe_words_of_utf8(const char *text, size_t length, uint16_t *words, size_t most,
     size_t in_word, bool low_first, unsigned char fill)
 {
@@ -1454,7 +1454,7 @@ FIELDSCRIBE_STATUS fieldscribe_words_of_utf8(const char *text, size_t length, ui
     return FIELDSCRIBE_OK;
 }
 
-/* The text as the packed ones; MALFORMED if it is no UTF-8. */
+/* The UTF-8 text of words with two bytes each; MALFORMED if it is not UTF-8. */
 FIELDSCRIBE_STATUS fieldscribe_utf8_of_words(const uint16_t *words, size_t most, size_t in_word, bool low_first,
     unsigned char fill, char *text, size_t *length)
 {
@@ -1476,7 +1476,7 @@ static inline uint16_t fieldscribe_in_order(uint32_t word, bool low_first)
     return (uint16_t)(low_first ? (((word & 0xFFU) << 8) | (word >> 8)) : word);
 }
 
-/* Store a text of UTF-8 as UTF-16, a unit a word, filled up; OUT_OF_RANGE if it does not fit or is none. */
+/* Store a UTF-8 text as UTF-16, one unit a word, padded; OUT_OF_RANGE if it does not fit or is not UTF-8. */
 FIELDSCRIBE_STATUS fieldscribe_words_of_utf16(
     const char *text, size_t length, uint16_t *words, size_t most, bool low_first, unsigned char fill)
 {
@@ -1525,8 +1525,8 @@ static inline size_t fieldscribe_append_utf8(unsigned char *codes, size_t length
 }
 
 /*
- * The text of UTF-16 words as UTF-8, which has up to three bytes for each of `most`, up to the fill and without blanks
- * at the end; MALFORMED if it is no UTF-16.
+ * The text of UTF-16 words as UTF-8, up to the padding and without trailing spaces; it has up to three bytes for each
+ * of `most` words. MALFORMED if it is not UTF-16.
  */
 FIELDSCRIBE_STATUS fieldscribe_utf16_of_words(
     const uint16_t *words, size_t most, bool low_first, unsigned char fill, char *text, size_t *length)
@@ -1559,7 +1559,7 @@ FIELDSCRIBE_STATUS fieldscribe_utf16_of_words(
 
 /* ---- Floating-point patterns ---- */
 
-/* The rank of a bit pattern among all numbers; negative numbers have ranks below 0. */
+/* The rank of a bit pattern among all numbers; negative numbers have negative ranks. */
 static inline int32_t fieldscribe_f32_order(uint32_t bits)
 {
     const int32_t size = (int32_t)(bits & 0x7FFFFFFFU);
@@ -1572,7 +1572,7 @@ static inline int64_t fieldscribe_f64_order(uint64_t bits)
     return (bits > (uint64_t)INT64_MAX) ? -size : size;
 }
 
-/* OK if the rank of a pattern lies between two ranks. */
+/* OK if the rank of a pattern is between two ranks. */
 FIELDSCRIBE_STATUS fieldscribe_check_f32(uint32_t bits, int32_t low, int32_t high)
 {
     const int32_t order = fieldscribe_f32_order(bits);
@@ -1614,7 +1614,7 @@ static inline fieldscribe_real fieldscribe_times(fieldscribe_real value, fieldsc
 #endif
 }
 
-/* The quotient of two integers that a fieldscribe_real holds. */
+/* The quotient of two integers that fieldscribe_real holds exactly. */
 static inline fieldscribe_real fieldscribe_ratio(int32_t number, int32_t divisor)
 {
     return (fieldscribe_real)number / (fieldscribe_real)divisor;
@@ -1634,7 +1634,7 @@ FIELDSCRIBE_STATUS fieldscribe_keep_real(fieldscribe_status status, fieldscribe_
     return status;
 }
 
-/* The nearest integer, halves away from zero, if it lies in low..high (which stay below 2^31 - 1 in size). */
+/* The nearest integer, halves away from zero, if it is in low..high (limits of a magnitude below 2^31 - 1). */
 FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32_t high, int32_t *whole)
 {
     int32_t nearest;
@@ -1649,7 +1649,7 @@ FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32
     } else if (rest <= (fieldscribe_real)-0.5) {
         --nearest;
     } else {
-        /* nearest already */
+        /* already the nearest */
     }
     return fieldscribe_encode_s32(nearest, low, high, whole);
 }
@@ -1714,7 +1714,7 @@ FIELDSCRIBE_STATUS fieldscribe_scale_s16(
     return fieldscribe_round_s16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
-/* Bytes are copied: a cast would convert the number, an alias is undefined. */
+/* Copies bytes: a cast would convert the number, and aliasing is undefined. */
 static inline void fieldscribe_copy(void *to, const void *from, size_t size)
 {
 #if defined(__GNUC__)
@@ -1767,7 +1767,7 @@ static inline double fieldscribe_times_wide(double value, double factor)
 #endif
 }
 
-/* The quotient of two integers that a double holds. */
+/* The quotient of two integers that a double holds exactly. */
 static inline double fieldscribe_ratio_wide(int64_t number, int64_t divisor)
 {
     return (double)number / (double)divisor;
@@ -1787,7 +1787,7 @@ FIELDSCRIBE_STATUS fieldscribe_keep_double(fieldscribe_status status, double num
     return status;
 }
 
-/* The nearest integer, halves away from zero, if it lies in low..high. */
+/* The nearest integer, halves away from zero, if it is in low..high. */
 static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t low, int64_t high)
 {
     int64_t nearest;
@@ -1802,7 +1802,7 @@ static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t 
     } else if ((rest <= -0.5) && (nearest > INT64_MIN)) {
         --nearest;
     } else {
-        /* nearest already */
+        /* already the nearest */
     }
     return fieldscribe_whole_in(nearest, low, high);
 }
@@ -1841,7 +1841,7 @@ static inline double fieldscribe_long_quotient(fieldscribe_u128 number, uint64_t
     uint64_t tail;
     int32_t left;
     double value;
-    /* bit by bit until there are 55 of them: two more than a double has, and what is left over */
+    /* 55 bits: two more than a double has; then the remainder */
     for (left = 128; (quotient < (exact * 2U)) && (left > -128); --left) {
         quotient = (quotient << 1) | fieldscribe_quotient_bit(&number, &rest, divisor);
     }
@@ -1861,8 +1861,8 @@ static inline double fieldscribe_long_quotient(fieldscribe_u128 number, uint64_t
 }
 
 /*
- * (size * factor + add) / divisor to the nearest double, each part with its sign: for numerators that no double holds.
- * Factor, addend and divisor are below 2^63.
+ * (size * factor + add) / divisor as sign and magnitude, to the nearest double, ties to even: for numerators that a
+ * double does not hold exactly. Factor, addend and divisor are below 2^63.
  */
 static inline double fieldscribe_quotient(
     bool negative, uint64_t size, uint64_t factor, bool subtracts, uint64_t add, uint64_t divisor)
@@ -1883,7 +1883,7 @@ static inline double fieldscribe_quotient(
     return below ? -value : value;
 }
 
-/* The raw number of a value by a rule, if it lies in low..high. */
+/* The raw number of a value by a rule, if it is in low..high. */
 static inline fieldscribe_whole fieldscribe_ruled_value(fieldscribe_rule rule, double value, int64_t low, int64_t high)
 {
     double number;
@@ -1915,13 +1915,13 @@ FIELDSCRIBE_STATUS fieldscribe_decode_value(fieldscribe_rule rule, int64_t raw, 
         rule.status = FIELDSCRIBE_OVERFLOW;
     }
     if (rule.status == FIELDSCRIBE_OK) {
-        *value = (number == 0) ? 0.0 : ((double)number / (double)num); /* 0 has no sign */
+        *value = (number == 0) ? 0.0 : ((double)number / (double)num); /* 0, never -0 */
         *value *= fieldscribe_two_to(-rule.shift); /* exact */
     }
     return rule.status;
 }
 
-/* The same by a division of 128 bits, for numerators that no double holds; the raw number is its sign and its size. */
+/* The same by a 128-bit division, for numerators that no double holds; the raw number is sign and magnitude. */
 FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative, uint64_t size, double *value)
 {
     const bool turned = (rule.num < 0) != (rule.den < 0);
@@ -1950,8 +1950,8 @@ FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative,
 /* ---- Raw numbers in words ---- */
 
 /*
- * The C type of a raw number; the pattern of a floating-point number is U32 or U64. Functions of their own take and put
- * the last three: ..._from_words and ..._to_words, of bits that share a word ..._extract and ..._insert.
+ * The C type of a raw number; a floating-point pattern is U32 or U64. Points of the last three types have functions of
+ * their own: ..._from_words and ..._to_words, or ..._extract and ..._insert for bits that share a word.
  */
 typedef enum fieldscribe_type {
     FIELDSCRIBE_BIT,
@@ -1963,21 +1963,21 @@ typedef enum fieldscribe_type {
     FIELDSCRIBE_S32,
     FIELDSCRIBE_U64,
     FIELDSCRIBE_S64,
-    FIELDSCRIBE_LOW_FIRST,        /* any of these, the low byte of each word first... */
-    FIELDSCRIBE_LOW_FIRST_SIGNED, /* ...with a sign */
-    FIELDSCRIBE_CODED             /* any of these in decimal digits, or as sign and magnitude */
+    FIELDSCRIBE_LOW_FIRST,        /* any of the above, the low byte of each word first */
+    FIELDSCRIBE_LOW_FIRST_SIGNED, /* the same, signed */
+    FIELDSCRIBE_CODED             /* decimal digits, or sign and magnitude */
 } fieldscribe_type;
 
 /* The position of a raw number in words. */
 typedef struct fieldscribe_layout {
     uint8_t type;        /* a fieldscribe_type */
     uint8_t words;       /* 1, 2 or 4 */
-    uint16_t order;      /* the position of each word, a hexadecimal digit each, the high word first */
-    bool shares;         /* other points have bits in its word: these are written as they were read */
+    uint16_t order;      /* the position of each word, one hexadecimal digit each, the high word first */
+    bool shares;         /* other points have bits in its word: they are preserved */
     uint8_t shift;       /* the position of its lowest bit in the word */
     uint64_t mask;       /* its bits in the words */
-    uint64_t fixed_mask; /* bits that are always written as... */
-    uint64_t fixed_bits; /* ...these */
+    uint64_t fixed_mask; /* constant bits... */
+    uint64_t fixed_bits; /* ...and their values */
 } fieldscribe_layout;
 
 #ifdef __cplusplus
@@ -1985,10 +1985,10 @@ extern "C" {
 #endif
 
 /*
- * The raw number out of words, of which there are `count`. False, and nothing stored, when the point's raw number has
- * another type (a call that is right once is always right), or when there are no words or fewer than the point has.
- * Each family finds the words of a point its own way: in a block (fieldscribe_modbus_words_in), in a telegram
- * (fieldscribe_can_received), in process data (fieldscribe_uss_words_heard).
+ * The raw number in `count` words. False, with nothing stored, if the point's raw number has another type (which does
+ * not depend on the words: test the call once), or if there are no words, or fewer than the point has. Each family
+ * finds the words of a point in its own way: in a block (fieldscribe_modbus_words_in), in a telegram
+ * (fieldscribe_can_received) or in process data (fieldscribe_uss_words_heard).
  */
 
 FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(
@@ -2019,9 +2019,9 @@ FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, int64_t *raw);
 
 /*
- * The raw number into words. A point that shares its word changes its own bits alone: words[0] must hold the word as
- * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point, or
- * when there are no words or fewer than the point has. Limits are not checked: pass the result of ..._encode, or call
+ * Stores the raw number in words. For a point that shares its word, words[0] must hold the word as just read: only the
+ * point's bits change. False, with nothing stored, if the raw number has another type or more bits than the point, or
+ * if there are no words, or fewer than the point has. Limits are not checked: pass the result of ..._encode, or call
  * ..._check first.
  */
 
@@ -2051,15 +2051,15 @@ FIELDSCRIBE_CHECKED bool fieldscribe_put_u64(
 FIELDSCRIBE_CHECKED bool fieldscribe_put_s64(
     const fieldscribe_layout *layout, int64_t raw, uint16_t *words, size_t count);
 
-/* A text: where each of its words is, in the order of reading. */
+/* A text: the address of each of its words, in reading order. */
 typedef struct fieldscribe_text {
     const uint16_t *addresses;
-    uint16_t first; /* the lowest of them */
+    uint16_t first; /* the lowest address */
     uint16_t words;
 } fieldscribe_text;
 /*
- * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
- * stored, if one of them is NULL or has fewer words than the text: `count` and `room` say how many.
+ * Words from the order of their addresses, as in frames, to reading order, and back. False, with nothing stored, if an
+ * array is NULL or has fewer words than the text; `count` and `room` are their sizes.
  */
 FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
@@ -2072,25 +2072,25 @@ FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
 
 #endif
 
-/* ---- Functions that a program defines once ---- */
+/* ---- Definitions ---- */
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_IMPLEMENTED)
 #define FIELDSCRIBE_IMPLEMENTED
 
-/* True if the layout has that type, and there are enough words. */
+/* True if the layout has this type, and there are enough words. */
 static bool fieldscribe_layout_fits(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, fieldscribe_type type)
 {
     return (layout != NULL) && (words != NULL) && (layout->type == (uint8_t)type) && (count >= layout->words);
 }
 
-/* The position of a word; `significance` counts from the low word. */
+/* The position of a word; `significance` is 0 for the low word. */
 static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
 {
     return ((size_t)layout->order >> (4U * significance)) & 0xFU;
 }
 
-/* The low 32 bits of the words, one number. */
+/* The low 32 bits of the words as one number. */
 static uint32_t fieldscribe_layout_joined(const fieldscribe_layout *layout, const uint16_t *words)
 {
     uint32_t number = 0U;
@@ -2143,7 +2143,7 @@ static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t 
     }
 }
 
-/* Store bits that fit: into a shared word without changing its other bits, else with the sign extended. */
+/* Store bits that fit: preserve the other bits of a shared word; otherwise extend the sign. */
 static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32_t bits, uint16_t *words)
 {
     uint32_t number = bits;

@@ -1,30 +1,31 @@
 /*
- * CAN frames by layout: builds messages and reads answers, and gathers cyclic telegrams that come in several frames.
- * No heap; the state of a receiver is the caller's. Any bytes at any length are safe to parse.
- * SPDX-License-Identifier: 0BSD
+  * CAN frames by layout: builds messages, parses answers, and collects cyclic telegrams that arrive in several frames.
+  * No heap; the state of a receiver is the caller's. Parsing is safe for any bytes of any length.
+  * SPDX-License-Identifier: 0BSD
+  *
+  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
  *
- * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
- *
- * Reading a parameter:
+  * To read a parameter:
  *
  *     const fieldscribe_can_rw *const point = &woodward_mpu2s_password_level_2_frame;
  *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
- *     discard();      (frames that have come in: a late answer would be taken for this one)
+ *     discard();      (received frames: else a late answer is taken for this one)
  *     send(&frame);
- *     (frames come; each is offered, and one with another status than OK is none of this answer)
+ *     (pass each received frame; any status but OK: it is not this answer)
  *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, &word);
  *     fits = fieldscribe_take_u16(point->layout, &word, 1U, &raw);
  *
- * Writing one: ..._encode says whether the number may be written, and the macro of a special code is such a raw number
- * as it stands; fieldscribe_put_u16(point->layout, raw, &word, 1U) puts any that fits into the word, then
- * fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame); fieldscribe_can_write_answer is OK for the frame
- * with which the device took it. A point that only some bits of a word are has `update` for `write`: read its word
- * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
- * long one is, and fieldscribe_can_id which identifier a filter has to let through.
- *
- * Interrupts: frames of a telegram may be taken in an interrupt and its words be read elsewhere, or the reverse: what
- * is read is of one moment, or TORN where reading interrupted fieldscribe_can_take. One place alone takes the frames
- * of a receiver. All else here keeps no state.
+  * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
+  * already a raw number. fieldscribe_put_u16(point->layout, raw, &word, 1U) stores it in the word without that check,
+  * and fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame) builds the frame.
+  * fieldscribe_can_write_answer returns OK for the frame that confirms the write. A point that has only some bits of a
+  * word has `update`, not `write`: read the word, put the bits, write it back. Over a serial gateway,
+  * fieldscribe_can_reply_length returns the length of an answer. fieldscribe_can_id returns the identifier to let
+  * through a filter.
+  *
+  * Interrupts: you can take the frames of a telegram in an interrupt and read its words elsewhere, or the reverse. What
+  * is read is consistent, or TORN if the read interrupted fieldscribe_can_take. Only one context may take the frames of
+  * a receiver. All other functions keep no state.
  */
 #include "fieldscribe.h"
 
@@ -35,10 +36,10 @@
 extern "C" {
 #endif
 
-/* What the headers of devices rely on: it grows when they have to be generated anew. */
+/* The version that device headers check; it increases when they must be generated again. */
 #define FIELDSCRIBE_CAN_INTERFACE 2
 
-/* All messages have eight bytes of data, which hold at most four words. */
+/* All messages have eight bytes of data, so at most four words. */
 #define FIELDSCRIBE_CAN_BYTES 8U
 #define FIELDSCRIBE_CAN_WORDS 4U
 
@@ -51,21 +52,21 @@ typedef enum fieldscribe_can_status {
     /* parsing */
     FIELDSCRIBE_CAN_WRONG_ID,
     FIELDSCRIBE_CAN_WRONG_LENGTH,
-    FIELDSCRIBE_CAN_WRONG_CONSTANT, /* a byte that is always the same is another */
+    FIELDSCRIBE_CAN_WRONG_CONSTANT, /* a constant byte is wrong */
     FIELDSCRIBE_CAN_WRONG_UNIT,
-    FIELDSCRIBE_CAN_WRONG_CHECK,   /* bytes do not agree with those that they combine */
+    FIELDSCRIBE_CAN_WRONG_CHECK,   /* a check byte does not match the bytes that it combines */
     FIELDSCRIBE_CAN_WRONG_ADDRESS, /* the answer is about another parameter */
-    FIELDSCRIBE_CAN_ECHO_MISMATCH, /* the device answers a write with another word than the one that was written */
+    FIELDSCRIBE_CAN_ECHO_MISMATCH, /* the answer to a write has another word than was written */
     /* telegrams */
-    FIELDSCRIBE_CAN_MISSING, /* the frame that carries a word has not come yet */
-    FIELDSCRIBE_CAN_TORN,    /* words may be of different times: wait for more frames */
-    FIELDSCRIBE_CAN_BUFFER_TOO_SMALL /* the caller's words do not hold the result */
+    FIELDSCRIBE_CAN_MISSING, /* the frame with the word has not arrived yet */
+    FIELDSCRIBE_CAN_TORN,    /* the words may be of different cycles: wait for more frames */
+    FIELDSCRIBE_CAN_BUFFER_TOO_SMALL /* the caller's array of words is too small for the result */
 } fieldscribe_can_status;
 
-/* The name of a status in small letters, for a log: "wrong_id"; "unknown" for another number. */
+/* The name of a status in lower case, for logs: "wrong_id"; "unknown" for any other number. */
 const char *fieldscribe_can_status_name(fieldscribe_can_status status);
 
-/* A data frame; of `length` bytes (which a stranger may make larger than 8) the first eight are in `data`. */
+/* A data frame; `length` may exceed 8 in a foreign frame: `data` has the first eight bytes. */
 typedef struct fieldscribe_can_frame {
     uint32_t id;
     uint8_t length;
@@ -75,12 +76,12 @@ typedef struct fieldscribe_can_frame {
 /* What a byte of a message carries. */
 typedef enum fieldscribe_can_kind {
     FIELDSCRIBE_CAN_CONSTANT, /* number: the byte */
-    FIELDSCRIBE_CAN_UNIT,     /* number: how many bits the byte lies above bit 0; the same below */
+    FIELDSCRIBE_CAN_UNIT,     /* number: the position of the byte's lowest bit; also for the next ones */
     FIELDSCRIBE_CAN_ADDRESS,
     FIELDSCRIBE_CAN_RAW,
     FIELDSCRIBE_CAN_MULTIPLEXER,
-    FIELDSCRIBE_CAN_WORD, /* number: twice the word of the frame, and 1 more for its low byte */
-    FIELDSCRIBE_CAN_XOR   /* number: a mask of the bytes of the message that are combined */
+    FIELDSCRIBE_CAN_WORD, /* number: twice the index of the word, plus 1 for its low byte */
+    FIELDSCRIBE_CAN_XOR   /* number: a mask of the bytes that are combined */
 } fieldscribe_can_kind;
 
 typedef struct fieldscribe_can_role {
@@ -88,28 +89,28 @@ typedef struct fieldscribe_can_role {
     uint8_t number;
 } fieldscribe_can_role;
 
-/* A layout of bytes with an identifier, to which the unit number may be added. */
+/* The identifier of a message, to which the unit number may be added, and the layout of its bytes. */
 typedef struct fieldscribe_can_message {
     uint32_t id;
     bool adds_unit;
     fieldscribe_can_role roles[FIELDSCRIBE_CAN_BYTES];
 } fieldscribe_can_message;
 
-/* What a device understands. */
+/* What a device supports. */
 typedef struct fieldscribe_can_profile {
     uint8_t first_unit;
     uint8_t last_unit;
     uint8_t identifier_bits; /* 11 or 29 */
 } fieldscribe_can_profile;
 
-/* What a message carries for one parameter. One that carries no address or no raw number takes any; 0 is usual. */
+/* The content of a message for one parameter; a message without address or raw number ignores them. */
 typedef struct fieldscribe_can_content {
     uint32_t unit;
     uint32_t address;
     uint32_t raw;
 } fieldscribe_can_content;
 
-/* The messages that read and write one parameter, and those that answer; NULL for one that there is not. */
+/* The messages that read and write one parameter, and those that answer; NULL if there is none. */
 typedef struct fieldscribe_can_dialogue {
     const fieldscribe_can_profile *profile;
     const fieldscribe_can_message *read;
@@ -118,7 +119,7 @@ typedef struct fieldscribe_can_dialogue {
     const fieldscribe_can_message *write_answer;
 } fieldscribe_can_dialogue;
 
-/* The parameter that is read, or written. */
+/* The parameter to read, or to write. */
 typedef struct fieldscribe_can_reading {
     uint16_t address;
 } fieldscribe_can_reading;
@@ -127,7 +128,7 @@ typedef struct fieldscribe_can_writing {
     uint16_t address;
 } fieldscribe_can_writing;
 
-/* The same for a text, which has a parameter for each of its words, in the order of reading. */
+/* The same for a text: one parameter for each of its words, in reading order. */
 typedef struct fieldscribe_can_text_reading {
     const uint16_t *addresses;
     uint16_t words;
@@ -138,7 +139,7 @@ typedef struct fieldscribe_can_text_writing {
     uint16_t words;
 } fieldscribe_can_text_writing;
 
-/* Where a point stands in a telegram: the positions of its high and its low word, the same for a point of one word. */
+/* The positions of a point's high and low word in a telegram; the same position twice for one word. */
 typedef struct fieldscribe_can_heard {
     uint16_t high;
     uint16_t low;
@@ -150,8 +151,8 @@ typedef struct fieldscribe_can_text_heard {
 } fieldscribe_can_text_heard;
 
 /*
- * A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points;
- * `heard` in a telegram.
+ * A point by its access: `read`, `write`, or `update` if it shares its word with other points; `heard` if it is in a
+ * telegram.
  */
 typedef struct fieldscribe_can_r {
     const fieldscribe_layout *layout;
@@ -202,7 +203,7 @@ typedef struct fieldscribe_can_text_h {
     fieldscribe_can_text_heard heard;
 } fieldscribe_can_text_h;
 
-/* A cyclic layout of words; a message with a multiplexer carries `per_frame` of them at a time. */
+/* A cyclic layout of words; each frame of its message carries `per_frame` of them. */
 typedef struct fieldscribe_can_telegram {
     const fieldscribe_can_profile *profile;
     const fieldscribe_can_message *message;
@@ -210,7 +211,7 @@ typedef struct fieldscribe_can_telegram {
     uint8_t per_frame;
 } fieldscribe_can_telegram;
 
-/* The words of one multiplexer, now and the time before; `now` and `before` count taken frames, 0 is never. */
+/* The words of one multiplexer in its last two frames; `now` and `before` number the frames taken, 0: none. */
 typedef struct fieldscribe_can_slot {
     uint64_t now;
     uint64_t before;
@@ -220,7 +221,7 @@ typedef struct fieldscribe_can_slot {
     uint16_t words_before[FIELDSCRIBE_CAN_WORDS];
 } fieldscribe_can_slot;
 
-/* Gathers the frames of one telegram of one unit; `slots` has one item for each frame that the telegram consists of. */
+/* Collects the frames of one telegram of one unit; `slots` has one item for each frame of the telegram. */
 typedef struct fieldscribe_can_receiver {
     const fieldscribe_can_telegram *telegram;
     fieldscribe_can_slot *slots;
@@ -230,7 +231,7 @@ typedef struct fieldscribe_can_receiver {
     uint8_t unit;
 } fieldscribe_can_receiver;
 
-/* A raw number of another signal, by its word; with `more` the next one will do, too. */
+/* A condition: the word of another signal has this raw number; `more`: or the next condition holds. */
 typedef struct fieldscribe_can_choice {
     uint16_t word;
     uint16_t raw;
@@ -238,19 +239,19 @@ typedef struct fieldscribe_can_choice {
 } fieldscribe_can_choice;
 
 /*
- * Bits of a message that are one number. `start` is the first of them as CAN databases count: bit 7 of byte 1 is 15; it
- * is the bit of the lowest value if the low byte comes first, else that of the highest one. It comes in a frame if the
- * `choices` hold, one of those that `more` joins, and all that are not joined.
+ * The bits of a number in a message. `start` is the first bit as CAN databases count them: bit 7 of byte 1 is 15. It is
+ * the lowest bit of the number if the low byte comes first, else the highest. A frame has the signal if all conditions
+ * in `when` hold; of those joined by `more`, one is enough.
  */
 typedef struct fieldscribe_can_signal {
     uint16_t start;
     uint8_t width;
     bool low_first;
     uint16_t choices;
-    const fieldscribe_can_choice *when; /* NULL: it always comes */
+    const fieldscribe_can_choice *when; /* NULL: every frame has the signal */
 } fieldscribe_can_signal;
 
-/* A message of signals; each takes a word for 16 bits, the high one first, in their order. */
+/* A message of signals. Each takes one word for 16 bits, the high word first, in the order of `signals`. */
 typedef struct fieldscribe_can_signals {
     const fieldscribe_can_profile *profile;
     uint32_t id;
@@ -261,107 +262,106 @@ typedef struct fieldscribe_can_signals {
     uint16_t words;
 } fieldscribe_can_signals;
 
-/* The identifier of a message of that unit: what a filter has to let through. */
+/* The identifier of the message of a unit: a filter must let it through. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit);
 
-/* The bytes of data of an answer; 0 where nobody answers. */
+/* The number of data bytes of an answer; 0 if there is no answer. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_reply_length(const fieldscribe_can_message *answer);
 
-/* The frame of a message; nothing is stored unless the result is OK. */
+/* Builds the frame of a message; stores nothing unless the result is OK. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *profile,
     const fieldscribe_can_message *message, const fieldscribe_can_content *content, fieldscribe_can_frame *frame);
 
-/* Reads a message of content->unit; address and raw number are 0 where it has none, and unless the result is OK. */
+/* Parses a message of content->unit; address and raw number are 0 if it has none, or unless the result is OK. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_parse(
     const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, fieldscribe_can_content *content);
 
-/* The frame that asks for a parameter. */
+/* Builds the frame that requests a parameter. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
     const fieldscribe_can_reading *what, fieldscribe_can_frame *frame);
 
-/* The word that a frame answers with; nothing is stored unless the result is OK. */
+/* Takes the word out of an answer; stores nothing unless the result is OK. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read_answer(const fieldscribe_can_dialogue *dialogue,
     uint8_t unit, const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *word);
 
-/* The frame that writes a word. */
+/* Builds the frame that writes a word. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
     const fieldscribe_can_writing *what, uint16_t word, fieldscribe_can_frame *frame);
 
-/* Whether a frame confirms that the device took what was written: it tells the word that stands there now. */
+/* OK if a frame confirms a write: it carries the word that the device has now. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialogue *dialogue,
     uint8_t unit, const fieldscribe_can_writing *what, uint16_t word, const fieldscribe_can_frame *frame);
 
-/* Word `at` of a text, to be read, or written, as a parameter; BAD_ADDRESS when the text has no such word. */
+/* Word `at` of a text as a parameter to read or write; BAD_ADDRESS if the text has no such word. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_read(
     const fieldscribe_can_text_reading *text, size_t at, fieldscribe_can_reading *word);
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_write(
     const fieldscribe_can_text_writing *text, size_t at, fieldscribe_can_writing *word);
 
-/* How many frames, and so slots, a telegram consists of. */
+/* The number of frames of a telegram, which is the number of slots it needs. */
 FIELDSCRIBE_CHECKED size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram);
 
 /*
- * Takes the words out of a frame, if it is one of the telegram of that unit: `per_frame` of them, 0 behind them, and
- * which part of the telegram they are. To a unit that the device cannot have nothing belongs.
+ * Takes the words out of a frame if it belongs to the telegram of that unit: `per_frame` words, then 0, and the part of
+ * the telegram that they are. No frame belongs to a unit number that the device cannot have.
  */
 bool fieldscribe_can_unpack(const fieldscribe_can_telegram *telegram, uint8_t unit, const fieldscribe_can_frame *frame,
     size_t *part, uint16_t words[FIELDSCRIBE_CAN_WORDS]);
 
 /*
- * A receiver for the telegram of one unit that has not heard anything yet; the slots stay with it. With fewer of them
- * (`count`) than the telegram has frames it never takes one.
+ * An empty receiver for the telegram of one unit; it keeps using the slots. If `count` is less than the number of
+ * frames of the telegram, it never takes one.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_receiver fieldscribe_can_listen(
     const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots, size_t count);
 
 /*
- * Takes a frame that came at `time`, by a clock of yours (0 if you do not ask for ages), if it is one of the telegram.
+ * Takes a frame that arrived at `time` by your clock (0 if you do not need ages), if it belongs to the telegram.
  */
 bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time);
 
-/* The newest word at a position of the telegram, which counts from 0. */
+/* The newest word at a position of the telegram, from 0 on. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word(
     const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word);
 
 /*
- * The words of a point, the high one first, where `count` are room enough; nothing is stored unless the result is OK.
- * Where two words of one number come in different frames, they are believed only when the same high word came before
- * and after the low one.
+ * The words of a point, the high word first, if `count` is enough; stores nothing unless the result is OK. Two words
+ * that arrive in different frames are accepted only if the same high word arrived before and after the low word.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_heard *what, uint16_t *words, size_t count);
 
 /*
- * How long ago the frames came that fieldscribe_can_received takes the words from, the older of two, by the clock that
- * times frames, which may run over. Nothing is stored unless the result is OK.
+ * The age of the words that fieldscribe_can_received takes: of the older frame, if there are two. `now` is by the clock
+ * that times frames, which may overflow. Stores nothing unless the result is OK.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_age(
     const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint32_t now, uint32_t *age);
 
 /*
- * The words of a text in the order of reading; those that came are stored, up to the first that has not, and none if
- * the text has more than `count`.
+ * The words of a text in reading order; stores those before the first word that has not arrived, and none if the text
+ * has more than `count`.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_text_heard *what, uint16_t *words, size_t count);
 
-/* The identifier of a message of signals of that unit. */
+/* The identifier of a message of signals of a unit. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_signals_id(const fieldscribe_can_signals *message, uint8_t unit);
 
 /*
- * Takes the words of all signals out of the `length` bytes of a frame, where `count` are room enough; nothing is stored
- * unless the result is OK. Which of them come with this frame, fieldscribe_can_comes says.
+ * Takes the words of all signals out of a frame of `length` bytes, if `count` is enough; stores nothing unless the
+ * result is OK. fieldscribe_can_comes says which of the signals this frame has.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_take_signals(const fieldscribe_can_signals *message,
     uint8_t unit, uint32_t id, const uint8_t *data, size_t length, uint16_t *words, size_t count);
 
-/* Whether the signal whose first word that is comes in the frame of these words; MISSING if others select another. */
+/* OK if the frame of these words has the signal with this first word; MISSING if its conditions are false. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_comes(
     const fieldscribe_can_signals *message, uint16_t word, const uint16_t *words, size_t count);
 
 /*
- * Puts the words of signals into the bytes of a frame, `length` of which are room enough; nothing is stored unless the
- * result is OK. All other bits are 0, and those of signals that do not come.
+ * Puts the words of signals into the bytes of a frame, if `length` is enough; stores nothing unless the result is OK.
+ * All other bits are 0, and those of signals that the frame does not have.
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_put_signals(const fieldscribe_can_signals *message,
     const uint16_t *words, size_t count, uint8_t *data, size_t length);
@@ -372,7 +372,7 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_put_signals(const fie
 
 #endif
 
-/* ---- The one definition ---- */
+/* ---- Definitions ---- */
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_CAN_IMPLEMENTED)
 #define FIELDSCRIBE_CAN_IMPLEMENTED
@@ -390,7 +390,7 @@ uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit
     return message->id + (message->adds_unit ? unit : 0U);
 }
 
-/* How far the byte of a role lies above bit 0 of its number; whatever a table says, less than the bits of a word. */
+/* The position of a role's lowest bit; limited to the bits of a word, whatever the table says. */
 static unsigned fieldscribe_can_shift(fieldscribe_can_role role)
 {
     return role.number & 0xFU;
@@ -447,7 +447,7 @@ fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *prof
     return FIELDSCRIBE_CAN_OK;
 }
 
-/* Whether every byte of that kind is what it has to be. */
+/* True if every byte of a kind has the expected value. */
 static bool fieldscribe_can_agrees(
     const fieldscribe_can_message *message, uint8_t kind, uint8_t unit, const uint8_t data[FIELDSCRIBE_CAN_BYTES])
 {
@@ -470,7 +470,7 @@ static bool fieldscribe_can_agrees(
     return true;
 }
 
-/* Whether a frame is that message of that unit. */
+/* OK if a frame is this message of this unit. */
 static fieldscribe_can_status fieldscribe_can_recognize(
     const fieldscribe_can_message *message, uint8_t unit, const fieldscribe_can_frame *frame)
 {
@@ -492,7 +492,7 @@ static fieldscribe_can_status fieldscribe_can_recognize(
     return FIELDSCRIBE_CAN_OK;
 }
 
-/* The unit of a content, in the type that frames know it in; none has one beyond. */
+/* The unit of a content as a uint8_t; larger numbers are no unit. */
 static uint8_t fieldscribe_can_unit(const fieldscribe_can_content *content)
 {
     return (uint8_t)((content->unit > 0xFFU) ? 0xFFU : content->unit);
@@ -520,7 +520,7 @@ fieldscribe_can_status fieldscribe_can_parse(
     return FIELDSCRIBE_CAN_OK;
 }
 
-/* Whether a message has a byte of that kind. */
+/* True if a message has a byte of this kind. */
 static bool fieldscribe_can_carries(const fieldscribe_can_message *message, uint8_t kind)
 {
     unsigned at = 0U;
@@ -535,14 +535,14 @@ uint32_t fieldscribe_can_reply_length(const fieldscribe_can_message *answer)
     return (answer != NULL) ? FIELDSCRIBE_CAN_BYTES : 0U;
 }
 
-/* Reads the answer about content->address; its word is content->raw. */
+/* Parses the answer for content->address; its word becomes content->raw. */
 static fieldscribe_can_status fieldscribe_can_answer(
     const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, fieldscribe_can_content *content)
 {
     const uint32_t address = content->address;
     fieldscribe_can_status status;
     if (message == NULL) {
-        return FIELDSCRIBE_CAN_WRONG_ID; /* no frame is the answer */
+        return FIELDSCRIBE_CAN_WRONG_ID; /* there is no answer message */
     }
     status = fieldscribe_can_parse(message, frame, content);
     if ((status == FIELDSCRIBE_CAN_OK) && (content->address != address) &&
@@ -611,7 +611,7 @@ fieldscribe_can_status fieldscribe_can_word_to_write(
 
 /* ---- Cyclic telegrams ---- */
 
-/* How many words a frame carries: whatever a table says, as many as a slot has room for, and not none. */
+/* The number of words of a frame; limited to 1 up to the room of a slot, whatever the table says. */
 static uint8_t fieldscribe_can_per_frame(const fieldscribe_can_telegram *telegram)
 {
     if ((telegram->per_frame == 0U) || (telegram->per_frame > FIELDSCRIBE_CAN_WORDS)) {
@@ -626,7 +626,7 @@ size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
     return ((size_t)telegram->words / per_frame) + (((telegram->words % per_frame) != 0U) ? 1U : 0U);
 }
 
-/* A slot that nothing came into. */
+/* An empty slot. */
 static const fieldscribe_can_slot fieldscribe_can_silent = {0U, 0U, 0U, 0U, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
 
 fieldscribe_can_receiver fieldscribe_can_listen(
@@ -691,7 +691,7 @@ bool fieldscribe_can_unpack(const fieldscribe_can_telegram *telegram, uint8_t un
 
 bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time)
 {
-    volatile uint32_t *const changes = &receiver->changes; /* volatile: written in this order */
+    volatile uint32_t *const changes = &receiver->changes; /* volatile: keeps the order of the writes */
     volatile fieldscribe_can_slot *slot;
     uint16_t words[FIELDSCRIBE_CAN_WORDS] = {0U, 0U, 0U, 0U};
     size_t part = 0U;
@@ -715,11 +715,11 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
     return true;
 }
 
-/* Copies the slot of a word as it is between two frames; MISSING if nothing came, or the telegram has no such word. */
+/* Copies a word's slot in a consistent state; MISSING if it is empty, or if the telegram has no such word. */
 static fieldscribe_can_status fieldscribe_can_heard_slot(
     const fieldscribe_can_receiver *receiver, uint16_t position, fieldscribe_can_slot *copy)
 {
-    const volatile uint32_t *const changes = &receiver->changes; /* volatile: read in this order */
+    const volatile uint32_t *const changes = &receiver->changes; /* volatile: keeps the order of the reads */
     const size_t frame = (size_t)position / fieldscribe_can_per_frame(receiver->telegram);
     const volatile fieldscribe_can_slot *slot;
     uint32_t begin;
@@ -741,7 +741,7 @@ static fieldscribe_can_status fieldscribe_can_heard_slot(
             copy->words_before[at] = slot->words_before[at];
         }
         end = *changes;
-    } while ((begin != end) && ((begin % 2U) == 0U)); /* a frame was taken meanwhile */
+    } while ((begin != end) && ((begin % 2U) == 0U)); /* a frame was taken during the copy */
     if ((begin % 2U) != 0U) {
         return FIELDSCRIBE_CAN_TORN;
     }
@@ -759,7 +759,7 @@ fieldscribe_can_status fieldscribe_can_word(
     return status;
 }
 
-/* Whether a high word that came before and after a low one, in a frame of its own, is the same. */
+/* True if the same high word arrived before and after the low word, each in a frame of its own. */
 static bool fieldscribe_can_around(
     const fieldscribe_can_slot *high, const fieldscribe_can_slot *low, uint8_t place)
 {
@@ -770,7 +770,7 @@ static bool fieldscribe_can_around(
                                   : ((low->before >= high->before) && (low->before <= high->now));
 }
 
-/* The high and the low word of a point, and when their frames came; the same twice for a point of one word. */
+/* The high and the low word of a point and the times of their frames; the same twice for one word. */
 static fieldscribe_can_status fieldscribe_can_pair(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_heard *what, uint16_t words[2], uint32_t times[2])
 {
@@ -782,12 +782,12 @@ static fieldscribe_can_status fieldscribe_can_pair(const fieldscribe_can_receive
     fieldscribe_can_slot low;
     const fieldscribe_can_status high_status = fieldscribe_can_heard_slot(receiver, what->high, &high);
     const fieldscribe_can_status low_status = fieldscribe_can_heard_slot(receiver, what->low, &low);
-    bool before = false; /* the low word is that of the time before */
+    bool before = false; /* the low word is that of the previous cycle */
     if ((high_status != FIELDSCRIBE_CAN_OK) || (low_status != FIELDSCRIBE_CAN_OK)) {
         return (high_status != FIELDSCRIBE_CAN_OK) ? high_status : low_status;
     }
     if (!apart) {
-        low = high; /* of one moment */
+        low = high; /* both of the same frame */
     } else if (fieldscribe_can_around(&high, &low, high_place)) {
         before = high.now < low.now;
     } else {
@@ -820,7 +820,7 @@ fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *
     return status;
 }
 
-/* From one time of a clock to another, which may have run over meanwhile. */
+/* The time from one reading of a clock to a later one; the clock may have overflowed between them. */
 static uint32_t fieldscribe_can_since(uint32_t time, uint32_t now)
 {
     return (now >= time) ? (now - time) : (((UINT32_MAX - time) + now) + 1U);
@@ -854,13 +854,13 @@ fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_recei
 
 /* ---- Signals ---- */
 
-/* How many words a signal takes; no number has more than 64 bits, whatever a table says. */
+/* The number of words of a signal; at most 64 bits, whatever the table says. */
 static uint16_t fieldscribe_can_words_of(const fieldscribe_can_signal *signal)
 {
     return (uint16_t)(((signal->width < 64U) ? (signal->width + 15U) : 64U) / 16U);
 }
 
-/* The next bits of a signal: the byte, the lowest of its bits, how many they are, and how far they lie above bit 0. */
+/* The next bits of a signal: their byte, lowest bit in it, number, and position in the number. */
 typedef struct fieldscribe_can_piece {
     size_t byte;
     unsigned low;
@@ -868,7 +868,7 @@ typedef struct fieldscribe_can_piece {
     unsigned above;
 } fieldscribe_can_piece;
 
-/* The bits of a signal behind the first `done`, in the order in which bytes travel; none are 0 bits. */
+/* The bits of a signal after the first `done`, in the order of the bytes on the bus; 0 bits: no more. */
 static fieldscribe_can_piece fieldscribe_can_piece_at(const fieldscribe_can_signal *signal, unsigned done)
 {
     const unsigned width = (signal->width < 64U) ? signal->width : 64U;
@@ -884,7 +884,7 @@ static fieldscribe_can_piece fieldscribe_can_piece_at(const fieldscribe_can_sign
     return piece;
 }
 
-/* The raw number of a signal without its sign; bytes that are not there are 0. */
+/* The bits of a signal as an unsigned number; missing bytes count as 0. */
 static uint64_t fieldscribe_can_get(const fieldscribe_can_signal *signal, const uint8_t *data, size_t length)
 {
     uint64_t raw = 0U;
@@ -899,7 +899,7 @@ static uint64_t fieldscribe_can_get(const fieldscribe_can_signal *signal, const 
     return raw;
 }
 
-/* Sets bits of a signal in bytes that are 0 there. */
+/* Sets the bits of a signal in bytes where they are 0. */
 static void fieldscribe_can_set(const fieldscribe_can_signal *signal, uint64_t raw, uint8_t *data, size_t length)
 {
     unsigned done = 0U;
@@ -914,7 +914,7 @@ static void fieldscribe_can_set(const fieldscribe_can_signal *signal, uint64_t r
     }
 }
 
-/* Whether a signal comes with these words. */
+/* True if a frame with these words has the signal. */
 static bool fieldscribe_can_selected(const fieldscribe_can_signal *signal, const uint16_t *words, size_t count)
 {
     bool fits = false;

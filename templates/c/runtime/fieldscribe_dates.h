@@ -1,5 +1,5 @@
 /*
- * Dates and times whose parts stand in some bits of the words of a point, as the device keeps them: without a zone.
+ * Dates and times whose parts are bits of the words of a point, in the device's own time, without a time zone.
  * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
@@ -7,9 +7,9 @@
 #ifndef FIELDSCRIBE_DATES_H
 #define FIELDSCRIBE_DATES_H
 
-/* What a point has no part for is 0 when it is decoded, and not looked at when it is encoded. */
+/* A date and time. Decoding sets fields that the point does not have to 0; encoding ignores them. */
 typedef struct fieldscribe_date_time {
-    uint16_t year; /* with all its digits */
+    uint16_t year; /* for example 2026 */
     uint8_t month;
     uint8_t day;
     uint8_t hour;
@@ -24,17 +24,17 @@ typedef struct fieldscribe_date_time {
 #define FIELDSCRIBE_DATE_HOUR 3U
 #define FIELDSCRIBE_DATE_MINUTE 4U
 #define FIELDSCRIBE_DATE_SECOND 5U
-#define FIELDSCRIBE_DATE_MILLISECOND 6U /* of the minute, if there is no second */
-#define FIELDSCRIBE_DATE_WEEKDAY 7U     /* not looked at when it is decoded */
+#define FIELDSCRIBE_DATE_MILLISECOND 6U /* within the minute, if there is no second */
+#define FIELDSCRIBE_DATE_WEEKDAY 7U     /* decoding ignores it */
 #define FIELDSCRIBE_DATE_FIELDS 8U
 
-/* A part: which word has it, its lowest bit there, and a mask of its number. */
+/* A part: the index of its word, its lowest bit there, and a mask of its number. */
 typedef struct fieldscribe_date_part {
     uint8_t field;
     uint8_t word;
     uint8_t low;
     uint16_t mask;
-    uint16_t base; /* the year that a 0 means; of a weekday the number of Sunday: 0, 1, 6 or 7 */
+    uint16_t base; /* the year that 0 means; for a weekday, the number of Sunday: 0, 1, 6 or 7 */
 } fieldscribe_date_part;
 
 /* The parts of a point. */
@@ -55,7 +55,7 @@ static inline bool fieldscribe_date_has(const fieldscribe_date_form *form, uint8
     return found;
 }
 
-/* The number that decimal digits of four bits are; UINT32_MAX if one is none. */
+/* The number with these decimal digits of four bits; UINT32_MAX if one is not a digit. */
 static inline uint32_t fieldscribe_date_decimal(uint32_t bits)
 {
     uint32_t number = 0U;
@@ -74,7 +74,7 @@ static inline uint32_t fieldscribe_date_digits(uint32_t number)
     return (hundreds << 8U) | (((number / 10U) % 10U) << 4U) | (number % 10U);
 }
 
-/* Whether the numbers of all fields, of which the millisecond is within its second, are a date and time. */
+/* True if the fields are a date and time; the millisecond counts within its second. */
 static inline bool fieldscribe_date_is_real(const fieldscribe_date_form *form, const uint32_t *numbers)
 {
     const uint32_t year = numbers[FIELDSCRIBE_DATE_YEAR];
@@ -93,7 +93,7 @@ static inline bool fieldscribe_date_is_real(const fieldscribe_date_form *form, c
     return real;
 }
 
-/* MALFORMED if the words hold no date and time: all zeros, all ones, the 31st of February. */
+/* MALFORMED if the words are no date and time, such as all zeros, all ones, or the 31st of February. */
 static inline fieldscribe_status fieldscribe_date_of_words(
     const uint16_t *words, const fieldscribe_date_form *form, fieldscribe_date_time *time)
 {
@@ -123,7 +123,7 @@ static inline fieldscribe_status fieldscribe_date_of_words(
     return FIELDSCRIBE_OK;
 }
 
-/* The number of the weekday of a date where Sunday has the number `sunday`: days count from 0000-03-01, a Wednesday. */
+/* The weekday of a date if Sunday has the number `sunday`. Days count from 0000-03-01, a Wednesday. */
 static inline uint32_t fieldscribe_date_weekday(const fieldscribe_date_time *time, uint32_t sunday)
 {
     const uint32_t year = (uint32_t)time->year - ((time->month < 3U) ? 1U : 0U);
@@ -133,7 +133,7 @@ static inline uint32_t fieldscribe_date_weekday(const fieldscribe_date_time *tim
     return (sunday < 6U) ? (((days + 3U) % 7U) + sunday) : (((days + 2U) % 7U) + sunday - 6U);
 }
 
-/* OUT_OF_RANGE for what is no date and time, or what a part has no room for: then the words stay as they are. */
+/* OUT_OF_RANGE if this is no date and time, or a part has no room for it: the words do not change then. */
 static inline fieldscribe_status fieldscribe_words_of_date(
     const fieldscribe_date_time *time, const fieldscribe_date_form *form, uint16_t *words, size_t count)
 {

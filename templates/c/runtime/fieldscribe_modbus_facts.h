@@ -1,6 +1,6 @@
 /*
- * The types of what is known of a Modbus device and its points: functions, addresses, counts. There is no code here:
- * programs with a Modbus stack of their own do without fieldscribe_modbus.h.
+  * Types for the facts of a Modbus device and its points: functions, addresses, counts. There is no code here: programs
+  * with a Modbus stack of their own do not need fieldscribe_modbus.h.
  * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
@@ -8,18 +8,18 @@
 #ifndef FIELDSCRIBE_MODBUS_FACTS_H
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
-/* What the headers of devices rely on: it grows when they have to be generated anew. */
+/* The version that device headers check; it increases when they must be generated again. */
 #define FIELDSCRIBE_MODBUS_INTERFACE 6
 
-/* In a profile: no unit number is a broadcast. */
+/* In a profile: the device has no broadcast address. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
-/* What vendoring leaves out where no chosen point needs it, and no function of these names is chosen. */
+/* Parts that vendoring leaves out if no chosen point or function needs them. */
 #define FIELDSCRIBE_MODBUS_COILS    /* part: functions 01h, 02h, 05h and 0Fh */
 #define FIELDSCRIBE_MODBUS_WRITES   /* part: functions 05h to 10h, fieldscribe_modbus_write*, fieldscribe_modbus_send */
 #define FIELDSCRIBE_MODBUS_OVER_TCP /* part: TCP beside RTU, fieldscribe_modbus_*tcp */
 
-/* All functions have codes below this, and those that read below the other. */
+/* The limits of function codes: all are below the first, those that read below the second. */
 #define FIELDSCRIBE_MODBUS_READS 5U
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
 #define FIELDSCRIBE_MODBUS_FUNCTIONS 17U
@@ -27,7 +27,7 @@
 #define FIELDSCRIBE_MODBUS_FUNCTIONS FIELDSCRIBE_MODBUS_READS
 #endif
 
-/* What a device understands. */
+/* What a device supports. */
 typedef struct fieldscribe_modbus_profile {
     uint8_t first_unit;
     uint8_t last_unit;
@@ -35,20 +35,20 @@ typedef struct fieldscribe_modbus_profile {
     bool tcp;
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
     bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
-    uint16_t broadcast;   /* the unit that all listen to */
-    uint32_t to_all;      /* bit n: function n may go to all units at once */
+    uint16_t broadcast;   /* the unit number that addresses all units */
+    uint32_t to_all;      /* bit n: function n may be broadcast */
 #endif
-    uint16_t most[FIELDSCRIBE_MODBUS_FUNCTIONS]; /* how many items a request of function n carries; 0: not known */
+    uint16_t most[FIELDSCRIBE_MODBUS_FUNCTIONS]; /* the most items in a request of function n; 0: not supported */
 } fieldscribe_modbus_profile;
 
-/* The number of coils, or of inputs, unless the runtime has nothing for them. */
+/* The most coils or inputs in a request; 0 if the runtime is compiled without them. */
 #if defined(FIELDSCRIBE_MODBUS_COILS)
 #define FIELDSCRIBE_MODBUS_OF_COILS(most) (most)
 #else
 #define FIELDSCRIBE_MODBUS_OF_COILS(most) 0U
 #endif
 
-/* A profile of these facts: f1 and the like are the most items of each function. */
+/* The initial value of a profile; f1 and so on are the most items of each function. */
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
 #define FIELDSCRIBE_MODBUS_PROFILE( \
     first, last, rtu, tcp, pads, broadcast, to_all, f1, f2, f3, f4, f5, f6, f8, f15, f16) \
@@ -77,8 +77,8 @@ typedef struct fieldscribe_modbus_writing {
 } fieldscribe_modbus_writing;
 
 /*
- * What the addresses of some points count from, and the last address that does. `start` and `last` together are 65535
- * at most; in a base that is not known they are more, and nothing is read or written there.
+ * The first address of points whose addresses count from a base, and the last one relative to it. Their sum is at most
+ * 65535. The base of a block that was not found has a larger sum: nothing is read or written there.
  */
 typedef struct fieldscribe_modbus_base {
     uint16_t start;
@@ -89,8 +89,8 @@ typedef struct fieldscribe_modbus_base {
 #define FIELDSCRIBE_MODBUS_MARKER_MOST 8U
 
 /*
- * Blocks that a device has behind a marker: each starts with its id and the number of words that follow these two;
- * `end` in place of an id ends them. The marker stands at one of `places`.
+ * A chain of blocks after a marker: each block starts with its id and the number of words that follow these two; the id
+ * `end` ends the chain. The marker is at one of `places`.
  */
 typedef struct fieldscribe_modbus_chain {
     const uint16_t *marker;
@@ -102,8 +102,9 @@ typedef struct fieldscribe_modbus_chain {
 } fieldscribe_modbus_chain;
 
 /*
- * What is written before an address means a point, such as a page and an index: rows up to the `last` one. The bits of
- * `mask` in the word (or coil) at `address` become `word`; if these are not all, the function `read` reads the others.
+ * What must be written before an address means a point, such as a page and an index: rows up to the one marked `last`.
+ * The bits of `mask` in the word (or coil) at `address` become `word`. If the mask does not cover the whole word, the
+ * function `read` reads the word first.
  */
 typedef struct fieldscribe_modbus_selection {
     uint16_t address;
@@ -114,7 +115,7 @@ typedef struct fieldscribe_modbus_selection {
     bool last;
 } fieldscribe_modbus_selection;
 
-/* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
+/* A point by its access: `read`, `write`, or `update` if it shares its word with other points. */
 typedef struct fieldscribe_modbus_r {
     const fieldscribe_layout *layout;
     fieldscribe_modbus_reading read;
@@ -137,7 +138,7 @@ typedef struct fieldscribe_modbus_ru {
     fieldscribe_modbus_writing update;
 } fieldscribe_modbus_ru;
 
-/* The same for texts. */
+/* The same for a text. */
 typedef struct fieldscribe_modbus_text_r {
     fieldscribe_text text;
     fieldscribe_modbus_reading read;
@@ -155,12 +156,12 @@ typedef struct fieldscribe_modbus_text_rw {
 } fieldscribe_modbus_text_rw;
 
 /*
- * A point in a table of yours: static const fieldscribe_modbus_row rows[] = {HITACHI_L200_OUTPUT_FREQUENCY_ROW, ...};
- * Its number is its count in 10^-decimals units, which is (raw * divisor - add) / factor; where that takes more
- * than the raw number, `decimals` is FIELDSCRIBE_MODBUS_RAW, and the number is the raw one. Numbers from `low`
- * to `high` may be written; `write` is NULL if nothing may be, or if special codes or other points decide what
- * may: ..._write_POINT does. FIELDSCRIBE_NAMES, which a program defines in all its files or in none, adds the
- * name and the unit.
+  * A point in a table of yours: static const fieldscribe_modbus_row rows[] = {HITACHI_L200_OUTPUT_FREQUENCY_ROW, ...};
+  * Its number counts units of 10^-decimals: (raw * divisor - add) / factor. Where that needs more than the raw number,
+  * `decimals` is FIELDSCRIBE_MODBUS_RAW, and the number is the raw one. Numbers from `low` to `high` may be written;
+  * `write` is NULL if the point is not writable, or if special codes or other points decide which numbers may be
+  * written: use ..._write_POINT then. FIELDSCRIBE_NAMES adds the name and the unit: define it in all files of a program
+  * or in none.
  */
 typedef struct fieldscribe_modbus_row {
     const fieldscribe_modbus_profile *profile;
@@ -179,7 +180,7 @@ typedef struct fieldscribe_modbus_row {
 #endif
 } fieldscribe_modbus_row;
 
-/* The same of a point whose addresses count from a base, for fieldscribe_modbus_read_row_at and ..._write_row_at. */
+/* The same for a point whose address counts from a base: for fieldscribe_modbus_read_row_at and ..._write_row_at. */
 typedef struct fieldscribe_modbus_based_row {
     fieldscribe_modbus_row row;
 } fieldscribe_modbus_based_row;
@@ -197,7 +198,7 @@ typedef struct fieldscribe_modbus_based_row {
     profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit) \
     {FIELDSCRIBE_MODBUS_ROW(profile, layout, read, write, low, high, factor, add, divisor, decimals, name, unit)}
 
-/* A named constant that is written. */
+/* A command: a named constant to write. */
 typedef struct fieldscribe_modbus_command {
     fieldscribe_modbus_writing write;
     uint16_t value;

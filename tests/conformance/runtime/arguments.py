@@ -240,7 +240,7 @@ def check_transports(package: Package) -> None:
         True,
     )
     error = refusal(awaiting(Memory({1: 5}), 1).one.read)
-    assert (error.status, str(error).endswith("where an async device awaits: it takes an async transport")) == (
+    assert (error.status, str(error).endswith("an async device takes an async transport")) == (
         "bad_transport", True,
     )  # fmt: skip
     for kind in can_kinds(package)[:1]:
@@ -346,7 +346,7 @@ def check_lists_of_points(package: Package) -> None:
         refuses(access, "there is no group one; it is a point: read_many(['one']) reads it", device.read_many, "one")
         refuses(access, "there is no group A1; it is a point: read_many(['A1']) reads it", device.read_many, "A1")
         refuses(access, "a group is named by a text, not ''", device.read_many, "")
-        refuses(absent, "go is a command of this device: go.send() gives it", device.point, "go")
+        refuses(absent, "go is a command of this device: go.send() sends it", device.point, "go")
         refuses(absent, "main is a group of this device: read_many('main') reads it", device.point, "main")
         for what in ("odd_", "odd", "o1"):
             shown = f"{what} is documented only{'' if what == 'odd_' else ', as odd_'}: nobody knows"

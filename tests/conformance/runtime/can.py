@@ -112,11 +112,11 @@ def check_echoes(package: Package) -> None:
         error = refusal(device.speed.write, 4)
         assert type(error) is package.runtime.EchoError
         assert (error.written, error.answered, error.point) == ((4,), (6,), "P5 speed")
-        assert str(error) == "P5 speed: 4 was written, and the device answered 6"
+        assert str(error) == "P5 speed: 4 was written, but the device answered 6"
         error = refusal(device.write_at, "parameter", 5, 4)
-        assert (str(error), error.point) == ("4 was written to 5, and the device answered 6", None)
+        assert (str(error), error.point) == ("4 was written to 5, but the device answered 6", None)
         error = refusal(device.long.write, 4)
-        assert str(error) == "long: 4 was written to 7, and the device answered 6"
+        assert str(error) == "long: 4 was written to 7, but the device answered 6"
 
 
 def check_telegrams(package: Package) -> None:

@@ -227,7 +227,7 @@ def check_shown(package: Package) -> None:
         f"<ReadHandle R1 read: holding 0x0001 of {own}>",
     )
     assert (repr(kind.one), repr(kind.any)) == (
-        "<ByVariant one: one_a or one_b, as model says>",
+        "<ByVariant one: one_a or one_b, by model>",
         "<Command any: holding 0x0009>",
     )
     facts = {"references": {"modicon": 4138, "manual": "M7"}, "bits": (7, 4)}

@@ -116,7 +116,7 @@ def check_help(package: Package) -> None:
     )
     assert "it writes the number 7 to holding 0x000C." in kind.one.__doc__
     assert kind.way.__doc__ == (
-        "way: What this is depends on model, which the device is made with; help() tells more of each:\n\n"
+        "way: This depends on model, which is passed when the device is made; use help() on each:\n\n"
         "- model a: needy\n- model b: mode"
     )
     for told in (kind.speed, device.speed, kind):

@@ -94,14 +94,14 @@ def check_layouts_that_are_not_encoded(package: Package) -> None:
     refuses(runtime.AccessError, "R1 read cannot be written with these words", whole.encode, {})
     refuses(
         runtime.AccessError,
-        "no point says all bits of the words at 2, 3",
+        "no points cover all bits of the words at 2, 3",
         runtime.Layout(every, range(2, 5)).encode,
         {},
     )
     last = runtime.Layout(every, range(4, 6))
     assert last.encode({"fixed": 7, "write": 0x1234}) == b"\3\7\x12\x34"
     for values, names in (({"fixed": 7}, "write"), ({"fixed": 7, "other": 1}, "other, write")):
-        wrong = f"takes a value of each point and no other: see {names}"
+        wrong = f"takes a value for each point and no others: check {names}"
         refuses(runtime.RequestError, wrong, last.encode, values)
     refuses(runtime.RangeError, "write: 65536 is outside 0..65535", last.encode, {"fixed": 7, "write": 65536})
 
@@ -192,11 +192,11 @@ def check_bit_layouts(package: Package) -> None:
     refuses(runtime.WrongLengthError, "takes 2 bytes, not 1", layout.decode, b"\1")
     refuses(runtime.WrongTypeError, "takes 2 bytes, not [1, 2]", layout.decode, [1, 2])
     refuses(runtime.RangeError, "B100 bit_100: 2 is outside 0..1", layout.encode, {**values, "bit_100": 2})
-    missing = "takes a value of each point and no other: see named"
+    missing = "takes a value for each point and no others: check named"
     refuses(runtime.RequestError, missing, layout.encode, {name: False for name in points if name != "named"})
     wide = package.modbus.BitLayout(every[:2], range(99, 103))
     assert wide.decode(b"\2") == {"bit_100": True, "bit_101": False}
-    refuses(runtime.AccessError, "no point says all bits of the words at 99, 102", wide.encode, {})
+    refuses(runtime.AccessError, "no points cover all bits of the words at 99, 102", wide.encode, {})
 
 
 def check_layouts_take_what_they_say(package: Package) -> None:
@@ -214,5 +214,5 @@ def check_layouts_take_what_they_say(package: Package) -> None:
     refuses(runtime.WrongTypeError, "raws are raw numbers by name, as {'name': 1}, not [4]", layout.decode, DATA, [4])
     refuses(runtime.WrongTypeError, "raws are raw numbers by name, as {'name': 1}, not 4", layout.encode, VALUES, 4)
     assert repr(runtime.Layout(every, range(10, 13))) == "<Layout of 6 bytes: speed, count>"
-    text = "takes a value of each point and no other: see 5, speed"
+    text = "takes a value for each point and no others: check 5, speed"
     refuses(runtime.RequestError, text, runtime.Layout(every, range(10, 11)).encode, {5: 1})

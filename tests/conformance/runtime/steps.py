@@ -86,10 +86,7 @@ def check_errors(package: Package) -> None:
         now(all_units.alive.send())
         deaf = refusal(lambda device: now(device.bits.send()), all_units)
         assert str(deaf) == "bits, step 1 (bits): function 03h cannot be sent to all units"
-        assert (
-            str(refusal(getattr, device.close, "read"))
-            == "close is a command: it has no read, and close.send() gives it"
-        )
+        assert str(refusal(getattr, device.close, "read")) == "close is a command: it has no read, use close.send()"
         assert str(refusal(setattr, device, "close", 1)) == "a command is not assigned to: use its send method"
 
 
@@ -115,7 +112,7 @@ def check_waiting(package: Package) -> None:
 
 
 def check_automatic(package: Package) -> None:
-    """What comes first is given before all else but identification, again after a failure and after `forget`."""
+    """What comes first is sent before all else but identification, again after a failure and after `forget`."""
     runtime = package.runtime
     first = runtime.SteppedCommand(
         runtime.Step("one", runtime.holding(20, function=6), (1,)),
@@ -152,4 +149,4 @@ def check_guide(package: Package) -> None:
         assert repr(kind.close) == "<SteppedCommand close: 2 steps>"
         assert repr(device.close) == f"<SteppedCommand close: 2 steps of {device!r}>"
         absent = refusal(device.point, "close")
-        assert str(absent) == "close is a command of this device: close.send() gives it"
+        assert str(absent) == "close is a command of this device: close.send() sends it"

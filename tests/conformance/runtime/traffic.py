@@ -71,7 +71,7 @@ def check_absent_methods(package: Package) -> None:
     for device, _ in _made(package):
         for owner, name, told in (
             (device.point("b"), "write", "b is only read: it has no write"),
-            (device.store, "read", "store is a command: it has no read, and store.send() gives it"),
+            (device.store, "read", "store is a command: it has no read, use store.send()"),
         ):
             error = refusal(getattr, owner, name)
             assert (isinstance(error, package.runtime.AccessError), str(error)) == (True, told)

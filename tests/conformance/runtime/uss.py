@@ -136,17 +136,17 @@ def check_echoes(package: Package) -> None:
         line.turns = 2
         error = refusal(device.ramp.write, 4)
         assert (type(error), error.written, error.answered) == (package.runtime.EchoError, (4,), (6,))
-        assert str(error) == "P5 ramp: 4 was written, and the device answered 6"
+        assert str(error) == "P5 ramp: 4 was written, but the device answered 6"
         error = refusal(device.wide.write, 0x10004)
         assert (error.written, error.answered) == ((1, 4), (1, 6))
-        assert str(error) == "wide: 65540 was written, and the device answered 65542"
+        assert str(error) == "wide: 65540 was written, but the device answered 65542"
         error = refusal(device.write_at, "parameter", 5, 4)
-        assert str(error) == "4 was written to 5, and the device answered 6"
+        assert str(error) == "4 was written to 5, but the device answered 6"
         error = refusal(device.bits.write, 4)
-        assert str(error) == "bits: 4 was written to 11, and the device answered 6"
+        assert str(error) == "bits: 4 was written to 11, but the device answered 6"
         line._answer = lambda part: (0x2000 | part[0] & 0xFFF, 0, 0x8000, 0)  # type: ignore[method-assign]  # minus 0
         now(device.number.write(0.0))
-        assert str(refusal(device.number.write, 1.0)) == "number: 1 was written, and the device answered -0"
+        assert str(refusal(device.number.write, 1.0)) == "number: 1 was written, but the device answered -0"
 
 
 def check_broadcasts(package: Package) -> None:

@@ -75,7 +75,7 @@ def check_codes(package: Package) -> None:
     known = "there is no special code {}, only off, fault, band"
     assert refusal(codes.__getitem__, "none").args == (known.format("none"),)
     assert refusal(codes.__getitem__, [1]).args == (known.format("[1]"),)
-    band = "band is all of 65520..65524: call the codes with the raw number that is meant"
+    band = "band is all of 65520..65524: call the codes with a raw number"
     assert refusal(codes.__getitem__, "band").args == (band,)
     refuses(AttributeError, known.format("none"), getattr, codes, "none")
     refuses(AttributeError, known.format("_own"), getattr, codes, "_own")
@@ -111,7 +111,7 @@ def check_coded(package: Package) -> None:
             would = f"A1 {point.facts.item}: raw {raw} would be the special code {name}: {hint}"
             refuses(runtime.SpecialCodeError, would, point.encode, raw)
             refuses(runtime.SpecialCodeError, would, point.encode_count, raw)
-            is_one = f"A1 {point.facts.item}: raw {raw} is the special code {name}, which has no count: decode gives it"
+            is_one = f"A1 {point.facts.item}: raw {raw} is the special code {name}, which has no count: use decode"
             refuses(runtime.SpecialCodeError, is_one, point.decode_count, raw)
     assert refusal(write.encode, 0xFFFF).special == "fault"
     refuses(
@@ -130,7 +130,7 @@ def check_coded(package: Package) -> None:
     assert (write.check(0), write.check(7), read.special, read.special(0).name) == (None, None, codes, "off")
     assert (write.told(0), write.told(7)) == ("off", "7 V")
     assert (fixed.encode(0x0F), fixed.encode_count(0x0101), fixed.decode(0x81).name) == (0x1F, 0x0111, "off")
-    message = "A1 fixed: raw 32 has not 0010h in the bits 00F0h, as it must"
+    message = "A1 fixed: raw 32 must have 0010h in the bits 00F0h"
     refuses(runtime.RangeError, message, fixed.check, 0x20)
     assert (fixed.check(0x10), fixed.check(0x81), fixed.encode(fixed.special.off)) == (None, None, 0x81)
     assert (fixed.decimals, fixed.width, fixed.raw_limits, fixed.name_of(1)) == (0, 16, (1, 0xFFFF), None)

@@ -142,9 +142,9 @@ def test_a_word_that_nobody_sends_is_the_error_of_its_point(mpu: Any, unit: CanU
 def test_another_answer_is_told_in_the_form_of_the_point(mpu: Any, unit: CanUnit) -> None:
     unit.parameters[507], unit.most[510], unit.most[737] = 200, 5, 1
     failure = error(mpu.voltage_setpoint.write, 100.0)
-    assert str(failure) == "voltage_setpoint: 100 V was written, and the device answered 10 V"
+    assert str(failure) == "voltage_setpoint: 100 V was written, but the device answered 10 V"
     failure = error(mpu.voltage_setpoint.write_raw, 6)
-    assert str(failure) == "voltage_setpoint: raw 6 was written, and the device answered raw 5"
+    assert str(failure) == "voltage_setpoint: raw 6 was written, but the device answered raw 5"
     failure = error(mpu.fault_text.write, "Low oil")
     assert (failure.status, failure.point, failure.answered) == ("echo_mismatch", "fault_text", (1,))
 

@@ -109,10 +109,10 @@ def test_loop_back_and_exceptions(modbus: Any, profile: Any) -> None:
 @pytest.mark.parametrize(
     ("function", "values", "answer", "text"),
     [
-        (6, (500,), (40, 7), "500 was written to 0028h, and the device answered 7"),
-        (6, (500,), (41, 500), "01F4h was written to 0028h, and the reply repeats 01F4h at 0029h"),
-        (5, (1,), (40, 0), "FF00h was written to 0028h, and the reply repeats 0000h at 0028h"),
-        (16, (1, 2), (40, 3), "0002h was written to 0028h, and the reply repeats 0003h at 0028h"),
+        (6, (500,), (40, 7), "500 was written to 0028h, but the device answered 7"),
+        (6, (500,), (41, 500), "01F4h was written to 0028h, but the reply repeats 01F4h at 0029h"),
+        (5, (1,), (40, 0), "FF00h was written to 0028h, but the reply repeats 0000h at 0028h"),
+        (16, (1, 2), (40, 3), "0002h was written to 0028h, but the reply repeats 0003h at 0028h"),
     ],
 )
 def test_other_echoes_tell_both_numbers(

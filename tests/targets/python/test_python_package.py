@@ -166,7 +166,7 @@ def test_what_a_point_cannot_do_is_said(package: Any) -> None:
     drive = package.SampleDrive(Slave(), 5)
     for asked, words in (
         (lambda: drive.running.write, "running is only read: it has no write"),
-        (lambda: package.SampleDrive.base_frequency.read, "make a device, and say device.base_frequency.read(...)"),
+        (lambda: package.SampleDrive.base_frequency.read, "make a device, and call device.base_frequency.read(...)"),
         (lambda: drive.base_frequency.send, "object has no attribute 'send'"),
     ):
         refused = error(asked)
@@ -191,7 +191,7 @@ def test_misspelt_points_are_not_assigned_to(package: Any) -> None:
         drive.base_frequncy = 50.0
     with pytest.raises(AttributeError, match="write method"):
         drive.base_frequency = 50.0
-    with pytest.raises(AttributeError, match="declared in your class, as in `zzz: object`"):
+    with pytest.raises(AttributeError, match="in your class, as in `zzz: object`"):
         drive.zzz = 1
 
     class Own(package.SampleDrive):  # type: ignore[misc]  # a class that is imported at run time

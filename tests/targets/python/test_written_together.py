@@ -64,7 +64,7 @@ def test_the_async_device_does_the_same(tmp_path: Path) -> None:
         ({"high": 2}, RequestError, "high is written in one request with low"),
         ({"gain": 1, "wide": 2}, RequestError, "gain is written in one request with mode"),
         ({"mode": 1, "gain": 2}, RequestError, "mode is written in one request with wide"),
-        ({"low": 1, "high": 2, "far": 3}, RequestError, "takes points that one request can write: side by side"),
+        ({"low": 1, "high": 2, "far": 3}, RequestError, "takes points that one request can write: adjacent"),
         ({}, RequestError, "takes points that one request can write"),
         ({"seen": 1}, AccessError, "seen cannot be written"),
         ({"nobody": 1}, AccessError, "nobody is no point of this device"),

@@ -39,18 +39,18 @@ COIL = {"function": 5, "address": 40, "values": [1]}
 SEVERAL = {"function": 16, "address": 40, "values": [1, 2]}
 LINK = {"pkw": 4, "pzd": 2}
 ROWS: list[tuple[str, dict[str, Any], str, str, str]] = [
-    ("pdu", ONE, "05 06 0028 0007", "echo_mismatch", "500 was written to 0028h, and the device answered 7"),
+    ("pdu", ONE, "05 06 0028 0007", "echo_mismatch", "500 was written to 0028h, but the device answered 7"),
     (
         *("pdu", ONE, "05 06 0029 01F4", "echo_mismatch"),
-        "01F4h was written to 0028h, and the reply repeats 01F4h at 0029h",
+        "01F4h was written to 0028h, but the reply repeats 01F4h at 0029h",
     ),
     (
         *("pdu", COIL, "05 05 0028 0000", "echo_mismatch"),
-        "FF00h was written to 0028h, and the reply repeats 0000h at 0028h",
+        "FF00h was written to 0028h, but the reply repeats 0000h at 0028h",
     ),
     (
         *("pdu", SEVERAL, "05 10 0028 0003", "echo_mismatch"),
-        "0002h was written to 0028h, and the reply repeats 0003h at 0028h",
+        "0002h was written to 0028h, but the reply repeats 0003h at 0028h",
     ),
     ("pdu", READ, "06 03 04 0001 0002", "wrong_unit", "unit 6 answered instead of 5"),
     ("pdu", READ, "05 84 02", "wrong_function", "the reply is to function 04h instead of 03h"),

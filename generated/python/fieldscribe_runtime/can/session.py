@@ -127,7 +127,7 @@ class CanSession(Session):
         for address, word in zip(sorted(place.addresses), values, strict=True):
             raw = yield from self._retried_steps(self.retries, self._ask_steps, request, answer, address, word)
             if answer is not None and answer.carries("raw") and raw != word:
-                text = f"{word} was written to {address}, and the device answered {raw}"
+                text = f"{word} was written to {address}, but the device answered {raw}"
                 raise EchoError(text, (word,), (raw,))
 
     def _ask_steps(self, request: Message, answer: Message | None, address: int, raw: int) -> Steps[int]:

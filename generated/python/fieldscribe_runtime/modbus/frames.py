@@ -324,7 +324,7 @@ def _other_echo(request: Request, head: bytes, pdu: bytes) -> FrameError:
         int.from_bytes(one[start : start + 2], "big") for one in (head, pdu) for start in (1, 3)
     )
     if request.function == WRITE_REGISTER and at == to:
-        text = f"{written} was written to {to:04X}h, and the device answered {answered}"
+        text = f"{written} was written to {to:04X}h, but the device answered {answered}"
         return EchoError(text, (written,), (answered,))
-    text = f"{written:04X}h was written to {to:04X}h, and the reply repeats {answered:04X}h at {at:04X}h"
+    text = f"{written:04X}h was written to {to:04X}h, but the reply repeats {answered:04X}h at {at:04X}h"
     return FrameError("echo_mismatch", text)

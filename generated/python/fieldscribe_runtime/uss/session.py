@@ -153,7 +153,7 @@ class UssSession(Session):
         reply = yield from self._exchange_steps(request, self._sent)
         if reply.value != value:
             answered = divmod(reply.value, 0x10000) if reply.width == 2 else (reply.value,)
-            text = f"{value} was written to {request.parameter}, and the device answered {reply.value}"
+            text = f"{value} was written to {request.parameter}, but the device answered {reply.value}"
             raise EchoError(text, values, answered)
 
     def _broadcast_steps(self, mask: tuple[int, int, int, int], words: Sequence[int] | None) -> Steps[None]:

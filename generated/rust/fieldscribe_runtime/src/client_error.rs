@@ -5,13 +5,13 @@ use core::fmt;
 
 use crate::{BuildError, Error, Point, ReplyError};
 
-/// What an error of a client is about.
+/// The subject of a client's error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum About {
     /// A point, by its name.
     Point(&'static str),
-    /// A request that is none of a point, as that of a block or a command.
+    /// A request that is not for one point, such as that of a block or a command.
     Request {
         /// The unit that was asked.
         unit: u8,
@@ -19,7 +19,7 @@ pub enum About {
         function: u8,
         /// The first address.
         address: u16,
-        /// How many items.
+        /// The number of items.
         count: u16,
     },
 }
@@ -49,8 +49,8 @@ impl fmt::Display for About {
 
 /// Why a point could not be read or written.
 ///
-/// Its text is the point's name, or which request that was, and all that the error in it says; its source is what
-/// caused that one, so a chain says nothing twice.
+/// Its text has the point's name or the request, and the text of the error in it. Its source is the cause of that
+/// error, so a chain of sources repeats nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
@@ -58,14 +58,14 @@ pub enum ClientError<E> {
     Point(Error),
     /// The request could not be built.
     Build(BuildError, Option<About>),
-    /// The reply was none, or the device refused.
+    /// The reply is invalid, or the device refused.
     Reply(ReplyError, Option<About>),
     /// The transport failed.
     Transport(E, Option<About>),
 }
 
 impl<E> ClientError<E> {
-    /// The error's name, as the conformance vectors have it; `line` where the transport failed.
+    /// The error's name, as in the conformance vectors; `line` if the transport failed.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -76,7 +76,7 @@ impl<E> ClientError<E> {
         }
     }
 
-    /// Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake.
+    /// True if a frame was lost or damaged on the line, so that trying again may help.
     #[must_use]
     pub const fn is_lost(&self) -> bool {
         match self {
@@ -86,7 +86,7 @@ impl<E> ClientError<E> {
         }
     }
 
-    /// The name of the point that it is about, if it is about one.
+    /// The name of the point, if it is about one.
     #[must_use]
     pub const fn point(&self) -> Option<&'static str> {
         match self {
@@ -100,13 +100,13 @@ impl<E> ClientError<E> {
         }
     }
 
-    /// The same about this point, where it does not say yet which it is about.
+    /// The same error with this point, unless it names one already.
     #[must_use]
     pub fn of<P: Point>(self) -> Self {
         self.named(P::NAME)
     }
 
-    /// The same about the point of that name.
+    /// The same error with the point of this name.
     pub(crate) fn named(mut self, name: &'static str) -> Self {
         match &mut self {
             Self::Point(error) => *error = error.named(name),
@@ -149,7 +149,7 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
     }
 }
 
-/// An error after what it is about.
+/// Writes the subject and the error.
 fn told(
     about: Option<About>,
     error: &impl fmt::Display,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: 0BSD
-//! How people see values: with the decimals that the description says, rounded from the exact value, without floats.
+//! Values as text: with the decimals of the description, rounded from the exact value, without floats.
 
 use core::fmt::{self, Write};
 
 use crate::{Error, Point};
 
-/// A point whose description says with how many decimals people see its value: [`Point::DISPLAY_DECIMALS`].
+/// A point whose description gives the number of decimals to show: [`Point::DISPLAY_DECIMALS`].
 ///
 /// ```
 /// use fieldscribe_runtime::{point, Displayed, Encodable};
@@ -29,10 +29,10 @@ pub trait Displayed: Point {
     /// The raw numbers of other points that the scale needs; `()` if it needs none.
     type Needs: Copy;
 
-    /// What people see of a raw number: its value with the unit, or the name of a special code.
+    /// The text of a raw number: its value with the unit, or the name of a special code.
     ///
     /// # Errors
-    /// What the rule of a scale says that needs other points; [`Error::Overflow`].
+    /// The errors of a scale that needs other points; [`Error::Overflow`].
     fn told_with(raw: Self::Raw, with: Self::Needs) -> Result<Shown, Error>;
 
     /// As [`Displayed::told_with`], for a point whose scale needs no other.
@@ -47,7 +47,7 @@ pub trait Displayed: Point {
     }
 }
 
-/// What people see of a value: `50.00 Hz`. It is written out where it is shown, so nothing is allocated.
+/// The text of a value: `50.00 Hz`; formatting it allocates nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown {
     what: What,
@@ -71,7 +71,7 @@ impl Shown {
         }
     }
 
-    /// So many of the smallest steps that people see of a point.
+    /// A number of the smallest steps that are shown of a point.
     #[must_use]
     pub const fn count<P: Point>(count: i128) -> Self {
         Self {
@@ -83,7 +83,7 @@ impl Shown {
         }
     }
 
-    /// A binary floating-point number, which is rounded as it is shown.
+    /// A binary floating-point number, rounded when it is formatted.
     #[must_use]
     pub const fn float<P: Point>(number: f64) -> Self {
         Self {
@@ -112,7 +112,7 @@ impl fmt::Display for Shown {
     }
 }
 
-/// With how many decimals people see the values of a point.
+/// The number of decimals to show of a point.
 const fn decimals<P: Point>() -> u32 {
     match P::DISPLAY_DECIMALS {
         Some(decimals) => decimals,
@@ -120,7 +120,7 @@ const fn decimals<P: Point>() -> u32 {
     }
 }
 
-/// How many of the smallest steps that people see are one unit.
+/// The number of the smallest steps in one unit.
 pub(crate) const fn per_unit<P: Point>() -> i64 {
     match 10_i64.checked_pow(decimals::<P>()) {
         Some(power) => power,
@@ -128,7 +128,7 @@ pub(crate) const fn per_unit<P: Point>() -> i64 {
     }
 }
 
-/// A number of `10^-decimals`; zero has no sign.
+/// Writes a number of `10^-decimals`; zero has no sign.
 fn decimal(out: &mut fmt::Formatter<'_>, negative: bool, size: u128, decimals: u32) -> fmt::Result {
     if negative && size != 0 {
         out.write_str("-")?;
@@ -151,7 +151,7 @@ fn decimal(out: &mut fmt::Formatter<'_>, negative: bool, size: u128, decimals: u
     Ok(())
 }
 
-/// The decimals of a whole number. A width that is known at run time only could panic.
+/// The decimals of a whole number. A width at run time could panic.
 fn zeros(out: &mut fmt::Formatter<'_>, decimals: u32) -> fmt::Result {
     if decimals > 0 {
         out.write_str(".")?;
@@ -164,10 +164,10 @@ fn zeros(out: &mut fmt::Formatter<'_>, decimals: u32) -> fmt::Result {
 
 const MANTISSA: u32 = 52;
 const EXPONENT: u64 = 0x7FF;
-/// What the exponent of a whole mantissa is stored as.
+/// The stored exponent of a whole mantissa.
 const WHOLE: u64 = 1075;
 
-/// A floating-point number, rounded to nearest, halves away from zero, from all its bits.
+/// Writes a floating-point number, rounded from all its bits to nearest, halves away from zero.
 fn float(out: &mut fmt::Formatter<'_>, number: f64, decimals: u32) -> fmt::Result {
     let negative = number.is_sign_negative();
     if !number.is_finite() {

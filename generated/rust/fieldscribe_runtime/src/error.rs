@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Why a number could not be encoded, decoded or checked, and which number of which point that was.
+//! Why a number could not be encoded, decoded or checked, with the number and the point.
 
 use core::fmt;
 
@@ -18,11 +18,11 @@ use crate::{Access, Given, Point, PointFacts};
 /// assert_eq!(error.point(), Some("base_frequency"));
 /// ```
 ///
-/// The text beside a variant is the point's name; there is none where no point had to do with it.
+/// The text in a variant is the point's name, if there is a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The number is outside what the manual allows, which is said with it.
+    /// The number is outside the limits, which are included.
     OutOfRange(Refused),
     /// The value is not a number.
     NotANumber(&'static str),
@@ -39,22 +39,22 @@ pub enum Error {
     Missing {
         /// The name of the point.
         point: &'static str,
-        /// The points whose raw numbers it needs; none if they depend on the variant of the device.
+        /// The points whose raw numbers it needs; empty if they depend on the variant of the device.
         needs: &'static [&'static PointFacts],
     },
-    /// The closed enum has no such number, or the point no such code.
+    /// The closed enum does not have this number, or the point this code.
     UnknownValue(Outside<i64>),
-    /// The text is too long, or has a character that is none of its encoding.
+    /// The text is too long, or has a character outside its encoding.
     BadText(Option<&'static str>),
     /// There is no such date or time, or the point has no room for it.
     BadDate(Option<&'static str>),
-    /// A factor that is read at run time is zero, or no quantity.
+    /// A factor that is read at run time is zero, or not a quantity.
     ZeroFactor(Option<&'static str>),
-    /// No case of the scale holds.
+    /// No case of the scale applies.
     NoCase(Option<&'static str>),
     /// The result does not fit its type.
     Overflow(Option<&'static str>),
-    /// The raw number is a special code and no quantity, and may not be written, or not as a value.
+    /// The raw number is a special code: it may not be written, or not as a value.
     Special {
         /// The name of the point.
         point: &'static str,
@@ -63,38 +63,38 @@ pub enum Error {
         /// Whether the code may be written: by [`Reading::Special`](crate::Reading::Special).
         is_writable: bool,
     },
-    /// A point by which a scale or a limit is computed is outside what it may be.
+    /// A point that a scale or limit needs is out of its range.
     BrokenFactor {
-        /// The name of the factor's point, what it is, and what it may be.
+        /// The name of the factor's point, its number, and its range.
         factor: Outside<i64>,
         /// The name of the point that needs it.
         point: Option<&'static str>,
     },
-    /// The words do not hold what they should: a text that is no UTF-8 or UTF-16, a 31st of February.
+    /// The words are no valid text (UTF-8 or UTF-16), or no date, such as the 31st of February.
     Malformed(Option<&'static str>),
     /// There are more or fewer words than the point has.
     WrongLength(Option<&'static str>),
-    /// The reply does not bring the point, or not all of it.
+    /// The reply does not contain the point, or not all of it.
     NotBrought(Option<&'static str>),
-    /// The link has not so many words of process data.
+    /// The link has fewer words of process data.
     BeyondLink(Option<&'static str>),
     /// The reply is of another space than the point's.
     WrongSpace(Option<&'static str>),
-    /// The last telegram was not answered, so nothing was heard of the point.
+    /// The last telegram was not answered, so the point was not received.
     NotHeard(Option<&'static str>),
-    /// A frame with a word of the point never came.
+    /// A frame with a word of the point has not arrived.
     NotReceived(Option<&'static str>),
-    /// The words are of two frames, and the high one may have changed between them.
+    /// The words are of two frames, and the high word may have changed between them.
     Torn(Option<&'static str>),
-    /// The point is not read, or not written; all that can be done with it.
+    /// The point cannot be read, or not written; the access that it has.
     Access(&'static str, Access),
 }
 
-/// A number that a point does not take, in the terms in which it was given.
+/// A number that a point does not take, as it was given: raw number, count or value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refused {
-    /// A raw number; one beyond an `i64` is shown as the end of that.
+    /// A raw number; one beyond `i64` is limited to its ends.
     Raw(Outside<i64>),
     /// A count.
     Count(Outside<i64>),
@@ -104,21 +104,21 @@ pub enum Refused {
         outside: Outside<f64>,
         /// The unit of all three; empty for a plain number.
         unit: &'static str,
-        /// The limits as raw numbers, where these are others.
+        /// The limits as raw numbers, if they differ.
         raw: Option<(i64, i64)>,
     },
-    /// A raw number without the bits that are always written as a constant.
+    /// A raw number without the constant bits.
     FixedBits {
         /// The point's name.
         point: &'static str,
         /// What was given.
         given: i64,
-        /// Which bits are always written as a constant.
+        /// The mask of the constant bits.
         mask: u32,
-        /// The constant, within the mask.
+        /// Their values, within the mask.
         bits: u32,
     },
-    /// A value that is not whole, where raw numbers have no scale.
+    /// A value that is not whole, for a point without a scale.
     Fraction {
         /// The point's name.
         point: &'static str,
@@ -127,10 +127,10 @@ pub enum Refused {
     },
 }
 
-/// What was given to a point, and the least and the greatest number that it takes now.
+/// The number given to a point, and the least and the greatest number that it takes now.
 ///
-/// Between them may be numbers that it does not take either, where the manual has several ranges. Where the limits of
-/// other points contradict each other, the least is above the greatest, and nothing is taken.
+/// If the manual has several ranges, some numbers between them are not taken either. If limits of other points
+/// contradict each other, the least is above the greatest, and no number is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outside<T> {
     /// The point's name.
@@ -144,7 +144,7 @@ pub struct Outside<T> {
 }
 
 impl Error {
-    /// The error's name as the conformance vectors have it.
+    /// The error's name as in the conformance vectors.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -168,7 +168,7 @@ impl Error {
         }
     }
 
-    /// What was refused, if that is why.
+    /// The refused number, if this is the reason.
     #[must_use]
     pub const fn refused(self) -> Option<Refused> {
         match self {
@@ -178,7 +178,7 @@ impl Error {
         }
     }
 
-    /// The name of the point that it is about, if it is about one.
+    /// The name of the point, if it is about one.
     #[must_use]
     pub const fn point(self) -> Option<&'static str> {
         match self {
@@ -206,13 +206,13 @@ impl Error {
         }
     }
 
-    /// The same about this point, where it does not say yet which it is about.
+    /// The same error with this point, unless it names one already.
     #[must_use]
     pub fn of<P: Point>(self) -> Self {
         self.named(P::NAME)
     }
 
-    /// The same about the point of that name.
+    /// The same error with the point of this name.
     pub(crate) fn named(mut self, name: &'static str) -> Self {
         match &mut self {
             Self::BadText(point)
@@ -234,7 +234,7 @@ impl Error {
         self
     }
 
-    /// The same about the number that was given, of which the refused raw number was made.
+    /// The same error with the number that was given, from which the refused raw number was made.
     pub(crate) fn about(mut self, number: i64) -> Self {
         if let Self::OutOfRange(Refused::Raw(outside)) | Self::UnknownValue(outside) = &mut self {
             outside.given = number;
@@ -255,7 +255,7 @@ impl Refused {
     }
 }
 
-/// Names the point before what is said of it.
+/// Writes the name of the point first.
 pub(crate) fn lead(point: Option<&str>, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     point.map_or(Ok(()), |point| write!(formatter, "{point}: "))
 }
@@ -318,7 +318,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// The text, and the first names that it could be.
+/// Writes the text, and the first names that it could be.
 fn unknown(
     given: Given,
     names: &[(i128, &str)],
@@ -337,10 +337,10 @@ fn unknown(
     })
 }
 
-/// So many names an error lists.
+/// The most names that an error lists.
 const MOST_NAMES: usize = 6;
 
-/// The points whose raw numbers are missing.
+/// Writes the points whose raw numbers are missing.
 fn missing(needs: &[&PointFacts], formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     formatter.write_str("the raw numbers of other points are missing")?;
     let mut before = ": ";
@@ -359,7 +359,7 @@ impl fmt::Display for Refused {
 }
 
 impl Refused {
-    /// What is refused, without the point's name.
+    /// Writes what is refused, without the point's name.
     fn show(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Raw(outside) => outside.show("raw ", "", formatter),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Words whose bits have names, as they are shown to people.
+//! Words whose bits have names, and how they are formatted.
 
 use core::fmt;
 
@@ -68,13 +68,13 @@ impl Flag {
         self.mask
     }
 
-    /// Whether it is true while its bit is 0.
+    /// True if the flag is true while its bit is 0.
     #[must_use]
     pub const fn is_active_low(&self) -> bool {
         self.is_active_low
     }
 
-    /// The number of the flag in a word: of a single bit 1 if it is true, whatever the bit is then.
+    /// The number of the flag in a word; for a single bit, 1 if the flag is true, even if its bit is 0.
     #[must_use]
     pub const fn number(&self, word: u64) -> u64 {
         if self.is_active_low {
@@ -92,18 +92,18 @@ impl Flag {
 pub trait Flags: Copy {
     /// The name of the type.
     const NAME: &'static str;
-    /// What has a name, in the order of the description.
+    /// The flags, in the order of the description.
     const FLAGS: &'static [Flag];
 
     /// The word.
     fn bits(self) -> u64;
 }
 
-/// Shows a word as its number, and behind it what is true and what several bits say that are not 0:
+/// Writes a word as its number, then its true flags and the fields that are not 0:
 /// `StatusWord(0x2031: ready, state=running, trips=2)`.
 ///
 /// # Errors
-/// What the formatter says.
+/// The error of the formatter.
 pub fn show<F: Flags>(word: F, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     let bits = word.bits();
     write!(formatter, "{}({bits:#06X}", F::NAME)?;

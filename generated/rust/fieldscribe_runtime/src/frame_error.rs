@@ -1,43 +1,43 @@
 // SPDX-License-Identifier: 0BSD
-//! Why a request cannot be built, and why bytes are no reply, for all families: a mistake is the same on every bus.
+//! Why a request cannot be built, and why bytes are no valid reply, for all families.
 
 use core::fmt;
 
-/// Why a request cannot be built: a mistake of the program, whatever the bus.
+/// Why a request cannot be built: a mistake of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// The device speaks the other framing alone.
+    /// The device supports only the other framing.
     BadFraming,
     /// The unit is outside the device's range.
     BadUnit,
-    /// The request is to another unit than the client's, whose process data are not for it.
+    /// The request is for another unit than the client's, so the client's process data are not for it.
     OtherUnit,
-    /// The unit is that of all units, and the function does not go to all: nobody could answer.
+    /// The unit is the broadcast unit, but the function cannot be broadcast.
     NotForAll,
-    /// The device takes nothing that is sent to all units.
+    /// The device takes no broadcasts.
     NoBroadcast,
-    /// The device does not know the function.
+    /// The device does not support the function.
     BadFunction,
     /// There are no items, more than the device takes, or values are missing.
     BadCount,
-    /// The items end beyond the last address.
+    /// The items end after the last address.
     BadAddress,
-    /// Nobody said where the base is that the address counts from.
+    /// The base that the address counts from is not known.
     NoBase,
     /// A bit is neither 0 nor 1.
     BadBit,
-    /// The device does not know the length of the parameter part, or there are other words of process data.
+    /// The device does not support this length of the parameter part, or the number of process data words differs.
     BadLink,
-    /// The device does not know the task, or the link has no parameter part.
+    /// The device does not support the task, or the link has no parameter part.
     BadTask,
-    /// There is no parameter of this number.
+    /// There is no parameter with this number.
     BadParameter,
     /// The index is above 255.
     BadIndex,
     /// The parameter part has no room for a double word.
     NoRoom,
-    /// All units are sent the first word without the bits that make it valid.
+    /// A broadcast lacks the bits that make its first word valid.
     BadMask,
     /// The device has no message for this.
     NoMessage,
@@ -46,7 +46,7 @@ pub enum BuildError {
 }
 
 impl BuildError {
-    /// The error's name as the conformance vectors have it.
+    /// The error's name as in the conformance vectors.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -97,29 +97,29 @@ impl fmt::Display for BuildError {
 
 impl core::error::Error for BuildError {}
 
-/// Why bytes are no good reply to a request, whatever the bus.
+/// Why bytes are no valid reply to a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ReplyError {
-    /// The request's own function is none of Modbus.
+    /// The function of the request is not supported here.
     BadFunction,
-    /// Bytes are missing: of the frame, or of the shortest one where its length did not come.
+    /// Bytes are missing: of the frame, or of the shortest frame if its length did not arrive.
     ShortFrame {
-        /// How many bytes the frame has.
+        /// The number of bytes of the frame.
         expected: u16,
-        /// How many came.
+        /// The number of bytes received.
         received: u16,
     },
     /// There are more bytes than the frame has.
     LongFrame {
-        /// How many bytes the frame has.
+        /// The number of bytes of the frame.
         expected: u16,
-        /// How many came.
+        /// The number of bytes received.
         received: u16,
     },
     /// The checksum is wrong.
     BadCrc,
-    /// The protocol number of the TCP head is not 0.
+    /// The protocol number of the TCP header is not 0.
     BadProtocol,
     /// The reply belongs to another transaction.
     WrongTransaction {
@@ -144,22 +144,22 @@ pub enum ReplyError {
     },
     /// The device refused.
     Exception {
-        /// The code that says why.
+        /// The exception code.
         code: u8,
-        /// Its name in the description, which the [`Profile`](crate::modbus::Profile) knows. Where there is none, the
-        /// error shows the name of the standard.
+        /// Its name in the description, from the [`Profile`](crate::modbus::Profile). Without one, the error shows the
+        /// standard's name.
         name: Option<&'static str>,
     },
     /// The byte count is not what the request asked for.
     BadByteCount {
-        /// How many bytes the request asked for.
+        /// The number of bytes that the request needs.
         expected: u16,
-        /// How many the reply counts, or brings.
+        /// The number that the reply states, or has.
         received: u16,
     },
-    /// What was written is not what the reply repeats.
+    /// The reply does not repeat what was written.
     EchoMismatch {
-        /// The address of the request, and its value or its count of items.
+        /// The address of the request, and its value or number of items.
         expected: (u16, u16),
         /// Those of the reply.
         received: (u16, u16),
@@ -171,31 +171,31 @@ pub enum ReplyError {
         /// What the device answered.
         answered: Option<u32>,
     },
-    /// The same, where both are the patterns of binary32 numbers.
+    /// The same for patterns of binary32 numbers.
     OtherFloat {
         /// What was written.
         written: u32,
         /// What the device answered.
         answered: u32,
     },
-    /// The device did not answer what was asked, or not yet: the same request may be sent again.
+    /// The device has not answered the request yet: send the same request again.
     NoAnswer,
     /// There are no bytes, or the first is not the start of a telegram.
     WrongStart,
-    /// The length is not the one that the telegram says or that the link has.
+    /// The length differs from that in the telegram, or that of the link.
     WrongLength,
     /// The check byte is wrong.
     WrongCheck,
-    /// The answer is about another parameter or index.
+    /// The answer is for another parameter or index.
     WrongParameter,
     /// The drive refused.
     Refused {
-        /// The error value that says why.
+        /// The error number.
         error: u16,
         /// Its name in the description.
         name: Option<&'static str>,
     },
-    /// The drive does not let this master change parameters.
+    /// The drive does not allow this master to change parameters.
     NoRights,
     /// The response does not belong to the task.
     WrongResponse {
@@ -207,7 +207,7 @@ pub enum ReplyError {
 }
 
 impl ReplyError {
-    /// The error's name as the conformance vectors have it.
+    /// The error's name as in the conformance vectors.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -235,8 +235,8 @@ impl ReplyError {
         }
     }
 
-    /// Whether the line lost a frame or spoiled it, so that trying again may help: the device did not refuse, nor take
-    /// another number. A gateway may say so, too: by an exception 0Ah or 0Bh that the device does not name.
+    /// True if a frame was lost or damaged on the line, so that trying again may help, and not if the device refused or
+    /// took another number. A gateway's exception 0Ah or 0Bh counts too, unless the device has a name for it.
     #[must_use]
     pub const fn is_lost(self) -> bool {
         match self {
@@ -330,7 +330,7 @@ impl fmt::Display for ReplyError {
     }
 }
 
-/// What Modbus calls an exception code.
+/// The standard's name of an exception code.
 const fn standard_name(code: u8) -> Option<&'static str> {
     Some(match code {
         0x01 => "illegal_function",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Points that are known at run time only: a crate's table of them, to list them or to find one by name or code.
+//! Points that are chosen at run time: a crate's table of points, to list them or find one by name or code.
 
 use core::fmt::{self, Write};
 use core::marker::PhantomData;
@@ -8,7 +8,7 @@ use core::ops::Deref;
 use crate::data::PointFacts;
 use crate::AnyDevice;
 
-/// What can be done with a point over the bus.
+/// The access to a point over the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
     /// It is neither read nor written by itself.
@@ -22,22 +22,22 @@ pub enum Access {
 }
 
 impl Access {
-    /// Whether the point can be read.
+    /// True if the point can be read.
     #[must_use]
     pub const fn reads(self) -> bool {
         matches!(self, Self::Read | Self::ReadWrite)
     }
 
-    /// Whether the point can be written.
+    /// True if the point can be written.
     #[must_use]
     pub const fn writes(self) -> bool {
         matches!(self, Self::Write | Self::ReadWrite)
     }
 }
 
-/// A point of the device `D` as data: its [facts](PointFacts), which its fields and methods are.
+/// A point of the device `D` as data: its fields and methods are those of its [facts](PointFacts).
 ///
-/// What is known before the program runs is better asked of the point's own type. `decode` and `encode` do at run time
+/// If you know the point when you write the program, use its own type instead. `decode` and `encode` do at run time
 /// what those of the type do; `read_point` and `write_point` of a client do it over the bus.
 ///
 /// ```
@@ -97,7 +97,7 @@ impl<D> PointInfo<D> {
         Points::new(writing.map_or(none, |writing| (writing.needs)()))
     }
 
-    /// The name as words, with a capital: `Base frequency`.
+    /// The name in words, with a capital: `Base frequency`.
     #[must_use]
     pub const fn title(self) -> Title {
         Title(self.facts.name)
@@ -120,7 +120,7 @@ impl<D> Deref for PointInfo<D> {
     }
 }
 
-/// The name of a point as words. It is written out where it is shown, so nothing is allocated.
+/// The name of a point in words; formatting it allocates nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Title(&'static str);
 
@@ -160,13 +160,13 @@ impl<D> Points<D> {
         Points::new(self.rows)
     }
 
-    /// How many there are.
+    /// The number of points.
     #[must_use]
     pub const fn len(self) -> usize {
         self.rows.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.rows.is_empty()
@@ -177,7 +177,7 @@ impl<D> Points<D> {
         self.rows.iter().map(|row| PointInfo::new(row))
     }
 
-    /// The point with that name; if there is none, the first with that code of the manual, in capitals or not.
+    /// The point with this name, or else the first with this code of the manual, in either case.
     #[must_use]
     pub fn find(self, name_or_code: &str) -> Option<PointInfo<D>> {
         let is_coded = |point: &PointInfo<D>| {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: 0BSD
-//! What the modules that fieldscribe generates have in common: the traits of a point, exact arithmetic, and for each
+//! The common part of the modules that fieldscribe generates: the traits of a point, exact arithmetic, and for each
 //! family of buses a module with its frames and its clients: [`modbus`], [`can`], [`uss`].
 //!
-//! Nothing here allocates, does input or output, or panics. Transports that do are features of [`transports`].
+//! Nothing here allocates, does I/O, or panics. Transports that do I/O are features of [`transports`].
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: 0BSD
-//! Special codes: raw numbers that are no quantity, and what decoding gives for them.
+//! Special codes: raw numbers that are no quantity, and their decoded form.
 
 use core::fmt;
 
 use crate::check::unknown;
 use crate::{Error, Point, Raw};
 
-/// What a point holds in the place of a quantity: a code by its name.
+/// What a point holds instead of a quantity: a code with a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Special<R> {
     name: &'static str,
@@ -16,7 +16,7 @@ pub struct Special<R> {
 }
 
 impl<R: Copy> Special<R> {
-    /// A code that is only read, and that does not say that there is no value.
+    /// A read-only code that does not mean that there is no value.
     #[must_use]
     pub const fn new(name: &'static str, raw: R) -> Self {
         Self {
@@ -27,7 +27,7 @@ impl<R: Copy> Special<R> {
         }
     }
 
-    /// A code that says that there is no value, and is only read.
+    /// A read-only code that means that there is no value.
     #[must_use]
     pub const fn no_value(name: &'static str, raw: R) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl<R: Copy> Special<R> {
         }
     }
 
-    /// A code that says that there is no value, and may be written.
+    /// A code that means that there is no value, and that may be written.
     #[must_use]
     pub const fn writable_no_value(name: &'static str, raw: R) -> Self {
         Self {
@@ -66,19 +66,19 @@ impl<R: Copy> Special<R> {
         self.raw
     }
 
-    /// Whether it says that there is no value.
+    /// True if it means that there is no value.
     #[must_use]
     pub const fn is_no_value(&self) -> bool {
         self.no_value
     }
 
-    /// Whether it may be written.
+    /// True if it may be written.
     #[must_use]
     pub const fn is_writable(&self) -> bool {
         self.writable
     }
 
-    /// What a check of a raw number of that point says that is this code.
+    /// The result of checking this code as a raw number of a point.
     ///
     /// # Errors
     /// [`Error::Special`] if it may not be written.
@@ -90,7 +90,7 @@ impl<R: Copy> Special<R> {
         }
     }
 
-    /// What is said of a value of that point that became this code.
+    /// The error for a value of a point that became this code.
     const fn no_quantity<P: Point>(&self) -> Error {
         Error::Special {
             point: P::NAME,
@@ -123,7 +123,7 @@ impl<R: Copy + PartialOrd> Code<R> {
         }
     }
 
-    /// The code that all raw numbers from its own to the last one are.
+    /// The code of all raw numbers from its own to the last one.
     #[must_use]
     pub const fn band(first: Special<R>, last: R) -> Self {
         Self { first, last }
@@ -141,7 +141,7 @@ impl<R: Copy + PartialOrd> Code<R> {
         (self.first.raw, self.last)
     }
 
-    /// The code with a raw number, if that is one of its own.
+    /// The code with a raw number, if the number belongs to it.
     #[must_use]
     pub fn at(&self, raw: R) -> Option<Special<R>> {
         let held = self.first.raw <= raw && raw <= self.last;
@@ -149,17 +149,17 @@ impl<R: Copy + PartialOrd> Code<R> {
     }
 }
 
-/// What a point means that has special codes: a value, or one of them.
+/// The decoded number of a point with special codes: a value, or one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading<V, R> {
     /// A value.
     Value(V),
-    /// No quantity.
+    /// A special code.
     Special(Special<R>),
 }
 
 impl<V, R> Reading<V, R> {
-    /// The value, if it is one.
+    /// The value, unless it is a special code.
     pub fn value(self) -> Option<V> {
         match self {
             Self::Value(value) => Some(value),
@@ -167,7 +167,7 @@ impl<V, R> Reading<V, R> {
         }
     }
 
-    /// The special code, if it is one.
+    /// The special code, unless it is a value.
     pub fn special(self) -> Option<Special<R>> {
         match self {
             Self::Value(_) => None,
@@ -176,7 +176,7 @@ impl<V, R> Reading<V, R> {
     }
 }
 
-/// Shows the value, or the name of the code.
+/// Writes the value, or the name of the code.
 impl<V: fmt::Display, R: fmt::Display> fmt::Display for Reading<V, R> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -197,7 +197,7 @@ pub trait Coded: Point {
     /// The codes.
     const CODES: &'static [Code<Self::Raw>];
 
-    /// The special code that a raw number is; none for a quantity.
+    /// The special code of a raw number; [`None`] for a quantity.
     #[must_use]
     fn special(raw: Self::Raw) -> Option<Special<Self::Raw>> {
         Self::CODES.iter().find_map(|code| code.at(raw))
@@ -215,7 +215,7 @@ pub fn written<P: Coded>(special: Special<P::Raw>) -> Result<P::Raw, Error> {
     }
 }
 
-/// What a raw number means: the special code that it is, else what `decode` makes of it.
+/// The special code of a raw number, else its value by `decode`.
 #[inline]
 pub fn reading<P: Coded, V>(raw: P::Raw, decode: impl FnOnce(P::Raw) -> V) -> Reading<V, P::Raw> {
     match P::special(raw) {
@@ -224,10 +224,10 @@ pub fn reading<P: Coded, V>(raw: P::Raw, decode: impl FnOnce(P::Raw) -> V) -> Re
     }
 }
 
-/// As [`reading`], where decoding can fail.
+/// As [`reading`], if decoding can fail.
 ///
 /// # Errors
-/// What `decode` says.
+/// The errors of `decode`.
 #[inline]
 pub fn try_reading<P: Coded, V>(
     raw: P::Raw,
@@ -239,10 +239,10 @@ pub fn try_reading<P: Coded, V>(
     }
 }
 
-/// The raw number of a special code that may be written, else what `encode` makes of the value.
+/// The raw number of a writable special code, else of the value by `encode`.
 ///
 /// # Errors
-/// What `encode` says; what [`written`] and [`quantity`] say.
+/// The errors of `encode`, [`written`] and [`quantity`].
 #[inline]
 pub fn encoded<P: Coded, V>(
     reading: Reading<V, P::Raw>,
@@ -254,7 +254,7 @@ pub fn encoded<P: Coded, V>(
     }
 }
 
-/// The raw number that a value became, which is never a special code.
+/// Checks that the raw number of a value is no special code.
 ///
 /// # Errors
 /// [`Error::Special`] if it is one.

@@ -606,6 +606,6 @@ pub type Command = runtime::modbus::Command<HitachiL200>;
 pub mod commands {
     use super::Command;
 
-    /// Enter: any value does; the memory stands 100000 writes.
+    /// Enter: any value does; the memory is rated for 100000 writes.
     pub const ENTER: Command = Command::new(6, 0x0900, None);
 }

@@ -162,7 +162,7 @@ def _commands(device: Device, form: Form) -> str:
         "Wire address": lambda command: address_text(command.address),
         "Function": lambda command: hex_text(command.function, 2),
         "Value": lambda command: "any" if command.value is None else str(command.value),
-        "Memory stands": lambda command: "" if command.wears is None else f"{command.wears} writes",
+        "Memory rated for": lambda command: "" if command.wears is None else f"{command.wears} writes",
         "Busy while": lambda command: form.cell(command.busy or ""),
         "Note": lambda command: form.cell(title_text(command.note)) if command.note else "",
         "Source": lambda command: form.source_cell(command.source, len(device.documents) > 1),

@@ -212,7 +212,7 @@ def _command_cells(command: Command, sheet: Sheet) -> Mapping[str, str]:
 def _command_remarks(command: Command) -> Iterator[str]:
     yield f"{wanted_text(command)} with function {hex_text(command.function, 2)}"
     if command.wears is not None:
-        yield f"the memory stands {command.wears} writes"
+        yield f"the memory is rated for {command.wears} writes"
     if command.busy:
         yield f"busy while {command.busy}"
 

@@ -97,7 +97,7 @@ def _command(command: Command | SteppedCommand, made: Call, scope: Scope) -> Att
 def _command_doc(command: Command | SteppedCommand) -> str:
     text = command.title["en"].rstrip(".") + "."
     if isinstance(command, Command) and command.wears:
-        text += f" The memory stands {command.wears} of them."
+        text += f" The memory is rated for {command.wears} of them."
     return python_doc(text)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: 0BSD
-"""What generated devices are made of: points, forms and devices. It needs nothing but Python 3.11.
+"""The building blocks of generated devices: points, their conversions, and devices. Needs only Python 3.11.
 
-Each bus family is a package of its own (`modbus`, `can`, `uss`) with its frames, its session and its devices; what
-stands beside these packages knows no bus. The names of Modbus are here too.
+Each bus family is a package of its own (`modbus`, `can`, `uss`) with its frames, session and devices; the modules
+outside these packages know no bus. The names of Modbus can be imported from here too.
 """
 
 from .commands import Command

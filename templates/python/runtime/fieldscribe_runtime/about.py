@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What an error is about: the group and the points of a request, and what had to be read first."""
+"""Adds to errors what was requested: the group and the points, and what had to be read first."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from .traffic import Labelled, Traffic
 
 _LISTED = 4
-"""So many points of one request are listed in an error."""
+"""The most points of one request that an error lists."""
 
 
 def add_points(error: FieldscribeError, asked: Sequence[Labelled]) -> None:
-    """Add to an error what was requested, unless it has that."""
+    """Add the requested points to an error, unless it names some already."""
     more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
     error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
 
 
 class About:
-    """Add to errors raised meanwhile what was requested: points of a request, a command, a step. Logs name it, too."""
+    """Adds to errors raised inside what was requested: points, a command, or a step. Logs name it too."""
 
     def __init__(self, traffic: Traffic, *asked: Labelled) -> None:
         self._asked = traffic.about = asked
@@ -41,7 +41,7 @@ class About:
 
 @contextmanager
 def about_place(traffic: Traffic, place: Place) -> Iterator[None]:
-    """Add the place to errors of the line raised meanwhile, unless they have one. Logs name it, too."""
+    """Add the place to errors of the line raised inside, unless they have one. Logs name it too."""
     traffic.about = (place,)
     try:
         yield
@@ -54,7 +54,7 @@ def about_place(traffic: Traffic, place: Place) -> Iterator[None]:
 
 @contextmanager
 def needing(traffic: Traffic, point: Point, other: Point) -> Iterator[None]:
-    """Add to errors raised while another point is read which point was requested, and that it needs the other."""
+    """Add to errors raised while another point is read that the requested point needs it."""
     try:
         with About(traffic, other):
             yield
@@ -65,7 +65,7 @@ def needing(traffic: Traffic, point: Point, other: Point) -> Iterator[None]:
 
 @contextmanager
 def of_group(group: str | None) -> Iterator[None]:
-    """Add the group to errors raised meanwhile."""
+    """Add the group to errors raised inside."""
     try:
         yield
     except FieldscribeError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Checks of arguments: errors that say what is expected, in place of Python's own."""
+"""Checks of arguments: their errors say what is expected."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 _SHOWN = 80
 _MOST = 0x10000
-"""So many words or bits are named by 16-bit addresses."""
+"""The number of words or bits that 16-bit addresses reach."""
 
 
 def shown(value: object) -> str:
@@ -28,10 +28,10 @@ def shown(value: object) -> str:
 
 
 def whole(number: Any) -> int:
-    """Return the number itself as a plain int.
+    """Return the number as a plain int.
 
-    Raises RangeError for a number that is no integer, and WrongTypeError for what is no number: a bool too, since True
-    for a number is a mistake more often than a 1.
+    Raises RangeError for a number that is not an integer, and WrongTypeError for anything else. That includes bool:
+    True instead of a number is usually a mistake.
     """
     if isinstance(number, bool):
         raise WrongTypeError(f"takes a number, not {number}")
@@ -44,14 +44,14 @@ def whole(number: Any) -> int:
 
 
 def integral(number: Any) -> int:
-    """Return the same for a value of a point: a float that is a whole number is that number, exactly."""
+    """Return an integer for a value of a point; a float that is a whole number is accepted."""
     if type(number) is float and number.is_integer():
         return int(number)
     return whole(number)
 
 
 def raw_number(number: Any, width: int) -> int:
-    """Return a raw number as a plain int, also of a bit as a bool; raises WrongTypeError, for a float too."""
+    """Return a raw number as a plain int; a bool is accepted for one bit, a float raises WrongTypeError."""
     if isinstance(number, bool) and width == 1:
         return int(number)
     try:
@@ -61,26 +61,26 @@ def raw_number(number: Any, width: int) -> int:
 
 
 def check_integer(status: str, what: str, number: Any) -> None:
-    """Raises RequestError for what is no integer; a bool is none either."""
+    """Raises RequestError unless this is an integer and not a bool."""
     if isinstance(number, bool) or not isinstance(number, int):
         raise RequestError(status, f"{what} is an integer, not {shown(number)}")
 
 
 def check_number(status: str, what: str, number: Any, ends: tuple[int, int]) -> None:
-    """The same, also for one that lies outside of the ends."""
+    """Raises RequestError unless this is an integer from `ends[0]` to `ends[1]`."""
     check_integer(status, what, number)
     if not ends[0] <= number <= ends[1]:
         raise RequestError(status, f"{what} {shown(number)} is outside {ends[0]}..{ends[1]}")
 
 
 def check_seconds(status: str, what: str, given: Any) -> None:
-    """Raises RequestError for what is no number of seconds from 0 on."""
+    """Raises RequestError unless this is a number of seconds, 0 or more."""
     if isinstance(given, bool) or not isinstance(given, (int, float)) or not given >= 0:
         raise RequestError(status, f"{what} is a number of seconds from 0 on, not {shown(given)}")
 
 
 def check_words(status: str, what: str, words: Any) -> None:
-    """Raises RequestError for what is no tuple or list of words."""
+    """Raises RequestError unless this is a tuple or list of words."""
     if not isinstance(words, (tuple, list)):
         raise RequestError(status, f"{what} are a tuple of words, not {shown(words)}")
     for word in words:
@@ -88,7 +88,7 @@ def check_words(status: str, what: str, words: Any) -> None:
 
 
 def check_values(values: tuple[Any, ...]) -> None:
-    """Raises RequestError for a list where each word is an argument of its own."""
+    """Raises RequestError for a list; each word must be an argument of its own."""
     if len(values) == 1 and isinstance(values[0], (tuple, list)):
         raise RequestError("bad_value", f"each word is an argument: write_at(space, address, *{shown(values[0])})")
 
@@ -104,13 +104,13 @@ def check_place(space: Any, address: Any, count: Any) -> None:
 
 
 def check_name(kind: str, name: Any) -> None:
-    """Raises AccessError for what is no name."""
+    """Raises AccessError unless this is a name."""
     if not isinstance(name, str) or not name.strip():
         raise AccessError(f"a {kind} is named by a text, not {shown(name)}")
 
 
 def check_bytes(reply: Any) -> None:
-    """Raises FrameError for what is no reply at all, whatever bytes it has."""
+    """Raises FrameError unless a reply is bytes."""
     if not isinstance(reply, (bytes, bytearray)):
         hint = ""
         if hasattr(reply, "__await__"):
@@ -120,7 +120,7 @@ def check_bytes(reply: Any) -> None:
 
 
 def check_transport(transport: object, **parts: str) -> None:
-    """Raises RequestError (bad_transport) if a transport lacks one of the parts, each with what it is."""
+    """Raises RequestError (bad_transport) if a transport lacks one of the parts, given with their meanings."""
     missing = [name for name in parts if not hasattr(transport, name)]
     if missing:
         needed = " and ".join([f"`{name}` ({what})" for name, what in parts.items()])
@@ -129,8 +129,8 @@ def check_transport(transport: object, **parts: str) -> None:
 
 
 def awaited(transport: object, result: Awaitable[T]) -> Awaitable[T]:
-    """Return what an async transport gives to be awaited; raises RequestError (bad_transport) for a blocking one."""
+    """Return the awaitable of an async transport; raises RequestError (bad_transport) for a blocking one."""
     if not hasattr(result, "__await__"):
-        text = f"{shown(transport)} gave {shown(result)} where an async device awaits: it takes an async transport"
+        text = f"{shown(transport)} returned {shown(result)}: an async device takes an async transport"
         raise RequestError("bad_transport", text)
     return result

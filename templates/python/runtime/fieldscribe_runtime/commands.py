@@ -70,7 +70,7 @@ class Command(Guided):
 
 @contextmanager
 def carried_out_once(device: Session) -> Iterator[None]:
-    """Send nothing again meanwhile: what a device did already must not be done twice."""
+    """Turn off repetitions inside, so that no command is carried out twice."""
     retries, device.retries = device.retries, 0
     try:
         yield
@@ -79,11 +79,11 @@ def carried_out_once(device: Session) -> Iterator[None]:
 
 
 def refuse(handle: CommandHandle, name: str) -> Never:
-    """Say how a command is used."""
+    """Raise AbsentError that says how a command is used."""
     if name[:1] == "_":
         raise AttributeError(name)
     what = handle._command.name
-    raise AbsentError(f"{what} is a command: it has no {name}, and {what}.send() gives it", name=name, obj=handle)
+    raise AbsentError(f"{what} is a command: it has no {name}, use {what}.send()", name=name, obj=handle)
 
 
 class CommandHandle:
@@ -100,7 +100,7 @@ class CommandHandle:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
 
     def send(self, value: int | None = None) -> None:
-        """Give the command; `value` only where any number does."""
+        """Send the command; pass `value` only if the command takes any number."""
         self._device._run(self._command.steps(self._device, value))
 
 
@@ -118,5 +118,5 @@ class AsyncCommandHandle:
         return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
 
     async def send(self, value: int | None = None) -> None:
-        """Give the command; `value` only where any number does."""
+        """Send the command; pass `value` only if the command takes any number."""
         await self._device._run(self._command.steps(self._device, value))

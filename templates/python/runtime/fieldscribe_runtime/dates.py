@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Forms of dates and times whose parts are numbers of their own in some bits of the words."""
+"""Forms of dates and times whose parts are numbers in some bits of the words."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _WEEK = 7
 
 
 class _Part:
-    """A part of a date. `facts` are its word, its highest and its lowest bit there, and what it counts from.
+    """A part of a date. `facts` are its word, its highest and its lowest bit there, and its base.
 
-    That is the year that a 0 means, or of a weekday the number of Sunday.
+    The base is the year that 0 means; for a weekday, the number of Sunday.
     """
 
     def __init__(self, coding: str, name: str, *facts: int) -> None:
@@ -34,9 +34,9 @@ class _Part:
 
 
 class _Dated(Form[D, D]):
-    """A date, a time or both without a zone, as the device keeps them; words hold the parts, the first one highest.
+    """A date, a time or both in the device's own time, without a zone; words hold the parts, the first one highest.
 
-    Parts are decimal digits of four bits each if `bcd`. What has no part is not looked at.
+    Parts are decimal digits of four bits each if `bcd`. A part that the point does not have is ignored.
     """
 
     made: str
@@ -55,7 +55,7 @@ class _Dated(Form[D, D]):
         self._names = {part.name for part in self._parts}
 
     def decode(self, raw: int, raws: Raws) -> D:
-        """Return the date and time; raises MalformedError for what is none."""
+        """Return the date and time; raises MalformedError if the words hold none."""
         words = self._ordered([raw >> 16 * place & 0xFFFF for place in reversed(range(self.words))])
         try:
             value: D = self._class(**self._held(words))
@@ -64,7 +64,7 @@ class _Dated(Form[D, D]):
         return value
 
     def _held(self, words: Sequence[int]) -> dict[str, int]:
-        """Return the numbers of the parts by the names that Python has for them; raises ValueError for what is none."""
+        """Return the parts by Python's names for them; raises ValueError for invalid digits."""
         held: dict[str, int] = {}
         for part in self._parts:
             number = part.wire.number(words[part.word] >> part.low, part.width)
@@ -80,7 +80,7 @@ class _Dated(Form[D, D]):
         return held
 
     def converted(self, value: D, raws: Raws) -> int | None:
-        """Return the words of a date and time; None if its parts do not hold it."""
+        """Return the words of a date and time; None if its parts have no room for it."""
         if not isinstance(value, self._class) or (self.made == "date" and hasattr(value, "hour")):
             raise WrongTypeError(f"takes a datetime.{self.made}, not {shown(value)}")
         if getattr(value, "tzinfo", None) is not None:
@@ -106,7 +106,7 @@ class _Dated(Form[D, D]):
         return int(getattr(value, part.name) - part.base)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same words if they are a date and time."""
+        """Return the words if they are a date and time."""
         try:
             self.decode(raw, raws)
         except MalformedError:
@@ -114,11 +114,11 @@ class _Dated(Form[D, D]):
         return raw if 0 <= raw < 1 << self.wire.bits else None
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """There is none: raises WrongTypeError."""
+        """Raises WrongTypeError: a date has no counts."""
         raise WrongTypeError(f"a {self.what} has no counts: use raw numbers or values")
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """There is none: raises WrongTypeError."""
+        """Raises WrongTypeError: a date has no counts."""
         raise WrongTypeError(f"a {self.what} has no counts: use raw numbers or values")
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
@@ -127,7 +127,7 @@ class _Dated(Form[D, D]):
         return str(value.isoformat())
 
     def choices(self, unit: str) -> str | None:
-        """Return what the value has to be."""
+        """Return what a refused value is."""
         return f"no {self.what} that the point can hold"
 
 

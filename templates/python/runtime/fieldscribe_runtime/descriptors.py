@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Points as attributes: on the class they are pure codecs, on a device they read and write."""
+"""Points as attributes: on the class they only convert, on a device they also read and write."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class _Attribute:
     """An attribute of a table of points."""
 
     name: str
-    """What it is called in the class."""
+    """The name of the attribute."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -53,7 +53,7 @@ class _Attribute:
 
 
 class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
-    """A point as the attribute of a table of points: on a device it is a handle, H of a blocking one, A of an async."""
+    """A point as the attribute of a table of points: on a device it is a handle (H blocking, A async)."""
 
     handle: ClassVar[type[Handle]]
     async_handle: ClassVar[type[AsyncHandle]]
@@ -113,7 +113,7 @@ class ReadWrite(
 
 
 class ByVariant(_Attribute, Guided, Generic[P_co]):
-    """A point whose facts differ between variants: on a device it is the one of the device's variant."""
+    """A point whose facts differ between variants: on a device it is the point of the device's variant."""
 
     def __init__(self, axis: str, points: Mapping[str, P_co]) -> None:
         self.axis = axis
@@ -137,19 +137,19 @@ class ByVariant(_Attribute, Guided, Generic[P_co]):
 
     def _guide(self) -> str:
         which = "\n".join([f"- {self.axis} {value}: {point.label}" for value, point in self.points.items()])
-        text = f"What this is depends on {self.axis}, which the device is made with; help() tells more of each:"
+        text = f"This depends on {self.axis}, which is passed when the device is made; use help() on each:"
         return f"{self.name.rstrip('_')}: {text}\n\n{which}"
 
     def __repr__(self) -> str:
         items = " or ".join(point.facts.item for point in self.points.values())
-        return f"<{type(self).__name__} {self.name}: {items}, as {self.axis} says>"
+        return f"<{type(self).__name__} {self.name}: {items}, by {self.axis}>"
 
 
 Attribute = TypeVar("Attribute", bound=_Attribute)
 
 
 class Renamed(_Attribute):
-    """An attribute by its old name, which warns."""
+    """The old name of an attribute; using it warns."""
 
     def __init__(self, attribute: Any, new_name: str) -> None:
         self.attribute = attribute
@@ -160,7 +160,7 @@ class Renamed(_Attribute):
         return self.attribute.__get__(device, owner)
 
     def warn(self, stacklevel: int) -> None:
-        """Say what it is called now."""
+        """Warn with the new name."""
         text = f"{self.name} is now called {self.new_name}"
         warnings.warn(text, DeprecationWarning, stacklevel=stacklevel)
 

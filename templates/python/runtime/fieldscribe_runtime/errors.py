@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Everything that can go wrong, as exceptions: one base class, and `status` names the case."""
+"""The exceptions of generated devices: one base class; `status` names the case."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any, TypeVar
 class FieldscribeError(Exception):
     """Base of all errors of generated devices; `status` is a stable name for programs.
 
-    `point` says which point was asked for, with its code (`device.point(error.point)` is that point); of several that
-    one request reads, which they are; else the command or the place. `group` is the group that was read, where it was
-    one, and `needs` another point that had to be read first. `undecided` is the variant or number that this depends on,
-    and that was not passed when the device was made. `exists_when` says when a refused point exists, where other points
-    decide that. `received` is what came in place of a frame.
+    `point` names the point with its code (`device.point(error.point)` returns it), the points of one request, the
+    command, or the place. `group` is the group that was read, if it was one. `needs` is another point that had to be
+    read first. `undecided` is the variant or number that the result depends on and that was not passed when the device
+    was made. `exists_when` is the condition on other points under which a refused point exists. `received` is what
+    arrived instead of a frame.
     """
 
     status: str = "error"
@@ -26,12 +26,12 @@ class FieldscribeError(Exception):
 
     @property
     def lost(self) -> bool:
-        """Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake."""
+        """True if a frame was lost or damaged on the line, so that trying again may help."""
         return False
 
     @property
     def reason(self) -> str:
-        """What is wrong, without what was asked for and what to do about it."""
+        """What is wrong, without the names of the request and without advice."""
         exists = f"; it exists only when {self.exists_when}" if self.exists_when else ""
         return ": ".join([*([f"needs {self.needs}"] if self.needs else []), super().__str__() + exists])
 
@@ -41,7 +41,7 @@ class FieldscribeError(Exception):
         return ": ".join(filter(None, [*asked, self.reason, advice]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copies, also those between processes, have the message and all that is told beside it."""
+        """Copies, also between processes, keep the message and all attributes."""
         return _restored, (type(self), self.args, self.__dict__)
 
 
@@ -49,7 +49,7 @@ E = TypeVar("E", bound=FieldscribeError)
 
 
 def undecided(error: E, what: str | None) -> E:
-    """Return an error with the variant or number that it depends on, if there is one."""
+    """Return the error with the variant or number that it depends on, if any."""
     error.undecided = what
     return error
 
@@ -65,7 +65,7 @@ class CodecError(FieldscribeError, ValueError):
 
 
 class RangeError(CodecError):
-    """The number may not be written."""
+    """The number may not be written, or does not exist."""
 
     status = "out_of_range"
 
@@ -77,13 +77,13 @@ class NotANumberError(CodecError):
 
 
 class WrongTypeError(CodecError, TypeError):
-    """The value is of a type that the point does not take: None, a text, or a bool where a number belongs."""
+    """The point does not take a value of this type: None, a str, or a bool instead of a number."""
 
     status = "wrong_type"
 
 
 class UnknownValueError(CodecError):
-    """The number is none of the named ones, and only those may be written."""
+    """The number has no name, and only named ones may be written."""
 
     status = "unknown_value"
 
@@ -95,19 +95,19 @@ class ZeroFactorError(CodecError):
 
 
 class NoCaseError(CodecError):
-    """No scale fits the numbers of the points that choose it."""
+    """The scale has no case for the numbers of the points that choose it."""
 
     status = "no_case"
 
 
 class ResultOverflowError(CodecError):
-    """The result is too large to be represented."""
+    """The result is too large."""
 
     status = "overflow"
 
 
 class SpecialCodeError(CodecError):
-    """A special code stands where a quantity belongs, or is to be written and only read; `special` is its name."""
+    """A special code instead of a quantity, or a write of a read-only one; `special` is its name."""
 
     status = "special"
 
@@ -117,7 +117,7 @@ class SpecialCodeError(CodecError):
 
 
 class MalformedError(CodecError):
-    """The words do not hold what they should: a text that is no UTF-8 or UTF-16."""
+    """The words are no valid text (UTF-8 or UTF-16), or no date."""
 
     status = "malformed"
 
@@ -129,32 +129,32 @@ class WrongLengthError(CodecError):
 
 
 class MissingRawError(CodecError):
-    """The conversion needs the raw number of another point, and `raws` does not hold it."""
+    """The conversion needs the raw number of another point, but `raws` does not hold it."""
 
     status = "missing_raw"
 
 
 class AccessError(FieldscribeError):
-    """The device has the point or the group, but not this: it is only written, belongs to another device, ..."""
+    """The device has the point or the group but not this access: it is write-only, of another device, ..."""
 
     status = "no_access"
 
 
 class AbsentError(AccessError, AttributeError):
-    """The device has no such point, by attribute or by name: why, the message says.
+    """The device has no such point, by attribute or by name; the message says why.
 
-    The name is unknown, the point is documented only, or only another variant has it (or nobody said which one it is).
+    The name is unknown, the point is only documented, or only another variant has it (or the variant was not passed).
     """
 
 
 class OtherDeviceError(FieldscribeError):
-    """What answers is another device: a point holds something else than the description says."""
+    """Another device answers: a point holds something else than the description says."""
 
     status = "other_device"
 
 
 class WaitError(FieldscribeError):
-    """The device did not come to what a step of a command waits for; `held` are the words that it had last."""
+    """The device did not reach what a step of a command waits for; `held` are the last words read."""
 
     status = "not_reached"
 
@@ -166,8 +166,8 @@ class WaitError(FieldscribeError):
 class BlockError(FieldscribeError):
     """A block of addresses cannot be found.
 
-    `status` is `no_marker` (nothing says where blocks start), `bad_chain` (they do not end), `no_block` (the device has
-    no block of that id) or `behind_end` (the block is shorter than the point needs).
+    `status` is `no_marker` (no marker of a chain of blocks), `bad_chain` (the chain does not end), `no_block` (no block
+    with this id) or `behind_end` (the block is shorter than the point needs).
     """
 
     def __init__(self, status: str, message: str) -> None:
@@ -188,16 +188,16 @@ _FINAL = frozenset({"exception", "refused", "no_rights", "echo_mismatch", "wrong
 
 
 class FrameError(FieldscribeError):
-    """The reply is not a good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...).
+    """The reply is not a valid answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...).
 
-    `words` is the process data that came in the same telegram, where the rest of it was good.
+    `words` is the process data of the same telegram, if that part was valid.
     """
 
     words: tuple[int, ...] = ()
 
     @property
     def lost(self) -> bool:
-        """Whether trying again may help: not if the device refused, and not if a transport gives no bytes."""
+        """True if trying again may help: not after a refusal, and not if a transport returned no bytes object."""
         return self.status not in _FINAL
 
     def __init__(self, status: str, message: str) -> None:
@@ -206,7 +206,7 @@ class FrameError(FieldscribeError):
 
 
 class EchoError(FrameError):
-    """The device took a write and confirmed another value than the one `written`: `answered` is what it has now.
+    """The device confirmed a write with another value than the one `written`: `answered` is what it has now.
 
     Both are words in ascending order of address, the high word of a parameter first.
     """
@@ -228,18 +228,18 @@ _STANDARD = {
     0x0A: "gateway_path_unavailable",
     0x0B: "gateway_target_device_failed_to_respond",
 }
-"""What Modbus calls exceptions."""
+"""The standard's names of Modbus exceptions."""
 
 
 class ExceptionReplyError(FrameError):
-    """The device refused the request with an exception `code`; `name` is the manual's name for it, where known.
+    """The device refused the request with an exception `code`; `name` is the manual's name for it, if it has one.
 
-    Where the manual has none, the message has that of the standard.
+    If not, the message has the name in the standard.
     """
 
     @property
     def lost(self) -> bool:
-        """Whether a gateway says that the unit is not there (codes 0Ah and 0Bh, unless the device names them)."""
+        """True if a gateway did not reach the unit (codes 0Ah and 0Bh, unless the device names them)."""
         return self.name is None and self.code in _OF_GATEWAYS
 
     def __init__(self, code: int, name: str | None = None) -> None:
@@ -251,7 +251,7 @@ class ExceptionReplyError(FrameError):
 
 
 class RefusedError(FrameError):
-    """The device refused the task with an error number `code`; `name` is the manual's name for it, where known."""
+    """The device refused the task with an error number `code`; `name` is the manual's name for it, if it has one."""
 
     def __init__(self, code: int, name: str | None = None) -> None:
         super().__init__("refused", f"the device refused the task: error {code}" + (f" ({name})" if name else ""))
@@ -260,7 +260,7 @@ class RefusedError(FrameError):
 
 
 class TelegramError(FieldscribeError):
-    """Words of a telegram cannot be told; `status` is `missing` (not all came yet) or `torn` (they do not agree)."""
+    """Words of a telegram are not available: `status` is `missing` (not all arrived yet) or `torn` (inconsistent)."""
 
     def __init__(self, status: str, message: str) -> None:
         super().__init__(message)
@@ -268,21 +268,21 @@ class TelegramError(FieldscribeError):
 
 
 class NoReplyError(FieldscribeError, TimeoutError):
-    """Nothing came that answers, in time; what was heard last, if it tells why, is the `__cause__`."""
+    """No answer arrived in time; if the last bytes received explain why, they are the `__cause__`."""
 
     status = "timeout"
     lost = True
 
 
 def no_reply(what: str, error: TimeoutError) -> NoReplyError:
-    """Return the error for a request that nobody answered, with what the transport says of the bytes that came."""
+    """Return the error for an unanswered request, with what the transport reports of received bytes."""
     made = NoReplyError(f"{what}: {error}" if str(error) else what)
     made.received = getattr(error, "received", b"")
     return made
 
 
 class LineError(FieldscribeError, ConnectionError):
-    """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more.
+    """The line itself failed: it cannot be opened, or the other side is gone; see the `__cause__`.
 
     `unsent` is true if the request was not sent.
     """

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: 0BSD
-"""The quick way through a point: functions that are specialised for its facts.
+"""The fast path of a point: functions specialised for its facts.
 
-What decodes is for integers that are known to be raw numbers of the point, as those in frames are; `checked` makes of
-it what takes any argument. The others test inline what is usual (the exact type, one range) and compute. Whatever else
-comes goes the `slow` way, which knows every case and words the errors. Both ways give the same bits.
+The decoders take integers that are known to be raw numbers of the point, as in frames; `checked` makes one that takes
+any argument. The encoders test the usual case inline (the exact type, one range) and compute. All other arguments go
+to the `slow` path, which knows every case and words the errors. Both paths give the same bits.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
     from .special import Special
 
     Way = Callable[..., Any]
-    """Takes a raw number or a value, and the raw numbers that are needed of other points."""
+    """Converts a raw number or a value, given the raw numbers of other points it needs."""
 
 _NUMBERS = (float, int)
 _INTEGERS = {int}
 _REMEMBERED = 256
-"""For so many raw numbers of another point its part of a scale is remembered."""
+"""The most raw numbers of another point whose scale is remembered."""
 
 
 def same(low: int, high: int, slow: Way) -> Way:
-    """Both ways for integers of a range that are their own raw numbers."""
+    """Convert integers of a range that are their own raw numbers, in both directions."""
 
     def convert(number: int, raws: Raws = NO_RAWS) -> Any:
-        """Return the same number, if it may be; raises as the point's class says."""
+        """Return the number if it is in the range; raises as the point does."""
         if type(number) is int and low <= number <= high:
             return number
         return slow(number, raws)
@@ -41,7 +41,7 @@ def same(low: int, high: int, slow: Way) -> Way:
 
 
 def checked(sure: Way, ends: tuple[int, int], needs: Sequence[str], slow: Way) -> Way:
-    """From raw numbers of a range by a way for what is known to be one, if those of other points are integers."""
+    """Return a decoder that checks the raw numbers before it calls `sure`."""
     low, high = ends
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
@@ -62,7 +62,7 @@ def checked(sure: Way, ends: tuple[int, int], needs: Sequence[str], slow: Way) -
 
 
 def listed(known: Mapping[int, Any], slow: Way) -> Way:
-    """From raw numbers to what each of them stands for."""
+    """Decode raw numbers by a table."""
 
     def decode(raw: int, raws: Raws) -> Any:
         try:
@@ -75,7 +75,7 @@ def listed(known: Mapping[int, Any], slow: Way) -> Way:
 
 
 def chosen(kind: type, known: Mapping[Any, int], slow: Way) -> Way:
-    """From the values of just one type to raw numbers."""
+    """Encode values of exactly one type by a table."""
 
     def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
         """Return the raw number for a value; raises as the point's class says."""
@@ -87,7 +87,7 @@ def chosen(kind: type, known: Mapping[Any, int], slow: Way) -> Way:
 
 
 def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
-    """As `checked` makes of `unchecked`, in one call: most points have a fixed scale."""
+    """The same as `checked(unchecked(line))` in one call: most points have a fixed scale."""
     times, less, over = line
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
@@ -106,7 +106,7 @@ def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
 
 
 def unchecked(line: Line) -> Way:
-    """From raw numbers to values, by a fixed scale."""
+    """Decode by a fixed scale."""
     times, less, over = line
 
     def decode(raw: int, raws: Raws) -> Any:
@@ -119,13 +119,13 @@ def unchecked(line: Line) -> Way:
 
 
 def itself(raw: int, raws: Raws) -> int:
-    """Return what is known to be a raw number of the point, and its value."""
+    """Return the raw number, which is the value."""
     del raws
     return raw
 
 
 def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """From raw numbers to values, by a scale that other points decide: these seldom change."""
+    """Decode by a scale that other points decide: these seldom change."""
     points = tuple([factor.point for factor in rule.factors])
     point = points[0]
     lines: dict[Any, Line] = {}
@@ -156,10 +156,10 @@ def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
 
 
 def _learner(lines: dict[Any, Line], rule: Rule, ends: tuple[int, int], slow: Way) -> Way:
-    """Return the slow way, which adds the scale for these numbers of other points to the lines."""
+    """Return the slow path, which remembers the scale for these numbers of other points in `lines`."""
 
     def learned(numbers: Any, raw: int, raws: Raws) -> Any:
-        value = slow(raw, raws)  # raises what is to be raised
+        value = slow(raw, raws)  # raises if there is no value
         if len(lines) < _REMEMBERED and rule.is_safe(raws, *ends):
             lines[numbers] = rule.line(raws)
         return value
@@ -168,7 +168,7 @@ def _learner(lines: dict[Any, Line], rule: Rule, ends: tuple[int, int], slow: Wa
 
 
 def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -> Way:
-    """From values to raw numbers of a range: by steps in binary64, then to nearest, halves away from zero."""
+    """Encode values into a range: steps in binary64, then round to nearest, halves away from zero."""
     num, den, offset = steps
 
     def encode(value: float, raws: Raws = NO_RAWS) -> Any:
@@ -179,7 +179,7 @@ def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -
                 raw = int(result)
             except (OverflowError, ValueError):  # beyond every integer, or NaN
                 return slow(value, raws)
-            rest = result - raw  # exact: both lie within a factor of two, or the integer is zero
+            rest = result - raw  # exact: they are within a factor of two, or the integer is zero
             if rest >= 0.5:
                 raw += 1
             elif rest <= -0.5:
@@ -192,7 +192,7 @@ def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -
 
 
 def from_pattern(number: struct.Struct, word: struct.Struct) -> Way:
-    """From the bit patterns of IEEE 754 numbers to those."""
+    """Decode bit patterns of IEEE 754 numbers."""
     pack, unpack = word.pack, number.unpack
 
     def decode(raw: int, raws: Raws) -> Any:
@@ -202,7 +202,7 @@ def from_pattern(number: struct.Struct, word: struct.Struct) -> Way:
 
 
 def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: float, slow: Way) -> Way:
-    """From values to the bit patterns of IEEE 754 numbers of a range."""
+    """Encode values of a range as bit patterns of IEEE 754 numbers."""
     pack, unpack, nearest = number.pack, word.unpack, number.unpack
 
     def encode(value: float, raws: Raws = NO_RAWS) -> Any:
@@ -220,7 +220,7 @@ def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: flo
 
 
 def coded(find: Callable[[int], Special | None], plain: Way) -> Way:
-    """From raw numbers to special codes, else the `plain` way."""
+    """Decode special codes, and other raw numbers by `plain`."""
 
     def decode(raw: int, raws: Raws) -> Any:
         return find(raw) or plain(raw, raws)
@@ -229,7 +229,7 @@ def coded(find: Callable[[int], Special | None], plain: Way) -> Way:
 
 
 def uncoded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
-    """Return the `plain` way from values to raw numbers, if those are no special codes."""
+    """Encode by `plain`, unless the result is a special code."""
 
     def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
         """Return the raw number for a value; raises as the point's class says."""
@@ -240,7 +240,7 @@ def uncoded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way
 
 
 def bits_of(low: int, mask: int, sign: int, then: Way) -> Way:
-    """From words to what a way makes of some bits of them; `sign` is the highest of these where they are signed."""
+    """Decode some bits of a word by `then`; `sign` is their highest bit if they are signed."""
 
     def decode(word: int, raws: Raws = NO_RAWS) -> Any:
         return then((word >> low & mask ^ sign) - sign, raws)
@@ -249,9 +249,9 @@ def bits_of(low: int, mask: int, sign: int, then: Way) -> Way:
 
 
 def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple[str, Any, Way]], slow: Way) -> Way:
-    """From bytes to values by name: the plan says which field each is of, and by which way.
+    """Decode bytes to values by name; the plan has the field and the decoder of each point.
 
-    Most frames have a few points, for which a loop would cost as much as the work.
+    Most frames have a few points, where a loop would cost as much as the decoding.
     """
 
     def decode(data: bytes, raws: Raws = NO_RAWS) -> Any:
@@ -299,7 +299,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
 
 
 def put_together(pack: Callable[..., bytes], plan: Sequence[tuple[str, Way]]) -> Way:
-    """From values by name to bytes: the plan has a way for each field."""
+    """Encode values by name as bytes; the plan has an encoder for each field."""
 
     def encode(values: Mapping[str, Any], raws: Raws) -> bytes:
         return pack(*[way(values[name], raws) for name, way in plan])

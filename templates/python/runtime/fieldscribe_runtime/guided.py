@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Objects of which `help()` says what each of them is: attributes of a device class are no classes of their own."""
+"""Objects with a docstring of their own, for `help()`: the attributes of a device class are objects, not classes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 class _Guide:
-    """A docstring: of the class its own text, of an object what that tells."""
+    """A docstring: on a class its own text, on an object the object's guide."""
 
     def __init__(self, text: str | None) -> None:
         self._text = text
@@ -17,7 +17,7 @@ class _Guide:
 
 
 class Guided:
-    """Something with a docstring for each object."""
+    """The base of classes whose objects have docstrings."""
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -25,5 +25,5 @@ class Guided:
         cls.__doc__ = guide
 
     def _guide(self) -> str:
-        """Return what `help()` says of it."""
+        """Return the text for `help()`."""
         raise NotImplementedError

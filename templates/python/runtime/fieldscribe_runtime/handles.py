@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What `device.point` gives: the point's pure functions, and reading and writing through the device."""
+"""The attributes of a device: the conversions of a point, and reading and writing through the device."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ class ReadHandle(Handle, Decoding[R_co]):
     """A point of a device, to be read."""
 
     def read(self) -> R_co:
-        """Ask the device for the value (and for other points that its scale needs)."""
+        """Read the value from the device (and other points that its scale needs)."""
         if self._form.needs:
             return self._device._run(self._device._read_steps(self))
         return self.decode(self._device._run(self._device._read_raw_steps(self)))
 
     def read_raw(self) -> int:
-        """Ask the device for the raw number."""
+        """Read the raw number from the device."""
         return self._device._run(self._device._read_raw_steps(self))
 
 
@@ -56,7 +56,7 @@ class WriteHandle(Handle, Encoding[W_contra]):
     """A point of a device, to be written."""
 
     def write(self, value: W_contra) -> None:
-        """Write a value that the range allows; bits of other points in the same word stay as they are."""
+        """Write a value that the range allows; bits of other points in the same word are preserved."""
         self._device._run(self._device._write_steps(self, value))
 
     def write_raw(self, raw: int) -> None:
@@ -72,13 +72,13 @@ class AsyncReadHandle(AsyncHandle, Decoding[R_co]):
     """A point of an async device, to be read."""
 
     async def read(self) -> R_co:
-        """Ask the device for the value (and for other points that its scale needs)."""
+        """Read the value from the device (and other points that its scale needs)."""
         if self._form.needs:
             return await self._device._run(self._device._read_steps(self))
         return self.decode(await self._device._run(self._device._read_raw_steps(self)))
 
     async def read_raw(self) -> int:
-        """Ask the device for the raw number."""
+        """Read the raw number from the device."""
         return await self._device._run(self._device._read_raw_steps(self))
 
 
@@ -86,7 +86,7 @@ class AsyncWriteHandle(AsyncHandle, Encoding[W_contra]):
     """A point of an async device, to be written."""
 
     async def write(self, value: W_contra) -> None:
-        """Write a value that the range allows; bits of other points in the same word stay as they are."""
+        """Write a value that the range allows; bits of other points in the same word are preserved."""
         await self._device._run(self._device._write_steps(self, value))
 
     async def write_raw(self, raw: int) -> None:

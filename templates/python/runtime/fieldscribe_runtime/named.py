@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""The enums of generated devices: they name the numbers that a manual names, and hold any other number too."""
+"""The enums of generated devices: they have the manual's names, and hold any other number too."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class NamedNumber(enum.IntEnum):
-    """An open enum: `RunSource(77)` is a `RunSource` even if the manual does not name 77.
+    """An open enum: `RunSource(77)` is a `RunSource` even if the manual has no name for 77.
 
-    What a device sends keeps its type and its number. A member compares and hashes as its number.
+    So a received number keeps its type. A member compares and hashes as its number.
     """
 
     @classmethod
@@ -28,7 +28,7 @@ class NamedNumber(enum.IntEnum):
         return member
 
     def __reduce_ex__(self, protocol: object) -> tuple[type[Self], tuple[int]]:
-        """Copy and pickle by number: Python 3.11.2 does it by name, and a number without a name has none."""
+        """Copy and pickle by number: Python 3.11.2 uses the name, which some members do not have."""
         return type(self), (int(self),)
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Forms of bytes that people write in a notation of their own, and of numbers that are a time since a date."""
+"""Forms of bytes with a notation of their own, such as IP addresses, and of times counted from a date."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Bytes(Text):
         return data.hex(*":" * self.encoding.startswith("eui")).upper()
 
     def converted(self, value: str, raws: Raws) -> int | None:
-        """Return the words of such a text; None if it does not have that many bytes."""
+        """Return the words of a text in this notation; None if the number of bytes differs."""
         if not isinstance(value, str):
             return None
         try:
@@ -69,11 +69,11 @@ class Bytes(Text):
         return bytes(parts if self.encoding == "version" else _joined(parts))
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """Return the same words: all bytes may be written."""
+        """Return the words: all bytes may be written."""
         return raw if 0 <= raw < 1 << self.wire.bits else None
 
     def choices(self, unit: str) -> str | None:
-        """Return what the text has to be."""
+        """Return what a refused text is."""
         return f"not {self.characters} byte{'s' if self.characters > 1 else ''} as {self.encoding}"
 
 
@@ -82,14 +82,14 @@ def _nibbles(data: bytes) -> list[int]:
 
 
 def _joined(parts: Sequence[int]) -> list[int]:
-    """Return bytes of nibbles; none of what is no nibble, or of an odd number."""
+    """Return the bytes of nibbles; an empty list for an odd number of them or invalid ones."""
     if len(parts) % 2 or max(parts) >= _NIBBLE:
         return []
     return [high << 4 | low for high, low in zip(parts[::2], parts[1::2], strict=True)]
 
 
 class Time(Around["datetime", "datetime | float"]):
-    """Another form whose value counts seconds from a date: a time in UTC; seconds are taken, too."""
+    """A time in UTC, counted in seconds from a date by another form; encoding also takes seconds."""
 
     def __init__(self, form: Form[Any, Any], epoch: str) -> None:
         super().__init__(form)
@@ -104,16 +104,16 @@ class Time(Around["datetime", "datetime | float"]):
         return slow
 
     def decode(self, raw: int, raws: Raws) -> datetime:
-        """Return the time to the nearest microsecond; raises MalformedError for one that Python does not have."""
+        """Return the time to the nearest microsecond; raises MalformedError for a time beyond Python's range."""
         seconds: float = self.form.decode(raw, raws)
         try:
             num, den = seconds.as_integer_ratio()
             return self.epoch + round_ratio(num * _MICRO, den) * self._micro
         except (OverflowError, ValueError):
-            raise MalformedError(f"raw {raw} is a time that Python does not have") from None
+            raise MalformedError(f"raw {raw} is a time beyond Python's range") from None
 
     def converted(self, value: datetime | float, raws: Raws) -> int | None:
-        """Return the raw number of a time: to the nearest second, halves away from the date, if it counts these."""
+        """Return the raw number of a time; a count of seconds rounds to nearest, halves away from the date."""
         if not isinstance(value, self._datetime):
             return self.form.converted(value, raws)
         if value.tzinfo is None:
@@ -123,7 +123,7 @@ class Time(Around["datetime", "datetime | float"]):
         return self.form.converted(seconds, raws)
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """Return the time: `2026-11-29T12:00:00+00:00`; seconds where Python has no such time, or with `display`."""
+        """Return the time: `2026-11-29T12:00:00+00:00`; in seconds beyond Python's range, or with `display`."""
         try:
             return self.decode(raw, raws).isoformat() if display is None else self.form.shown(raw, raws, display)
         except MalformedError:

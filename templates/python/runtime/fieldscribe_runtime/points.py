@@ -48,13 +48,13 @@ _WRITES = frozenset({"write", "write_raw", "encode"})
 
 
 def _lacks(point: Point, name: str) -> str:
-    """Return why a point has no such method."""
+    """Return why a point has no method of this name."""
     for methods, kind, done in ((_READS, Decoding, "written"), (_WRITES, Encoding, "read")):
         if name in methods and not isinstance(point, kind):
             return f"{point.label} is only {done}: it has no {name}"
     if name in _READS | _WRITES:
         return (
-            f"{point.label} of the class converts alone: make a device, and say device.{point.facts.item}.{name}(...)"
+            f"{point.label} of the class only converts: make a device, and call device.{point.facts.item}.{name}(...)"
         )
     return f"{type(point).__name__!r} object has no attribute {name!r}"
 
@@ -67,18 +67,18 @@ _FOR_PEOPLE = (
     *("title", "label", "unit", "minimum", "maximum", "raw_limits", "decimals", "names", "name_of", "special", "facts"),
     *("scale_needs", "limit_needs", "from_words", "to_words"),
 )
-"""What `dir()` lists, for completion; the rest serves devices and layouts."""
+"""What `dir()` lists, for completion; the other names are for devices and layouts."""
 
 
 class Point(Guided):
-    """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
+    """One data point. Its methods need no device; subclasses add decoding and encoding."""
 
     _form: Form[Any, Any]
     facts: Facts
 
     @property
     def label(self) -> str:
-        """Code and name, for messages."""
+        """The code and the name, for messages."""
         return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
 
     def __repr__(self) -> str:
@@ -87,40 +87,40 @@ class Point(Guided):
         return f"<{type(self).__name__} {self.label}: {self.facts.where}{shown}>"
 
     def _guide(self) -> str:
-        from .guide import described  # nobody needs it before asking for help
+        from .guide import described  # only help() needs it
 
         return described(self)
 
     if not TYPE_CHECKING:  # type checkers report names that do not exist
 
         def __getattr__(self, name: str) -> Any:
-            """Say how a point is read and written, where it is asked for what it cannot do."""
+            """Raise AttributeError with the reason why a point lacks a method."""
             kind = AbsentError if name in _READS | _WRITES else AttributeError
             raise kind(_lacks(self, name), name=name, obj=self)
 
     def __dir__(self) -> list[str]:
-        """Return what people use of a point."""
+        """Return the names that users of a point need."""
         return [name for name in _FOR_PEOPLE if name in self.__dict__ or hasattr(type(self), name)]
 
     @property
     def title(self) -> str:
-        """The name as words: `Base frequency set 2`."""
+        """The name in words: `Base frequency set 2`."""
         return self.facts.item.replace("_", " ").capitalize()
 
     @property
     def unit(self) -> str:
-        """The unit of its values; empty where they have none."""
+        """The unit of its values; empty if they have none."""
         return self.facts.unit
 
     @property
     def minimum(self) -> float | None:
-        """The least value that is ever allowed, in the unit; None where there is none, or other points decide."""
+        """The least value that is ever allowed, in the unit; None if there is none, or other points decide."""
         bounds = self._bounds
         return bounds[0] if bounds else None
 
     @property
     def maximum(self) -> float | None:
-        """The greatest value that is ever allowed, as `minimum` is the least."""
+        """The greatest value that is ever allowed, in the unit; None as for `minimum`."""
         bounds = self._bounds
         return bounds[1] if bounds else None
 
@@ -132,7 +132,7 @@ class Point(Guided):
             return None
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what makes the point, without the functions that are specialised for it: a copy makes its own."""
+        """Return the state without the specialised functions: a copy makes its own."""
         return {name: value for name, value in self.__dict__.items() if name not in _SPECIALISED}
 
     @property
@@ -142,22 +142,22 @@ class Point(Guided):
 
     @property
     def width(self) -> int:
-        """How many bits the raw number has."""
+        """The number of bits of the raw number."""
         return self.wire.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
 
     @cached_property
     def size(self) -> int:
-        """How many words (or single bits) the point takes."""
+        """The number of words (or single bits) of the point."""
         return 1 if self.facts.bits is not None else -(-self.wire.bits // 16)
 
     @property
     def names(self) -> type[enum.IntEnum | enum.IntFlag] | None:
-        """The class that names its numbers or its flags, where there is one."""
+        """The class that names its numbers or its flags; None if there is none."""
         return self._form.names
 
     @property
     def decimals(self) -> int | None:
-        """Counts are in units of 10^-decimals; None where there are no counts."""
+        """Counts are in units of 10^-decimals; None if there are no counts."""
         return self._form.decimals
 
     @property
@@ -198,7 +198,7 @@ class Point(Guided):
     def from_words(self, words: Sequence[int]) -> int:
         """Return the raw number in unsigned words (or bits) in ascending order of address.
 
-        Raises WrongLengthError, RangeError for what is no word, and WrongTypeError.
+        Raises WrongLengthError, RangeError for a number that does not fit a word, and WrongTypeError.
         """
         found = self._words(words)
         if len(found) != self.size:
@@ -207,7 +207,7 @@ class Point(Guided):
 
     @cached_property
     def joined(self) -> Callable[[Sequence[int]], int]:
-        """Does the same for what are known to be the words of the point."""
+        """The same without checks, for words that are known to be those of the point."""
         is_its_word = self.facts.bits is None and self.wire == U16
         return itemgetter(0) if is_its_word else self._joined
 
@@ -221,7 +221,7 @@ class Point(Guided):
         return self.wire.number(pattern, self.wire.bits)
 
     def _words(self, words: Iterable[int]) -> list[int]:
-        """Return words as plain numbers, bits too."""
+        """Return words or bits as plain integers."""
         try:
             if isinstance(words, (str, bytes, bytearray, set, frozenset, dict)):
                 raise TypeError
@@ -243,8 +243,8 @@ class Point(Guided):
         return self._from_high(self.facts.at)
 
     def _from_high(self, place: Place) -> Sequence[int]:
-        """Return where the words of the number stand among those in ascending order of address, the high one first."""
-        if len(place.addresses) == 1:  # it holds all words, which travel with the high one first
+        """Return the indices of the number's words, the high one first, among words in ascending order of address."""
+        if len(place.addresses) == 1:  # one address holds all words, and they travel high word first
             return range(self.size)
         ascending = sorted(place.addresses)
         return [ascending.index(address) for address in place.addresses]
@@ -270,7 +270,7 @@ class Point(Guided):
 
     @property
     def _unit(self) -> str:
-        """The unit as it stands behind a number."""
+        """The unit as written after a number."""
         return f" {self.facts.unit}" if self.facts.unit else ""
 
     def same(self, raw: int, other: int) -> bool:
@@ -278,11 +278,11 @@ class Point(Guided):
         return self._form.same(raw, other)
 
     def text(self, value: Any, raws: Raws = NO_RAWS) -> str:
-        """Return a value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50 Hz`.
+        """Return a value as text with its unit: `drive.base_frequency.text(50.0)` is `50 Hz`.
 
-        It has as many decimals as the description says, rounded from what the device holds for the value; without that
-        as many as it takes. `raws` holds the raw numbers that the scale needs of others. Raises as `encode` does, but
-        whether the value may be written does not matter.
+        It has as many decimals as the description says, rounded from what the device stores for the value; without such
+        a number, as many as needed. `raws` holds the raw numbers of other points that the scale needs. Raises as
+        `encode` does, but also accepts values that may not be written.
         """
         if isinstance(value, Special):
             return value.name
@@ -295,7 +295,7 @@ class Point(Guided):
         return self.told(self._within(raw, *self.wire.limits(self.width)), raws)
 
     def raw_of(self, value: Any) -> int | None:
-        """Return the raw number of a value or special code; None if there is none, or other points decide."""
+        """Return the raw number of a value or special code; None if there is none, or if other points decide it."""
         if isinstance(value, Special):
             return value.raw
         try:
@@ -304,7 +304,7 @@ class Point(Guided):
             return None
 
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
-        """Return a raw number as `text` says its value; as `raw ...` where `raws` do not say what it means."""
+        """Return the value of a raw number as `text` does, or `raw ...` if `raws` lacks what the scale needs."""
         return self._told(raw, raws, self.facts.display)
 
     def told_exactly(self, raw: int, raws: Raws = NO_RAWS) -> str:
@@ -325,7 +325,7 @@ class Point(Guided):
             return f"raw {raw}"
 
     def _within(self, number: int, low: int, high: int) -> int:
-        """Return the same as a plain number; a bool is one of a bit."""
+        """Return the number as a plain integer; a bool is allowed for one bit."""
         try:
             plain = int(number) if isinstance(number, bool) and self.width == 1 else whole(number)
             if low <= plain <= high:
@@ -335,7 +335,7 @@ class Point(Guided):
             raise self._named(error) from None
 
     def _number(self, raw: int) -> int:
-        """Return a raw number as a plain one; raises WrongTypeError for what is no integer."""
+        """Return a raw number as a plain integer; raises WrongTypeError if it is not an integer."""
         try:
             return raw_number(raw, self.width)
         except CodecError as error:
@@ -354,10 +354,10 @@ class Decoding(Point, Generic[R_co]):
     """The pure functions of a point that can be read."""
 
     def decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
-        """Return the value (or special code) of a raw number; `raws` holds the raw numbers that its scale needs.
+        """Return the value (or special code) of a raw number; `raws` has the raw numbers that its scale needs.
 
-        Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
-        RangeError for what is no raw number of the point, and WrongTypeError for what is no integer.
+        Raises RangeError if this is not a possible raw number of the point, WrongTypeError if it is not an integer, and
+        if the scale needs other points, ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError.
         """
         quick = self.__dict__["decode"] = self.decoder  # from the first call on
         value: R_co = quick(raw, raws)
@@ -365,16 +365,16 @@ class Decoding(Point, Generic[R_co]):
 
     @cached_property
     def decoder(self) -> Way:
-        """The function that `decode` is, specialised for this point."""
+        """The `decode` function, specialised for this point."""
         return self._form.quick_decode(*self._ends, self._decode)
 
     @cached_property
     def sure_decoder(self) -> Way:
-        """The same for what is known to be a raw number of the point; it takes `raws` by position."""
+        """The same without checks of the raw number; it takes `raws` by position."""
         return self._form.sure_decode(*self._ends, self._decode)
 
     def _decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
-        """Return the same for any argument; raises errors that say what is wrong."""
+        """Decode any argument; the errors say what is wrong with it."""
         try:
             value: R_co = self._form.decode(self._possible(raw), raws)
         except CodecError as error:
@@ -389,7 +389,7 @@ class Decoding(Point, Generic[R_co]):
             raise self._named(error) from None
 
     def _possible(self, raw: int) -> int:
-        """Return the same number; raises RangeError for what the point cannot hold, such as 8000h for an s16."""
+        """Return the number; raises RangeError if the point cannot hold it, such as 8000h for an s16."""
         low, high = self._ends
         raw = raw_number(raw, self.width)
         if low <= raw <= high:
@@ -417,11 +417,11 @@ class Encoding(Point, Generic[W_contra]):
 
     @cached_property
     def encoder(self) -> Way:
-        """The function that `encode` is, specialised for this point."""
+        """The `encode` function, specialised for this point."""
         return self._form.quick_encode(self.allowed, self._encode)
 
     def _encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
-        """Return the same for any argument; raises errors that say what is wrong."""
+        """Encode any argument; the errors say what is wrong with it."""
         self.require(value)
         try:
             raw = self._form.encode(value, self.allowed, raws)
@@ -432,9 +432,9 @@ class Encoding(Point, Generic[W_contra]):
         return raw
 
     def require(self, value: object) -> None:
-        """Raises SpecialCodeError, UnknownValueError or WrongTypeError for what is never written.
+        """Raises SpecialCodeError, UnknownValueError or WrongTypeError for a value that can never be written.
 
-        That is known before the device is asked for what scale and limits need.
+        Devices call this before they read what the scale and the limits need.
         """
         if isinstance(value, str) and (self.scale_needs or self.limit_needs):  # only quantities have such needs
             text = self.special.not_a_text(value) if len(self.special) else f"takes a number, not {shown(value)}"
@@ -458,7 +458,7 @@ class Encoding(Point, Generic[W_contra]):
             )
 
     def encode_count(self, count: int, raws: Raws = NO_RAWS) -> int:
-        """Return the raw number for an integer count of 10^-decimals units, by integers alone; raises as `encode`."""
+        """Return the raw number for an integer count of 10^-decimals units, without floats; raises as `encode`."""
         try:
             raw = self._form.encode_count(count, self.allowed, raws)
             if raw is None:
@@ -476,7 +476,7 @@ class Encoding(Point, Generic[W_contra]):
             return f"a count of {_shown(count)}"
 
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
-        """Raises RangeError, UnknownValueError, SpecialCodeError or ZeroFactorError if this may not be written."""
+        """Raises RangeError, UnknownValueError, SpecialCodeError or ZeroFactorError if it may not be written."""
         try:
             number = int(raw) if isinstance(raw, bool) and self.width == 1 else whole(raw)
             if self._form.checked(number, self.allowed, raws) is None:
@@ -499,7 +499,7 @@ class Encoding(Point, Generic[W_contra]):
         return f" (set by {' and '.join(self.limit_needs)})" if self.limit_needs else ""
 
     def _outside(self, told: Callable[[int], str], unit: str, raws: Raws) -> str:
-        """Return why a number is refused, by the limits that other points set now."""
+        """Return why a number is outside the limits that other points set now."""
         ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
         left = [(told(low), told(high)) for low, high in ends if low <= high]
         if left:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Commands of several requests in order: set-up, keys, mailboxes."""
+"""Commands of several requests in order: set-up sequences, keys, mailboxes."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from .traffic import Traffic
 
 _PAUSE = 0.1
-"""Seconds between two looks at what a step waits for."""
+"""Seconds between two reads of what a step waits for."""
 
 
 class StepWord(Record):
-    """A word: constant + factor * argument, modulo 65536. Bits outside `mask` stay as the device has them."""
+    """A word: constant + factor * argument, modulo 65536. Bits outside `mask` are preserved."""
 
     constant: int
     factor: int = 0
@@ -37,16 +37,15 @@ class StepWord(Record):
     mask: int = 0xFFFF
 
     def merged(self, arguments: Mapping[str, int], held: int) -> int:
-        """Return the word in place of what the device held."""
+        """Return the word to write, given the word that the device holds."""
         number = self.constant + (self.factor * arguments[self.argument] if self.factor else 0)
         return held & ~self.mask | number & self.mask
 
 
 class Step(Record):
-    """One request: it writes words, or waits, at most `within` seconds, until the device has them.
+    """One request: it writes words, or waits for at most `within` seconds until the device has them.
 
-    `says` is what the description says, `when` has alternatives of tests that hold together; without any the step is
-    always taken.
+    `says` is the text of the description; `when` is a condition (groups of tests, one of which must hold), or empty.
     """
 
     says: str
@@ -57,21 +56,21 @@ class Step(Record):
 
     @property
     def reads(self) -> bool:
-        """Whether the words have to be read: to wait for them, or for the bits that stay."""
+        """True if the words must be read: to wait for them, or to preserve bits."""
         return self.within is not None or any(isinstance(word, StepWord) and word.mask != 0xFFFF for word in self.words)
 
     def merged(self, arguments: Mapping[str, int], held: tuple[int, ...]) -> tuple[int, ...]:
-        """Return the words in place of those that the device held; one that waits is done when these are the same."""
+        """Return the words to write, given those that the device holds; a step that waits is done if they are equal."""
         pairs = zip(self.words, held, strict=True)
         return tuple([word.merged(arguments, old) if isinstance(word, StepWord) else word for word, old in pairs])
 
 
 class SteppedCommand(Guided):
-    """Requests in order that make the device do something.
+    """A command of several requests in order.
 
-    `arguments` are the least and the greatest number of each. `run` says when a device gives the command: `first`
-    (before all else that it is asked), `before write` (of any point), or `by caller`; one that is due again `every` so
-    many seconds is the caller's, too.
+    `arguments` are the least and the greatest number of each. `run` says when a device sends the command: `first`
+    (before anything else), `before write` (of any point), or `by caller`; the caller also repeats a command that is due
+    `every` so many seconds.
     """
 
     def __init__(
@@ -94,7 +93,7 @@ class SteppedCommand(Guided):
 
     def _guide(self) -> str:
         call = f"{self.name}.send({', '.join([f'{name}=number' for name in self.arguments])})"
-        given = {"first": "given before all else", "before write": "given before each write of a point"}.get(self.run)
+        given = {"first": "sent before all else", "before write": "sent before each write of a point"}.get(self.run)
         every = "" if self.every is None else f", again every {self.every:g} s"
         steps = "".join([f"\n{number}. {step.says}" for number, step in enumerate(self.requests, 1)])
         ends = "".join([f"\n{name} is {low}..{high}." for name, (low, high) in self.arguments.items()])
@@ -113,7 +112,7 @@ class SteppedCommand(Guided):
         raise AttributeError("a command is not assigned to: use its send method")
 
     def steps(self, device: Session, arguments: Mapping[str, int]) -> Steps[None]:
-        """Return the requests, carried out by a device. An error names the step; those before it are done."""
+        """Return the steps of the requests on a device. An error names its step; the steps before it are done."""
         numbers = self._checked(arguments)
         for place, step in enumerate(self.requests, 1):
             with _of_step(device.traffic, f"{self.name}, step {place} ({step.says})"):
@@ -133,7 +132,7 @@ class SteppedCommand(Guided):
 
 
 class _Label:
-    """What logs call a step."""
+    """The name of a step in logs."""
 
     def __init__(self, label: str) -> None:
         self.label = label
@@ -141,7 +140,7 @@ class _Label:
 
 @contextmanager
 def _of_step(traffic: Traffic, label: str) -> Iterator[None]:
-    """Add to errors raised meanwhile which step was carried out, and the point that it had to read."""
+    """Add to errors raised inside the step, and the point that it had to read."""
     try:
         with About(traffic, _Label(label)):
             yield
@@ -152,7 +151,7 @@ def _of_step(traffic: Traffic, label: str) -> Iterator[None]:
 
 
 def _is_taken(device: Session, step: Step) -> Steps[bool]:
-    """Return whether the condition of a step holds; points that it compares are read."""
+    """Return True if the condition of a step is true; reads the points that it compares."""
     held: dict[str, int | str] = {}
     for clause in step.when:
         is_true = True
@@ -168,7 +167,7 @@ def _is_taken(device: Session, step: Step) -> Steps[bool]:
 
 
 def _request_steps(device: Session, step: Step, arguments: Mapping[str, int]) -> Steps[None]:
-    """Write the words of a step, or wait for them; raises WaitError if they do not come during the pauses."""
+    """Write the words of a step, or wait for them; raises WaitError if they do not appear in time."""
     left = step.within
     while True:
         held = (0,) * len(step.words)
@@ -202,7 +201,7 @@ class SteppedHandle:
 
     @property
     def every(self) -> float | None:
-        """After so many seconds the command is due again; None if it is not."""
+        """The seconds after which the command is due again; None if it is not repeated."""
         return self._command.every
 
     def send(self, /, **arguments: int) -> None:
@@ -225,7 +224,7 @@ class AsyncSteppedHandle:
 
     @property
     def every(self) -> float | None:
-        """After so many seconds the command is due again; None if it is not."""
+        """The seconds after which the command is due again; None if it is not repeated."""
         return self._command.every
 
     async def send(self, /, **arguments: int) -> None:

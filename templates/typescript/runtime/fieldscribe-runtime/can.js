@@ -276,7 +276,7 @@ export class CanDevice extends Session {
       const word = words[each];
       const raw = await this._retried(this.retries, () => this._ask(request, addresses[each], word));
       if (answer && carriesRole(answer, "raw") && raw !== word) {
-        const text = `${word} was written to ${addresses[each]}, and the device answered ${raw}`;
+        const text = `${word} was written to ${addresses[each]}, but the device answered ${raw}`;
         throw new EchoError(text, [word], [raw]);
       }
     }

@@ -275,11 +275,11 @@ function otherEcho(request, head, pdu) {
   const [to, written] = wordsOfBytes(Uint8Array.from(head.slice(1)));
   const [at, answered] = wordsOfBytes(pdu.subarray(1));
   if (request.function === WRITE_REGISTER && at === to) {
-    const text = `${written} was written to ${hex4(to)}h, and the device answered ${answered}`;
+    const text = `${written} was written to ${hex4(to)}h, but the device answered ${answered}`;
     return new EchoError(text, [written], [answered]);
   }
   const repeats = `${hex4(answered)}h at ${hex4(at)}h`;
-  return new FrameError("echo_mismatch", `${hex4(written)}h was written to ${hex4(to)}h, and the reply repeats ${repeats}`);
+  return new FrameError("echo_mismatch", `${hex4(written)}h was written to ${hex4(to)}h, but the reply repeats ${repeats}`);
 }
 
 /** A word as four hexadecimal digits. @param {number} word */

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: 0BSD
-//! What a client remembers of what it selected.
+//! The selection that a client remembers.
 
 use crate::Selection;
 
-/// What a client remembers of the selection that it wrote last.
+/// Remembers the selection that a client wrote last.
 ///
-/// A selection stands as long as each further request read a point or wrote one that it selects. So a failure ends it,
-/// and so does whatever is asked without a point.
+/// A selection is valid as long as each further request reads a point, or writes one that it selects. A failure ends
+/// it, and so does any request without a point.
 pub trait Memory: Sized + Send {
     /// Nothing is selected.
     const NOTHING: Self;
 
-    /// What stands when the last request was this transaction.
+    /// The current selection, if the last request was this transaction.
     #[must_use]
     fn standing(&self, _transaction: u16) -> &'static [Selection] {
         &[]
     }
 
-    /// That this stands after a transaction.
+    /// Records the selection after a transaction.
     fn keep(&mut self, _transaction: u16, _selected: &'static [Selection]) {}
 }
 
-/// Nothing: for devices without pages, and those that are chosen at run time.
+/// No memory: for devices without pages, and those that are chosen at run time.
 #[derive(Debug)]
 pub struct Forgets;
 
@@ -29,7 +29,7 @@ impl Memory for Forgets {
     const NOTHING: Self = Self;
 }
 
-/// The last selection: the clients of devices with pages have it.
+/// The last selection, for clients of devices with pages.
 #[derive(Debug)]
 pub struct Remembers(Option<(u16, &'static [Selection])>);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Modbus frames without input or output: a request into the caller's buffer, a reply out of one.
+//! Modbus frames without I/O: builds requests and parses replies in the caller's buffers.
 //!
 //! ```
 //! use fieldscribe_runtime::modbus::{Framing, Function, Profile, Request};

@@ -382,7 +382,7 @@ def _command(command: Command, scope: HeaderScope) -> CommandView:
     value = "1U" if command.value is None else unsigned(command.value)
     comment = c_comment(command.title["en"]) + (": any value does" if command.value is None else "")
     if command.wears is not None:
-        comment += f"; the memory stands {command.wears} writes"
+        comment += f"; the memory is rated for {command.wears} writes"
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
     descriptor = Descriptor(
         "fieldscribe_modbus_command",

@@ -120,7 +120,7 @@ def _command(command: Command) -> tuple[str, str, str]:
     """Return the comment of a command, its constant, and its arguments."""
     value = "None" if command.value is None else f"Some({command.value})"
     doc = sentence(command.name).rstrip(".") + (": any value does" if command.value is None else "")
-    doc += f"; the memory stands {command.wears} writes" if command.wears is not None else ""
+    doc += f"; the memory is rated for {command.wears} writes" if command.wears is not None else ""
     return f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: 0BSD
-//! Transports of families that ask and answer, which the caller brings. Nothing here does input or output itself;
-//! [`crate::transports`] has some that do.
+//! Transports of families that ask and answer; the caller provides them. Nothing here does I/O itself;
+//! [`crate::transports`] has transports that do.
 //!
 //! The clients are in [`crate::modbus`], [`crate::uss`] and [`crate::can`].
 
@@ -12,7 +12,7 @@ use core::future::Future;
 /// use fieldscribe_runtime::modbus::{Client, Framing, Function, Profile};
 /// use fieldscribe_runtime::{point, Device, Transport};
 ///
-/// /// A line on which this is answered.
+/// /// A line with a fixed answer.
 /// struct Canned(&'static [u8]);
 ///
 /// impl Transport for Canned {
@@ -56,23 +56,23 @@ pub trait Transport {
     /// What can go wrong on the line.
     type Error;
 
-    /// Sends `request`, puts the reply into `reply` and gives its length in bytes.
+    /// Sends `request`, puts the reply into `reply` and returns its length in bytes.
     ///
-    /// When a reply of Modbus is complete, [`reply_length`](crate::modbus::reply_length) tells from its first bytes.
+    /// [`reply_length`](crate::modbus::reply_length) tells from its first bytes when a Modbus reply is complete.
     ///
-    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was
-    /// given up, could else be taken for the answer to this one, as nothing in it tells them apart.
+    /// Discard bytes that arrived before the request: a late answer to an earlier request that was given up could be
+    /// taken for the answer to this one, as nothing in it tells them apart.
     ///
-    /// An empty `reply` says that none will come: the request went to all units.
+    /// An empty `reply` means that there is no answer: the request is a broadcast.
     ///
     /// # Errors
-    /// Whatever went wrong on the line, also that nothing came in time.
+    /// Any failure of the line, also if nothing arrives in time.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error>;
 }
 
 /// Sends a request and waits for its reply without blocking.
 ///
-/// Its futures are [`Send`], and so are those of the clients over it: executors of several threads take them.
+/// Its futures are [`Send`], and so are those of the clients over it: multi-threaded executors accept them.
 ///
 /// ```
 /// use fieldscribe_runtime::modbus::AsyncClient;
@@ -95,7 +95,7 @@ pub trait AsyncTransport: Send {
 
     /// As [`Transport::exchange`].
     ///
-    /// A future that is dropped gives the request up.
+    /// Dropping the future gives up the request.
     fn exchange(
         &mut self,
         request: &[u8],
@@ -136,11 +136,11 @@ pub trait LocalTransport {
     ) -> impl Future<Output = Result<usize, Self::Error>>;
 }
 
-/// Methods that read points by a method that puts their raw numbers into place: raw numbers, values and counts, with
-/// and without other points.
+/// Methods that read points: raw numbers, values and counts, with and without other points. They use a method that
+/// stores the raw number in place.
 ///
-/// They take points of the trait `$reach`, for which the rest of the conditions holds. A raw number in place costs less
-/// code than one in a `Result`, whose error would be copied once more.
+/// They take points of the trait `$reach`, which implies the other bounds. A raw number in place needs less code than
+/// one in a `Result`, whose error would be copied once more.
 macro_rules! read_methods {
     (
         [$($async:ident)?], [$($wait:tt)*], $about:literal, $get:ident for $reach:path $(, [$($condition:tt)+])?;
@@ -225,7 +225,7 @@ macro_rules! read_methods {
     };
 }
 
-/// Methods that write points by a method that takes checked raw numbers: values, counts and raw numbers.
+/// Methods that write points (values, counts and raw numbers) by a method that takes checked raw numbers.
 macro_rules! write_methods {
     (
         [$($async:ident)?], [$($wait:tt)*], $about:literal, $put:ident for $reach:path, $error:ty;
@@ -306,10 +306,10 @@ macro_rules! write_methods {
     };
 }
 
-/// Methods that read and write points as data by `$get`, which gives the words of a point in reading order, and `$put`.
+/// Methods that access points as data by `$get`, which returns the words of a point in reading order, and `$put`.
 macro_rules! data_methods {
     ([$($async:ident)?], [$($wait:tt)*], $get:ident $put:ident) => {
-        /// The value of a point as data; what its scale needs of other points is read first.
+        /// The value of a point as data; reads other points that its scale needs first.
         ///
         /// # Errors
         /// Whatever [`ClientError`] tells.
@@ -325,8 +325,8 @@ macro_rules! data_methods {
             Ok(point.decode(raw, raws.get(..count).unwrap_or(&raws))?)
         }
 
-        /// Writes a value to a point as data; what its scale and its limits need of other points, and the word that it
-        /// shares with others, are read first.
+        /// Writes a value to a point as data; reads other points that its scale and limits need, and the word that it
+        /// shares with others, first.
         ///
         /// # Errors
         /// What encoding says, and what the bus does.
@@ -345,7 +345,7 @@ macro_rules! data_methods {
             written.map_err(|error| error.named(point.name))
         }
 
-        /// The raw numbers of points, and how many points there are.
+        /// The raw numbers of points, and their number.
         $($async)? fn raws_of(&mut self, points: Points) -> Result<([i128; MOST_NEEDS], usize), ClientError<T::Error>> {
             let mut raws = [0; MOST_NEEDS];
             for (place, point) in raws.iter_mut().zip(points.iter()) {
@@ -361,10 +361,10 @@ macro_rules! data_methods {
             Ok(point.raw_of(words.map_err(|error| error.named(point.name))?))
         }
 
-        /// Reads what tells the device, and then each of its variants, from others: `IDENTIFICATIONS` of its crate.
+        /// Reads the points that identify the device, then its variants: `IDENTIFICATIONS` of its crate.
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells; that it is another device is no error of the bus: `identify(rows)??`.
+        /// Whatever [`ClientError`] tells; another device is an error of the inner result: `identify(rows)??`.
         pub $($async)? fn identify<P>(
             &mut self,
             rows: &[Identification<P>],
@@ -412,10 +412,10 @@ macro_rules! data_methods {
 
 pub(crate) use {data_methods, read_methods, write_methods};
 
-/// At most so many points are read before a point that needs them.
+/// The most points that are read before a point that needs them.
 pub(crate) const MOST_NEEDS: usize = 8;
 
-/// Several clients share one bus: each borrows it for as long as it lives.
+/// Clients can share one bus: each borrows it while it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {
     type Error = T::Error;
 
@@ -424,14 +424,14 @@ impl<T: Transport + ?Sized> Transport for &mut T {
     }
 }
 
-/// Several clients live on one line, also in several threads, and take turns on it. Needs the feature `std`.
+/// Clients on one line, also in several threads, take turns. Needs the feature `std`.
 #[cfg(feature = "std")]
 impl<T: Transport> Transport for &std::sync::Mutex<T> {
     type Error = T::Error;
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
         let line = self.lock();
-        // Whoever panicked with it did not leave an exchange half done for the next.
+        // A panic leaves no half-done exchange for the next client.
         let mut line = line.unwrap_or_else(std::sync::PoisonError::into_inner);
         line.exchange(request, reply)
     }

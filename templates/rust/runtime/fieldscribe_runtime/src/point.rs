@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
+//! The traits of points. Each point of a device is a type that implements [`Point`] and the traits of its access.
 
 use crate::arithmetic::{extract, extract_signed, insert};
 use crate::coding::{decoded, encoded};
@@ -8,21 +8,21 @@ use crate::info::{Access, PointInfo};
 use crate::scale::Scale;
 use crate::{Error, Raw, Rule};
 
-/// Where the words of a point are that is documented only: nothing says what they mean.
+/// The place of the words of a point that is only documented: their meaning is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Documented {
-    /// Where its address counts.
+    /// The space of the address.
     pub space: Space,
     /// The lowest address.
     pub address: u16,
-    /// How many words it takes.
+    /// The number of its words.
     pub words: u16,
     /// Its index in an array.
     pub index: Option<u16>,
 }
 
 impl Documented {
-    /// The words at an address, and the index beside it.
+    /// The words at an address, with an index.
     #[must_use]
     pub const fn new(space: Space, address: u16, words: u16, index: Option<u16>) -> Self {
         Self {
@@ -34,7 +34,7 @@ impl Documented {
     }
 }
 
-/// Where an address counts.
+/// A space of addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Space {
@@ -46,7 +46,7 @@ pub enum Space {
     Input,
     /// Holding registers: words that are read and written.
     Holding,
-    /// Parameters: numbers that a message names.
+    /// Parameters: values that a message addresses by number.
     Parameter,
     /// Telegrams: words at positions of a cyclic layout.
     Telegram,
@@ -70,57 +70,57 @@ impl Space {
     }
 }
 
-/// One addressable datum of a device.
+/// One data point of a device.
 pub trait Point: Sized {
     /// The device that has the point; [`AnyDevice`](crate::AnyDevice) if it is not known which.
     type Device;
     /// The number on the wire.
     type Raw: Raw;
-    /// What the number means; a [`Reading`](crate::Reading) if the point has special codes.
+    /// The type of the value; a [`Reading`](crate::Reading) if the point has special codes.
     type Value: Send;
     /// The point's name in the description.
     const NAME: &'static str;
     /// The manual's own code for the point.
     const CODE: Option<&'static str> = None;
-    /// Where the address counts.
+    /// The space of the address.
     const SPACE: Space;
     /// The zero-based address on the wire, the lowest if the point has several words.
     const ADDRESS: u16;
-    /// What the addresses count from, by its name; empty for 0.
+    /// The name of the base that the addresses count from; empty for 0.
     const BASE: &'static str = "";
     /// What other points must hold before the address means this one: clients write it.
     const SELECTS: &'static [Selection] = &[];
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
-    /// How many items the request has that reads the point; of words that are not neighbours more than any request has.
+    /// The number of items of the request that reads the point; too many for any request if its words are not adjacent.
     const SPAN: u16 = span(Self::ADDRESSES, Self::WORDS);
-    /// The (lowest) address where the point is written, which mostly is where it is read.
+    /// The (lowest) address to write the point, usually the address to read it.
     const WRITE_ADDRESS: u16 = Self::ADDRESS;
-    /// The index beside the address, if the point is an element of an array.
+    /// The index sent with the address, if the point is an element of an array.
     const INDEX: Option<u8> = None;
     /// The telegram whose words the addresses count, if the point is in one.
     const TELEGRAM: Option<&'static str> = None;
-    /// The bits of the word (of the raw number, if it has several words) that are always written as
-    /// [`Point::FIXED_BITS`] says.
+    /// The constant bits of the word (of the raw number, if it has several words): they are written as in
+    /// [`Point::FIXED_BITS`].
     const FIXED_MASK: u32 = 0;
-    /// What the bits of [`Point::FIXED_MASK`] are written as.
+    /// The values of the bits in [`Point::FIXED_MASK`].
     const FIXED_BITS: u32 = 0;
-    /// Whether the raw number is the pattern of a binary floating-point number.
+    /// True if the raw number is the pattern of a binary floating-point number.
     const FLOATING: bool = false;
-    /// How many words, or bits of a bit space, the point takes.
+    /// The number of words, or bits of a bit space, of the point.
     const WORDS: u16 = 1;
-    /// The bits of the raw number, if its words hold fewer than its type; else 0. Its words then come first in
-    /// [`Raw::Words`], and what is behind them does not count.
+    /// The bits of the raw number if its words have fewer bits than its type; else 0. Its words then come first in
+    /// [`Raw::Words`], and the words after them are ignored.
     const WIDTH: u32 = 0;
-    /// Whether the low byte of each word comes first.
+    /// True if the low byte of each word comes first.
     const LOW_BYTE_FIRST: bool = false;
-    /// Whether the bits have a [coding](crate::coding) of their own.
+    /// True if the bits have a [coding](crate::coding) of their own.
     const CODED: bool = false;
-    /// How many decimals counts have: they are in units of `10^-DECIMALS`.
+    /// The decimals of counts, which are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
-    /// With how many decimals people see the value, where the description says it.
+    /// The number of decimals to show, if the description has it.
     const DISPLAY_DECIMALS: Option<u32> = None;
-    /// Of a value that counts seconds from a date: how many seconds that is after 1970-01-01; [`None`] for others.
+    /// For a value that counts seconds from a date: the seconds from 1970-01-01 to that date; else [`None`].
     const EPOCH: Option<i64> = None;
     /// The symbol of the value's unit; empty for a plain number.
     const UNIT: &'static str = "";
@@ -129,15 +129,15 @@ pub trait Point: Sized {
     /// The greatest raw number that the manual allows.
     const RAW_MAX: Self::Raw = <Self::Raw as Raw>::MAX;
 
-    /// The bits of the point in a word which it shares with others; none if it has its words for itself.
+    /// The mask of the point in a word that it shares with others; [`None`] if it does not share.
     const GROUP: Option<u16> = None;
-    /// Whether the point is a group of bits in a word which it shares with others.
+    /// True if the point is a group of bits in a word that it shares with others.
     const IS_GROUPED: bool = Self::GROUP.is_some();
-    /// Whether the device answers with the point, and whether it takes it.
+    /// Whether the point can be read and written.
     const ACCESS: Access = Access::None;
     /// The point as data.
     const INFO: PointInfo<Self::Device> = PointInfo::new(Self::FACTS);
-    /// What a table knows of the point.
+    /// The facts of the point in tables.
     const FACTS: &'static PointFacts = &PointFacts::of::<Self>();
 
     /// The raw number from the point's words, in the order of their addresses.
@@ -164,7 +164,7 @@ pub trait Point: Sized {
     }
 }
 
-/// A point that has its words for itself, so that writing them touches nothing else.
+/// A point that shares no word, so that writing it changes nothing else.
 #[diagnostic::on_unimplemented(
     message = "the point `{Self}` shares its word with others, which writing it would change",
     label = "a group of bits is not written by itself",
@@ -179,14 +179,14 @@ pub trait Whole: Point {
     }
 }
 
-/// A point that is a group of bits in a word which it shares with others.
+/// A point that is a group of bits in a word that it shares with others.
 #[diagnostic::on_unimplemented(
     message = "the point `{Self}` is no group of bits: it has its words for itself",
     label = "there is no word around it to read first",
     note = "write it: `client.write::<P>(value)`; in the process data of a drive, `set` or `send` it"
 )]
 pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
-    /// How far the group lies above bit 0.
+    /// The position of the group's lowest bit.
     const SHIFT: u32;
     /// The group's bits in the word.
     const MASK: u16;
@@ -197,7 +197,7 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
         Self::from_words([word])
     }
 
-    /// `word` with the group's number replaced; bits that the group does not have are cut off.
+    /// `word` with the group's number replaced; excess bits are cut off.
     ///
     /// The word's fixed bits are put in too.
     fn insert(word: u16, raw: Self::Raw) -> u16 {
@@ -221,7 +221,7 @@ pub fn signed_group<P: BitGroup>(word: u16) -> u16 {
     extract_signed(ordered::<P>(word), P::SHIFT, P::MASK)
 }
 
-/// A word whose decimal digits each mean something.
+/// A word whose decimal digits have a meaning each.
 pub trait Digits: Point {
     /// The numbers that each digit may be.
     const NUMBERS: &'static [u16];
@@ -237,7 +237,7 @@ pub trait FixedScale: Point {
 
 /// A point whose numbers, or whose digits, have names.
 pub trait Named: Point {
-    /// What the enum carries: the raw number, or a wider one where points of several types share the enum.
+    /// The number in the enum: the raw number, or a wider type if points of several types share the enum.
     type Carried: From<Self::Raw> + Into<i128>;
 }
 
@@ -246,23 +246,23 @@ pub trait Scaled: Point {
     /// The raw numbers that the scale needs.
     type Factors: Copy + Send;
 
-    /// Whether it takes divisions of 128 bits to tell a value.
+    /// True if decoding needs divisions of 128 bits.
     const IS_WIDE: bool = false;
 
-    /// Whether the raw number is too large for the scale.
+    /// True if the raw number is too large for the scale.
     #[must_use]
     fn is_beyond(_: Self::Raw) -> bool {
         false
     }
 
-    /// The scale that holds now.
+    /// The scale that applies now.
     ///
     /// # Errors
     /// [`Error::NoCase`], [`Error::ZeroFactor`], [`Error::Overflow`].
     fn rule(with: Self::Factors) -> Result<Rule, Error>;
 }
 
-/// What decoding gives: the value where it cannot fail, else a result.
+/// The result of decoding: the value if it cannot fail, else a [`Result`].
 pub trait Decoded<V> {
     /// The value as a result.
     ///
@@ -283,9 +283,9 @@ impl<V> Decoded<V> for Result<V, Error> {
     }
 }
 
-/// What a point needs of others: nothing, where it is `()`.
+/// What a point needs of other points; `()` means nothing.
 ///
-/// Functions with and without `_with` at their end do the same; those without take points that need nothing.
+/// Functions with and without `_with` at their end do the same; those without take points that need no others.
 #[diagnostic::on_unimplemented(
     message = "the point needs the raw numbers of other points, as `{Self}`",
     label = "this function takes points that need no other",
@@ -302,7 +302,7 @@ impl NeedsNothing for () {
     fn nothing() -> Self {}
 }
 
-/// A point that the device answers with.
+/// A point that can be read.
 #[diagnostic::on_unimplemented(
     message = "the point `{Self}` is not read: the device only takes it",
     label = "`{Self}` is only written"
@@ -310,10 +310,10 @@ impl NeedsNothing for () {
 pub trait Readable: Point {
     /// The raw numbers of other points that the scale needs; `()` if it needs none.
     type Factors: Copy + Send;
-    /// `V` where decoding cannot fail, else `Result<V, Error>`.
+    /// `V` if decoding cannot fail, else `Result<V, Error>`.
     type Output<V>: Decoded<V>;
 
-    /// The value of a raw number, whatever the device may send.
+    /// The value of any raw number that the device may send.
     fn decode_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Value>;
 
     /// The value of a raw number, for a point whose scale needs no other.
@@ -325,7 +325,7 @@ pub trait Readable: Point {
     }
 }
 
-/// A point that the device takes.
+/// A point that can be written.
 #[diagnostic::on_unimplemented(
     message = "the point `{Self}` is not written: the device does not take it",
     label = "`{Self}` is only read"
@@ -333,14 +333,14 @@ pub trait Readable: Point {
 pub trait Writable: Point {
     /// The raw numbers of other points that the scale or the limits need; `()` if they need none.
     type With: Copy + Send;
-    /// The function that writes the point, where it is not the usual one of its space.
+    /// The function that writes the point, if it is not the usual one of its space.
     const WRITE_FUNCTION: Option<u8> = None;
-    /// Whether the numbers that have names, or the digits that a word may have, are all that is taken.
+    /// True if only numbers with names, or only the digits that a word may have, are taken.
     const IS_CLOSED: bool = false;
-    /// Whether every number from [`Point::RAW_MIN`] to [`Point::RAW_MAX`] may be written.
+    /// True if every number from [`Point::RAW_MIN`] to [`Point::RAW_MAX`] may be written.
     const IS_CONTIGUOUS: bool = Self::IS_GROUPED || Self::FIXED_MASK == 0;
 
-    /// Whether the raw number may be written.
+    /// Checks that the raw number may be written.
     ///
     /// # Errors
     /// [`Error::OutOfRange`], [`Error::UnknownValue`], [`Error::Special`] for a special code that is only read, and
@@ -359,7 +359,7 @@ pub trait Writable: Point {
     }
 }
 
-/// A point whose values can be encoded: all that are written, but for scales with numbers of more than 53 bits.
+/// A point whose values can be encoded: every writable one, except scales with numbers of more than 53 bits.
 #[diagnostic::on_unimplemented(
     message = "values of the point `{Self}` are not written",
     label = "`{Self}` is only read, or no `f64` holds its values",
@@ -387,7 +387,7 @@ pub trait Encodable: Writable {
 
 /// A point whose values can be encoded and that needs no other.
 ///
-/// It is a bound of its own, so that the compiler says in one error what is wrong.
+/// A bound of its own, so that the compiler reports one error.
 #[diagnostic::on_unimplemented(
     message = "values of the point `{Self}` are not written",
     label = "`{Self}` is only read, or no `f64` holds its values",
@@ -447,7 +447,7 @@ pub trait CountWritable: Writable {
     }
 }
 
-/// How many items a request for these addresses has: the words, or if others lie between them more than any has.
+/// The number of items of a request for these addresses: the words, or too many if they are not adjacent.
 pub(crate) const fn span(mut addresses: &[u16], words: u16) -> u16 {
     let (mut low, mut high, scattered) = (u16::MAX, 0, u16::MAX);
     let is_single = addresses.len() == 1;
@@ -484,7 +484,7 @@ pub(crate) fn joined_in_order<P: Point>(mut words: <P::Raw as Raw>::Words) -> P:
     decoded::<P>(bits_in_order::<P>(words))
 }
 
-/// The bits in the same words, read as they lie.
+/// The bits of words as they are.
 #[inline]
 fn bits_in_order<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
     if P::WIDTH == 0 {
@@ -515,7 +515,7 @@ pub(crate) fn split<P: Point>(raw: P::Raw) -> <P::Raw as Raw>::Words {
     words
 }
 
-/// A word with its high byte first, or back.
+/// A word with its bytes in the order of the point.
 #[inline]
 const fn ordered<P: Point>(word: u16) -> u16 {
     if P::LOW_BYTE_FIRST {
@@ -525,7 +525,7 @@ const fn ordered<P: Point>(word: u16) -> u16 {
     }
 }
 
-/// The same of each word, but for a group of bits, which was taken out of its word.
+/// The same for each word, except for a group of bits, which was taken out of its word.
 #[inline]
 fn order_bytes<P: Point>(words: &mut [u16]) {
     if P::LOW_BYTE_FIRST && !P::IS_GROUPED {
@@ -535,7 +535,7 @@ fn order_bytes<P: Point>(words: &mut [u16]) {
     }
 }
 
-/// The words that count.
+/// The words that the point has.
 #[inline]
 pub(crate) fn counted<P: Point>(words: &[u16]) -> &[u16] {
     let count = if P::WIDTH == 0 {
@@ -546,7 +546,7 @@ pub(crate) fn counted<P: Point>(words: &[u16]) -> &[u16] {
     words.get(..count).unwrap_or(words)
 }
 
-/// The same, to be changed.
+/// The same, mutable.
 #[inline]
 pub(crate) fn counted_mut<P: Point>(words: &mut [u16]) -> &mut [u16] {
     let count = if P::WIDTH == 0 {
@@ -587,7 +587,7 @@ pub fn in_address_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, address
     found
 }
 
-/// How many of the addresses are below one.
+/// The number of addresses below one.
 #[inline]
 fn rank(addresses: &[u16], address: u16) -> usize {
     let below = addresses.iter().map(|other| usize::from(*other < address));

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: 0BSD
-//! What addresses count from: a number of the caller, or a block that is found in the device.
+//! Bases of addresses: from a number of the caller, or a block that is found in the device.
 
-/// Where the addresses of some points start, and the last one that counts from there.
+/// The address where a base starts, and the last address relative to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Base {
-    /// The name that points and blocks call it by.
+    /// Its name in points and blocks.
     pub name: &'static str,
-    /// The address on the wire that others count from.
+    /// Its address on the wire.
     pub start: u16,
-    /// The last address that counts from it.
+    /// The last address, relative to the base.
     pub last: u16,
 }
 
 impl Base {
     /// Addresses that count from 0.
     pub(super) const NONE: Self = Self::at("", 0);
-    /// A base that nobody knows.
+    /// A base that is not known.
     const UNKNOWN: (u16, u16) = (u16::MAX, u16::MAX);
 
     /// Addresses that count from `start` up to `last`.
@@ -24,13 +24,13 @@ impl Base {
         Self { name, start, last }
     }
 
-    /// Addresses that count from `start` up to the last of the wire.
+    /// Addresses that count from `start` up to the last one on the wire.
     #[must_use]
     pub const fn at(name: &'static str, start: u16) -> Self {
         Self::new(name, start, u16::MAX - start)
     }
 
-    /// A base by its name, of which nobody knows where it is; that of 0 has no name.
+    /// A base that is known only by name; the base 0 has no name.
     pub(super) const fn named(name: &'static str) -> Self {
         if name.is_empty() {
             return Self::NONE;
@@ -39,13 +39,13 @@ impl Base {
         Self { name, start, last }
     }
 
-    /// Whether it is known where this is.
+    /// True if the address of the base is known.
     pub(super) fn is_known(&self) -> bool {
         self.start.checked_add(self.last).is_some()
     }
 }
 
-/// A number that a base follows from: the least and the greatest one, and by how much it counts.
+/// A number from which a base is computed: its range, and its factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Given {
     ends: (u16, u16),
@@ -53,7 +53,7 @@ pub struct Given {
 }
 
 impl Given {
-    /// A number from `low` to `high` that counts `factor` times.
+    /// A number from `low` to `high`, multiplied by `factor`.
     #[must_use]
     pub const fn new(low: u16, high: u16, factor: i32) -> Self {
         let ends = (low, high);
@@ -61,7 +61,7 @@ impl Given {
     }
 }
 
-/// A base that follows from given numbers.
+/// A base that is computed from given numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GivenBase {
     /// The name of the base.
@@ -71,7 +71,7 @@ pub struct GivenBase {
 }
 
 impl GivenBase {
-    /// `offset` and the multiples of given numbers.
+    /// `offset` plus multiples of given numbers.
     #[must_use]
     pub const fn new(name: &'static str, offset: i32, given: &'static [Given]) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl GivenBase {
         }
     }
 
-    /// The base for these numbers, in the order of the formula; none if they are others, or too few.
+    /// The base for these numbers, in the order of the formula; [`None`] if one is out of range or missing.
     #[must_use]
     pub fn at(&self, numbers: &[u16]) -> Option<Base> {
         let mut start = i64::from(self.offset);
@@ -99,21 +99,21 @@ impl GivenBase {
     }
 }
 
-/// Blocks behind a marker: each starts with its id and how many words follow these two.
+/// Blocks after a marker: each starts with its id and the number of words that follow these two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chain {
     /// The function that reads them.
     pub function: u8,
     /// The words before the first block.
     pub marker: &'static [u16],
-    /// Where the marker may stand, in the order of the search.
+    /// The addresses where the marker may be, in the order of the search.
     pub places: &'static [u16],
-    /// What stands in place of an id behind the last block.
+    /// The id that ends the chain.
     pub end: u16,
 }
 
 impl Chain {
-    /// Blocks behind a marker at one of these places.
+    /// Blocks after a marker at one of these addresses.
     #[must_use]
     pub const fn new(
         function: u8,
@@ -142,12 +142,12 @@ pub struct FoundBlock {
 }
 
 impl FoundBlock {
-    /// The block of that id.
+    /// The block with this id.
     #[must_use]
     pub const fn new(name: &'static str, chain: &'static Chain, id: u16) -> Self {
         Self { name, chain, id }
     }
 }
 
-/// So many blocks are looked at: a broken device must not keep the line busy.
+/// The most blocks that a search reads, so that a broken device cannot keep the line busy.
 pub(super) const MOST_BLOCKS: usize = 256;

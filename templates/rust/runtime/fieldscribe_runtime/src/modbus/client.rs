@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Reading and writing points of a Modbus device over a transport that the caller brings.
+//! Reading and writing points of a Modbus device over a transport of the caller.
 
 use core::marker::PhantomData;
 
@@ -24,7 +24,7 @@ use crate::{
     Selection, Variants, Whole, Writable,
 };
 
-/// One unit of a bus: numbers the requests and keeps the frames.
+/// One unit of a bus: numbers the requests and stores the frames.
 #[derive(Debug)]
 struct Unit {
     profile: &'static Profile,
@@ -34,7 +34,7 @@ struct Unit {
     base: Base,
     sent: [u8; LONGEST],
     received: [u8; LONGEST],
-    /// How many bytes the last reply had.
+    /// The number of bytes of the last reply.
     length: usize,
 }
 
@@ -52,7 +52,7 @@ impl Unit {
         }
     }
 
-    /// Makes the request one of this unit's framing, as its next transaction, where its base is known.
+    /// Gives the request this unit's framing, the next transaction number, and its base if known.
     fn number(&mut self, request: &mut Request<'_>) {
         request.place(&self.base);
         request.framing = self.framing;
@@ -60,7 +60,7 @@ impl Unit {
         request.transaction = self.transaction;
     }
 
-    /// The frame to send and the space for its reply: none if the request goes to all units.
+    /// The frame to send and the buffer for its reply, empty for a broadcast.
     fn frames(&mut self, request: &Request<'_>) -> Result<(&[u8], &mut [u8]), BuildError> {
         self.length = 0;
         let sent = request.build_in(self.profile, &mut self.sent)?;
@@ -70,7 +70,7 @@ impl Unit {
         Ok((sent, self.received.get_mut(..end).unwrap_or_default()))
     }
 
-    /// Proves that the bytes that came are a reply to the request.
+    /// Checks that the received bytes are a reply to the request.
     fn prove(&mut self, request: &Request<'_>, length: usize) -> Result<(), ReplyError> {
         self.length = length;
         trace::frame(request.unit(), Way::Came, None, self.received());
@@ -81,12 +81,12 @@ impl Unit {
         proven.map_err(|error| self.profile.named(error))
     }
 
-    /// The reply to a request, after it was proven.
+    /// The reply to a request, after it was checked.
     fn reply<D>(&self, request: &Request<'_>) -> Reply<'_, D> {
         request.reply(self.received())
     }
 
-    /// Copies the words of a point, or its bit, out of a reply that was proven.
+    /// Copies the words of a point, or its bit, out of a checked reply.
     fn copy(&self, request: &Request<'_>, words: &mut [u16]) {
         for (word, item) in words
             .iter_mut()
@@ -101,10 +101,10 @@ impl Unit {
     }
 }
 
-/// The same client for each way to wait for the transport.
+/// The client, for each way to wait for the transport.
 macro_rules! client {
     ($client:ident, $transport:ident, $ask:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
-        /// Asks, and proves that the reply in the unit is one to the request; a request to all units has none.
+        /// Sends a request and checks its reply; a broadcast has none.
         $($async)? fn $ask<T: $transport>(
             transport: &mut T,
             unit: &mut Unit,
@@ -139,14 +139,14 @@ macro_rules! client {
         }
 
         impl<T: $transport, D: Device<Profile = Profile>, M: Memory> $client<T, D, M> {
-            /// The unit of that number behind a transport.
+            /// A unit of a bus.
             pub const fn new(transport: T, framing: Framing, unit: u8) -> Self {
                 Self { transport, unit: Unit::new(D::PROFILE, framing, unit), memory: M::NOTHING, device: PhantomData }
             }
         }
 
         impl<T: $transport> $client<T> {
-            /// The unit of that number, of a device that is chosen at run time; its client takes every point.
+            /// A unit with a device that is chosen at run time; its client takes every point.
             pub const fn for_profile(
                 transport: T,
                 profile: &'static Profile,
@@ -158,36 +158,36 @@ macro_rules! client {
         }
 
         impl<T, D, M> $client<T, D, M> {
-            /// The same unit by another profile, as that of a gateway which translates:
+            /// The same unit with another profile, such as that of a translating gateway:
             /// [`Profile::with_framings`].
             #[must_use]
             pub fn with_profile(self, profile: &'static Profile) -> Self {
                 Self { unit: Unit { profile, ..self.unit }, ..self }
             }
 
-            /// The transport, as for its settings.
+            /// The transport, for example to change its settings.
             pub fn transport(&mut self) -> &mut T {
                 &mut self.transport
             }
 
-            /// The bytes of the last reply, also of one that was none; none if the line failed.
+            /// The bytes of the last reply, even if it was invalid; empty if the line failed.
             pub fn received(&self) -> &[u8] {
                 self.unit.received()
             }
 
-            /// The transport back.
+            /// Returns the transport.
             pub fn into_transport(self) -> T {
                 self.transport
             }
         }
 
         impl<T: $transport, D, M: Memory> $client<T, D, M> {
-            /// Says where a base is, and which: addresses of its points count from it until another one is said.
+            /// Sets a base: addresses of its points count from it until another one is set.
             pub fn set_base(&mut self, base: Base) {
                 self.unit.base = base;
             }
 
-            /// Finds a block and sets it as the base; none if the device has no such block.
+            /// Finds a block and sets it as the base; [`None`] if the device has no such block.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells; [`BuildError::BadAddress`] for blocks that do not end.
@@ -227,7 +227,7 @@ macro_rules! client {
                 Err(BuildError::BadAddress.into())
             }
 
-            /// The reply to a request, or none if the request goes to all units.
+            /// Sends a request and returns its reply, or [`None`] for a broadcast.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -240,7 +240,7 @@ macro_rules! client {
                 Ok((!is_for_all).then(|| self.unit.reply(&request)))
             }
 
-            /// Puts a point's raw number into place.
+            /// Reads a point's raw number into `raw`.
             $($async)? fn get_raw<P: Readable>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>> {
                 let mut words = P::Raw::MIN.into_words();
                 self.get::<P>(counted_mut::<P>(words.as_mut()))$($wait)*?;
@@ -248,7 +248,7 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// The words of a point, or its bit.
+            /// Reads the words of a point, or its bit.
             $($async)? fn get<P: Readable>(&mut self, words: &mut [u16]) -> Result<(), ClientError<T::Error>> {
                 let mut request = Request::read::<P>(self.unit.number);
                 if !P::SELECTS.is_empty() {
@@ -261,7 +261,7 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` gives each point that it brings.
+            /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` returns each of its points.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -283,7 +283,7 @@ macro_rules! client {
                 write write_with write_count write_count_with write_raw write_raw_with
             }
 
-            /// Writes a raw number that was checked.
+            /// Writes a checked raw number.
             $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
                 let mut request = Request::write_words::<P>(self.unit.number, counted::<P>(words.as_ref()));
@@ -297,7 +297,7 @@ macro_rules! client {
                 done
             }
 
-            /// Writes what other points must hold before the address of one means it, but what stands.
+            /// Writes what other points must hold before the address means this one, except what they hold already.
             $($async)? fn select(&mut self, selects: &'static [Selection]) -> Result<(), ClientError<T::Error>> {
                 let standing = self.memory.standing(self.unit.transaction);
                 for Selection { point, raw } in selects.iter().filter(|row| !standing.contains(row)) {
@@ -310,7 +310,7 @@ macro_rules! client {
 
             data_methods! { [$($async)?], [$($wait)*], words_of put_data }
 
-            /// Writes a raw number that was checked to a point as data.
+            /// Writes a checked raw number to a point as data.
             $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
                 let selects = point.selects();
                 if !selects.is_empty() {
@@ -363,7 +363,7 @@ macro_rules! client {
                 Ok(in_reading_order(words, point.addresses))
             }
 
-            /// Gives a command, one of `commands`.
+            /// Sends a command, one of `commands`.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: 0BSD
-//! What Modbus functions do.
+//! Facts of the Modbus functions.
 
 use crate::Space;
 
-/// The function that reads a space; 0, which no device knows, if none does.
+/// The function that reads a space; 0, which no device supports, if there is none.
 #[must_use]
 pub const fn read_function(space: Space) -> u8 {
     match space {
@@ -15,7 +15,7 @@ pub const fn read_function(space: Space) -> u8 {
     }
 }
 
-/// The function that writes `count` items of a space; 0, which no device knows, if none does.
+/// The function that writes `count` items of a space; 0, which no device supports, if there is none.
 #[must_use]
 pub const fn write_function(space: Space, count: u16) -> u8 {
     match (space, count) {
@@ -27,7 +27,7 @@ pub const fn write_function(space: Space, count: u16) -> u8 {
     }
 }
 
-/// The largest count that a frame of the function can hold; 0 for a function that is not ours.
+/// The largest count that a frame of the function can hold; 0 for an unsupported function.
 pub(super) const fn longest_count(function: u8) -> u16 {
     match function {
         1 | 2 => 2000,
@@ -39,12 +39,12 @@ pub(super) const fn longest_count(function: u8) -> u16 {
     }
 }
 
-/// Whether requests of the function are built here, and replies to it parsed.
+/// True if the function is supported here.
 pub(super) const fn is_ours(function: u8) -> bool {
     matches!(function, 1..=6 | 8 | 15 | 16)
 }
 
-/// Whether the items of the function are bits.
+/// True if the items of the function are bits.
 pub(super) const fn is_of_bits(function: u8) -> bool {
     matches!(function, 1 | 2 | 5 | 15)
 }

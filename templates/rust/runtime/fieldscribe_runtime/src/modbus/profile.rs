@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! What the frames need to know of a device, as constants of the generated code.
+//! The facts of a device that frames need, as constants in the generated code.
 
 use core::marker::PhantomData;
 
@@ -7,20 +7,20 @@ use super::function::{longest_count, read_function, writes};
 use super::Framing;
 use crate::{Accepts, AnyDevice, PointInfo, Readable, ReplyError, Space};
 
-/// A function that a device knows.
+/// A function that a device supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Function {
     /// The number in the frame.
     pub number: u8,
-    /// The largest count of items in one request: what the device takes and a frame holds.
+    /// The most items in one request: the limit of the device and of a frame.
     pub most: u16,
-    /// Whether it may be sent to all units at once.
+    /// True if it may be broadcast.
     pub broadcast: bool,
 }
 
 impl Function {
-    /// A function and the largest count of items in one request; it may be broadcast if it writes.
+    /// A function with the most items in one request; it may be broadcast if it writes.
     #[must_use]
     pub const fn new(number: u8, most: u16) -> Self {
         let longest = longest_count(number);
@@ -31,7 +31,7 @@ impl Function {
         }
     }
 
-    /// The same function where the device does not take it as a broadcast.
+    /// The same function, which the device does not take as a broadcast.
     #[must_use]
     pub const fn without_broadcast(self) -> Self {
         Self {
@@ -41,11 +41,11 @@ impl Function {
     }
 }
 
-/// What the frames need to know of a device.
+/// The facts of a device that frames need.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
     functions: &'static [Function],
-    /// Whether it speaks RTU, and TCP.
+    /// Support of RTU and of TCP.
     framings: [bool; 2],
     pub(super) units: (u8, u8),
     broadcast: Option<u8>,
@@ -54,7 +54,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The functions, the framings, the least and the greatest unit, the unit that means all.
+    /// The functions, the framings, the least and the greatest unit, the broadcast unit.
     #[must_use]
     pub const fn new(
         functions: &'static [Function],
@@ -72,7 +72,7 @@ impl Profile {
         }
     }
 
-    /// The same device behind a gateway that speaks these framings to us.
+    /// The same device after a gateway with these framings.
     ///
     /// ```
     /// use fieldscribe_runtime::modbus::{Framing, Function, Profile};
@@ -90,7 +90,7 @@ impl Profile {
         }
     }
 
-    /// The same device, whose exception codes have names.
+    /// The same device, with names of its exception codes.
     #[must_use]
     pub const fn naming(self, name: fn(u8) -> Option<&'static str>) -> Self {
         Self { name, ..self }
@@ -105,7 +105,7 @@ impl Profile {
         error
     }
 
-    /// The same device, of which 0Fh pads its bytes to an even count.
+    /// The same device, which needs 0Fh to have an even number of data bytes.
     #[must_use]
     pub const fn padding_coils(self) -> Self {
         Self {
@@ -114,7 +114,7 @@ impl Profile {
         }
     }
 
-    /// Whether the device speaks the framing.
+    /// True if the device supports the framing.
     #[must_use]
     pub fn speaks(&self, framing: Framing) -> bool {
         let [rtu, tcp] = self.framings;
@@ -124,13 +124,13 @@ impl Profile {
         }
     }
 
-    /// Whether the device knows the function.
+    /// True if the device supports the function.
     #[must_use]
     pub fn knows(&self, function: u8) -> bool {
         self.find(function).is_some()
     }
 
-    /// Whether a frame to this unit goes to all units, so that none answers.
+    /// True if this is the broadcast unit, so that nobody answers.
     #[must_use]
     pub fn is_broadcast(&self, unit: u8) -> bool {
         self.broadcast == Some(unit)
@@ -142,7 +142,7 @@ impl Profile {
     }
 }
 
-/// Whether RTU is among the framings, and whether TCP is.
+/// Whether the framings include RTU, and TCP.
 const fn spoken(mut framings: &[Framing]) -> [bool; 2] {
     let [mut rtu, mut tcp] = [false; 2];
     while let [framing, others @ ..] = framings {
@@ -155,18 +155,18 @@ const fn spoken(mut framings: &[Framing]) -> [bool; 2] {
     [rtu, tcp]
 }
 
-/// A read of consecutive addresses that keeps to the device's limits and holes.
+/// A read of consecutive addresses within the limits of the device, and without gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block<D = AnyDevice> {
-    /// Where the addresses count.
+    /// The space of the addresses.
     pub space: Space,
     /// The function that reads them.
     pub function: u8,
     /// The first address.
     pub address: u16,
-    /// How many items.
+    /// The number of items.
     pub count: u16,
-    /// What the address counts from, by its name; empty for 0.
+    /// The name of the base that the address counts from; empty for 0.
     pub base: &'static str,
     device: PhantomData<D>,
 }
@@ -185,13 +185,13 @@ impl<D> Block<D> {
         }
     }
 
-    /// The same block, whose address counts from the base of that name.
+    /// The same block, with an address that counts from a base.
     #[must_use]
     pub const fn counted_from(self, base: &'static str) -> Self {
         Self { base, ..self }
     }
 
-    /// The words, or the bits, of a point that is known at run time only.
+    /// The words, or the bits, of a point that is chosen at run time.
     ///
     /// ```
     /// use fieldscribe_runtime::modbus::Block;
@@ -215,7 +215,7 @@ impl<D> Block<D> {
         Self::new(facts.space, function, facts.address, facts.span()).counted_from(facts.base)
     }
 
-    /// Whether the block brings the point.
+    /// True if the block has all of the point.
     #[must_use]
     pub fn brings<P: Readable>(&self) -> bool
     where
@@ -224,7 +224,7 @@ impl<D> Block<D> {
         self.covers(P::SPACE, P::BASE, P::ADDRESS, P::SPAN)
     }
 
-    /// Whether the block brings the point as data.
+    /// True if the block has all of a point as data.
     #[must_use]
     pub fn brings_point<P>(&self, point: PointInfo<P>) -> bool
     where
@@ -241,7 +241,7 @@ impl<D> Block<D> {
     }
 }
 
-/// A named constant write. The value is none where any does.
+/// A named constant write. The value is [`None`] if the device takes any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Command<D = AnyDevice> {
     /// The function that writes it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Replies out of frames.
+//! Parsed replies.
 
 use core::marker::PhantomData;
 
@@ -7,26 +7,26 @@ use super::function::{is_of_bits, is_ours, is_read, read_function, write_functio
 use super::{crc, Framing, Request};
 use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, PointInfo, Readable, ReplyError};
 
-/// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
+/// The answer of a device: words, or bits as 0 and 1, from the requested address on.
 #[derive(Clone, Copy, Debug)]
 pub struct Reply<'a, D = AnyDevice> {
     function: u8,
     address: u16,
     base: &'static str,
     count: u16,
-    /// Words with the high byte first, or bits with the first one lowest, and what is behind them.
+    /// Words with the high byte first, or bits with the first one lowest, then the rest of the frame.
     data: &'a [u8],
     device: PhantomData<D>,
 }
 
 impl<D> Reply<'_, D> {
-    /// How many items the reply brings; none for a write of several items.
+    /// The number of items in the reply; 0 for a write of several items.
     #[must_use]
     pub const fn count(&self) -> u16 {
         self.count
     }
 
-    /// The word, or the bit, of that place in the reply.
+    /// The word, or the bit, at this place in the reply.
     #[must_use]
     pub fn item(&self, place: u16) -> Option<u16> {
         self.item_of(is_of_bits(self.function), place)
@@ -49,11 +49,11 @@ impl<D> Reply<'_, D> {
         (0..self.count).map_while(|place| self.item(place))
     }
 
-    /// The raw number of a point that the reply brings.
+    /// The raw number of a point in the reply.
     ///
     /// # Errors
     /// [`Error::WrongSpace`] if the function is neither the one that reads the point nor the one that writes a single
-    /// item of its space, [`Error::NotBrought`] if the reply does not bring all of the point.
+    /// item of its space, [`Error::NotBrought`] if the reply does not have all of the point.
     pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error>
     where
         D: Accepts<P::Device>,
@@ -73,7 +73,7 @@ impl<D> Reply<'_, D> {
         raw.ok_or(Error::NotBrought(Some(P::NAME)))
     }
 
-    /// The raw number of a point as data that the reply to a read brings, for `decode`.
+    /// The raw number of a point as data in the reply to a read, for `decode`.
     ///
     /// # Errors
     /// As for `raw`.
@@ -92,7 +92,7 @@ impl<D> Reply<'_, D> {
         raw.ok_or(Error::NotBrought(Some(facts.name)))
     }
 
-    /// How far an address, which counts from the base of that name, is behind the first one.
+    /// The offset of an address, which counts from the base of this name, from the first one.
     fn offset(&self, base: &str, address: u16) -> Option<u16> {
         if base == self.base {
             address.checked_sub(self.address)
@@ -101,7 +101,7 @@ impl<D> Reply<'_, D> {
         }
     }
 
-    /// The value of a point that the reply brings.
+    /// The value of a point in the reply.
     ///
     /// # Errors
     /// As for `raw`; what decoding says.
