@@ -167,14 +167,10 @@ class Planner:
         return point.keeps in (None, "choice")
 
     def _remarks(self, point: Point, keep: bool) -> Iterator[str]:
-<<<<<<< HEAD
         """Yield what to know before a point is written."""
         for name, raw in point.selects:
             other = choose_point(self._model, name)
             yield f"written first, unless it stands: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
-=======
-        """Yield what to know before writing a point."""
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         if point.conditions:
             yield f"write only when: {', '.join(point.conditions).replace('_', ' ')}"
         if keep or point.keeps == "yes":

@@ -181,13 +181,7 @@ class SimulatedDevice:
         for point in points:
             self._remember(point, keep)
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
-<<<<<<< HEAD
         writers = self.layout.writers.get(area, {})  # steps of commands also write where no point lies
-=======
-        for point in changed:
-            self.memory.put(point.name, numbers[point.name])
-        writers = self.layout.writers.get(area, {})  # steps of commands also write where no point is
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         self.memory.areas[area].update((at, word) for at, word in cells.items() if at not in writers)
         for point in changed:
             self.memory.put(point.name, numbers[point.name])

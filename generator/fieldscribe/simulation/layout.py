@@ -55,14 +55,9 @@ class Layout:
     """The points of one kind of device, each with its cells.
 
     `device` has the points of one value of each variant axis (the first, unless `variants` chooses another), at the
-<<<<<<< HEAD
     addresses that `given` numbers lead to (the least, unless given); found chains begin at the first of their places.
     `fixed` are words that belong to no point, such as the ids of found blocks. `counts` has what the points hold that
     say how many elements a block has before other points; 0 unless given.
-=======
-    addresses for the `given` numbers (the least by default); found chains start at the first of their places.
-    `fixed` are words that belong to no point, such as the ids of found blocks.
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
     """
 
     def __init__(
@@ -204,7 +199,6 @@ class Layout:
         """Return where a base is in its block."""
         return base.offset + sum(self.counts[name] * factor for name, _, factor in base.counts)
 
-<<<<<<< HEAD
     def _length(self, device: Device, base: Base) -> int:
         """Return how many words a found block has: up to the last of its points."""
         last = 0
@@ -213,16 +207,6 @@ class Layout:
                 points = (point for point in device.points if point.base == each.name)
                 last = max(last, max((self._offset(each) + max(point.addresses) for point in points), default=0))
         return last + 1
-=======
-def _length(device: Device, base: Base) -> int:
-    """Return the number of words of a found block: up to its last point."""
-    last = 0
-    for each in device.bases:
-        if each.block == base.block:
-            ends = (each.offset + max(point.addresses) for point in device.points if point.base == each.name)
-            last = max(last, max(ends, default=0))
-    return last + 1
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 
 
 def _in_order(points: Mapping[str, Point]) -> Iterator[Point]:

@@ -135,13 +135,8 @@ class Memory:
 
     @classmethod
     def started(cls, layout: Layout, seed: int = 0) -> Memory:
-<<<<<<< HEAD
         """Return the memory of a device as delivered; what no manual says follows from the seed."""
         return cls(*_start(layout, seed))
-=======
-        """Return the memory of a device as delivered; numbers that no manual gives come from the seed."""
-        return cls(layout, _start(layout, seed))
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 
     def raw(self, name: str) -> int:
         """Return the raw number of a point."""
@@ -222,13 +217,8 @@ class Lookup(Mapping[str, V]):
         return len(self._names)
 
 
-<<<<<<< HEAD
 _starts: dict[tuple[int, int], tuple[Layout, Memory]] = {}
 """The first memories by layout and seed, so that a thousand devices of a kind start as quickly as one."""
-=======
-_starts: dict[tuple[int, int], tuple[Layout, dict[Area, dict[int, int]]]] = {}
-"""The initial words by layout and seed, so that a thousand devices of a kind start as quickly as one."""
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
 _MOST_STARTS = 64
 
 

@@ -110,15 +110,11 @@ class Session(NamedPoints, ABC):
         """Write words or bits at a place, in ascending order of address."""
 
     def _retried_steps(self, left: int, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
-<<<<<<< HEAD
         """Carry out one request, again while the line loses it, as often as is left; failures are counted.
 
         What was selected is selected again first: the device may have restarted meanwhile.
         """
         selected = self._selected
-=======
-        """Carry out one request; repeat it up to `left` times while it or its reply is lost, and count failures."""
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
         while True:
             try:
                 result = yield from ask(*arguments)
@@ -400,20 +396,12 @@ class Session(NamedPoints, ABC):
         yield from self._store_steps(place, values)
         self._selected = {}
 
-<<<<<<< HEAD
     def _select_steps(self, selects: tuple[tuple[str, int], ...]) -> Steps[None]:
         """Write what points must hold before the address of another one means it, unless they hold it."""
         before = self._selected
         for count, (name, raw) in enumerate(selects):
             if before.get(name) != raw:
                 self._selected = dict(selects[:count])
-=======
-    def _select_steps(self, point: Point) -> Steps[None]:
-        """Write what other points must hold before the address means this point, except what they hold already."""
-        selected = self._selected
-        for name, raw in point.facts.selects:
-            if selected.get(name) != raw:
->>>>>>> c167062a (C, Python and Rust runtimes, simulation, listening, live: comments, docstrings and messages in plain words)
                 yield from self._put_raw_steps(self._resolved(name), raw, None, NO_RAWS)
         self._selected = dict(selects) or before
 
