@@ -96,6 +96,15 @@ export class Session {
      * @param {AnyPoint} point @param {number | bigint} raw @param {Record<string, number | bigint>} raws
      * @param {Place} [at] */
     _putRaw(point: AnyPoint, raw: number | bigint, raws: Record<string, number | bigint>, at?: Place): Promise<void>;
+    /** Raises RequestError (not_together) if a point is missing that one request has to write with these.
+     * @param {readonly AnyPoint[]} points */
+    _requirePartners(points: readonly AnyPoint[]): void;
+    /** The place of points that one request writes; raises RequestError (not_together).
+     * @param {readonly AnyPoint[]} points @returns {Place} */
+    _jointPlace(points: readonly AnyPoint[]): Place;
+    /** Write several points in one request; each is checked with the new numbers of those before it.
+     * @param {Map<AnyPoint, unknown>} values */
+    _writeTogether(values: Map<AnyPoint, unknown>): Promise<void>;
     /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
      * @returns {Promise<number>} */
     _sharedWord(point: AnyPoint): Promise<number>;
@@ -144,6 +153,8 @@ export class Session {
     _required(point: AnyPoint): AnyPoint;
     /** @param {unknown} what @returns {AnyPoint} */
     _readable(what: unknown): AnyPoint;
+    /** @param {string} name @returns {AnyPoint} */
+    _writable(name: string): AnyPoint;
     /** The attribute of a point, or of one that is bound to this device. @param {any} one @returns {unknown} */
     _attributeOf(one: any): unknown;
     /** The point bound to this device. @param {AnyPoint} point @returns {any} */
@@ -169,6 +180,12 @@ export class Session {
     readMany(what: string | Iterable<string | object>, { errors }?: {
         errors?: "raise" | "return";
     }): Promise<Record<string, any>>;
+    /**
+     * Write several points by one request, as `writeWith` asks for: values by the name of the point. Raises RequestError
+     * (not_together) where a point is missing, or one request cannot write them.
+     * @param {Readonly<Record<string, unknown>>} values @returns {Promise<void>}
+     */
+    writeTogether(values: Readonly<Record<string, unknown>>): Promise<void>;
     /**
      * Read what tells this device from others; returns the value of each variant axis that what it holds fits. Raises
      * OtherDeviceError for another device.

@@ -74,6 +74,10 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
         for frame in build(device, other, held, settings, options).frames
     ]
     frames: BuiltFrames = build(device, point, raw, settings, options)
+    if point.write_with:
+        frames = replace(
+            frames, notes=(*frames.notes, f"the device wants it in one request with {', '.join(point.write_with)}")
+        )
     return replace(frames, frames=(*before, *frames.frames)) if before else frames
 
 

@@ -78,3 +78,17 @@ def test_what_no_request_can_bring(
     with pytest.raises(kind, match=message):
         made(line, tmp_path).write_together(values)
     assert not [entry for entry in line.log if entry[0] != 3]
+
+
+def test_one_alone_is_refused_before_any_request(line: Slave, tmp_path: Path) -> None:
+    """So is its raw number; a point without partners is written."""
+    device = made(line, tmp_path)
+    for name, partners in (("low", "high"), ("mode", "gain, wide")):
+        with pytest.raises(RequestError, match=f"is written in one request with {partners}") as caught:
+            device.point(name).write_raw(1)
+        assert caught.value.status == "not_together"
+    with pytest.raises(RequestError, match="low is written in one request with high"):
+        device.low.write(5)
+    assert not [entry for entry in line.log if entry[0] != 3]
+    device.far.write(3)
+    assert line.words[20] == 3

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.blocks import served
 from support.described import kitchen_sink
-from support.node_device import NodeDevice, installed, node_device
+from support.node_device import NodeDevice, NodeError, installed, node_device
 from support.typescript_packages import install
 from support.windows import INDEX, PAGE, RESTARTS, WINDOW, Windowed
 
@@ -54,3 +54,17 @@ def test_a_retry_selects_again(
     node("input_delay_index_2", "write" if given else "read", *given)
     assert line.sent == sent
     assert line.behind[1, 11][0] == (45 if given else 20)
+
+
+def test_what_is_written_in_one_request_alone(line: Windowed, node: NodeDevice) -> None:
+    line.held |= {120: 5, 121: 1}
+    for name, partner in (("clock_hour", "clock_minute"), ("clock_minute", "clock_hour")):
+        with pytest.raises(NodeError, match=f"{name} is written in one request with {partner}") as caught:
+            node(name, "write", 3)
+        assert caught.value.status == "not_together"
+    with pytest.raises(NodeError, match="takes points that one request can write"):
+        node(None, "writeTogether", {"clockHour": 12, "clockMinute": 30, "page": 1})
+    with pytest.raises(NodeError, match="61 is outside"):
+        node(None, "writeTogether", {"clockHour": 12, "clockMinute": 61})
+    node(None, "writeTogether", {"clockHour": 12, "clockMinute": 30})
+    assert (line.held[120], line.held[121], line.sent) == (30, 12, [])

@@ -85,7 +85,7 @@ MAKERS = frozenset(
 DEVICE_MEMBERS = frozenset(
     {"broadcast", "dropProcessData", "findBlocks", "forget", "freshFor", "identify", "line", "link", "patience"}
     | {"point", "readAt", "readMany", "repeats", "retries", "retryPause", "setBase", "table", "take", "traffic"}
-    | {"unit", "variants", "writeAt"}
+    | {"unit", "variants", "writeAt", "writeTogether"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 

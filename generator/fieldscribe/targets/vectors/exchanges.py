@@ -78,7 +78,7 @@ class Exchanges:
         if encoding.shape.readable:
             for sent, received in zip(typical.sent, typical.received, strict=True):
                 self._add("read", point, typical, sent, self.wire.reads(point, received))
-        for kind in ("write", "store") if encoding.shape.writable else ():
+        for kind in ("write", "store") if encoding.shape.writable and not point.write_with else ():
             for raw, words in typical.sent:
                 put = words
                 if point.write_place is not None:  # if the words may be in another order

@@ -16,7 +16,7 @@ import {
   RequestError,
   shown,
 } from "./errors.js";
-import { placeLabel, placesOverlap } from "./places.js";
+import { ascending, placeLabel, placesOverlap } from "./places.js";
 import { labelOf, pointExists, PointTable } from "./table.js";
 import { camelName } from "./words.js";
 
@@ -273,6 +273,7 @@ export class Session {
    * @param {Place} [at] */
   async _putRaw(point, raw, raws, at) {
     const isGroup = point.facts.bits !== undefined;
+    this._requirePartners([point]);
     await this._automatic("before write");
     await this._select(point.facts.selects);
     await this._about(point, async () => {
@@ -289,6 +290,71 @@ export class Session {
       }
     });
     this._selected = new Map(point.facts.selects);
+  }
+
+  /** Raises RequestError (not_together) if a point is missing that one request has to write with these.
+   * @param {readonly AnyPoint[]} points */
+  _requirePartners(points) {
+    for (const point of points) {
+      const missing = [];
+      for (const name of point.facts.writeWith ?? []) {
+        const partner = this.table.found(name, this.variants);
+        if (partner && !points.includes(partner)) missing.push(partner.name);
+      }
+      if (!missing.length) continue;
+      const text = `${labelOf(point)} is written in one request with ${missing.join(", ")}`;
+      throw new RequestError("not_together", `${text}: writeTogether takes them all`);
+    }
+  }
+
+  /** The place of points that one request writes; raises RequestError (not_together).
+   * @param {readonly AnyPoint[]} points @returns {Place} */
+  _jointPlace(points) {
+    this._requirePartners(points);
+    const places = points.map((point) => point.facts.writeAt ?? point.at);
+    const addresses = [...new Set(places.flatMap((at) => at.addresses))].sort((one, other) => one - other);
+    const kinds = new Set(
+      places.map((at, each) => JSON.stringify([at.space, at.base, at.function, points[each].facts.selects])),
+    );
+    const span = addresses[addresses.length - 1] - addresses[0] + 1;
+    if (kinds.size !== 1 || !["holding", "coil"].includes(places[0].space) || span !== addresses.length) {
+      throw new RequestError("not_together", "takes points that one request can write: side by side, in one space");
+    }
+    return { ...places[0], addresses };
+  }
+
+  /** Write several points in one request; each is checked with the new numbers of those before it.
+   * @param {Map<AnyPoint, unknown>} values */
+  async _writeTogether(values) {
+    const points = [...values.keys()];
+    const at = this._jointPlace(points);
+    /** @type {PointRaws} */
+    const raws = new Map();
+    for (const [point, value] of values) {
+      point.require?.(value);
+      const needs = new Set([...(point.scaleNeeds ?? []), ...(point.limitNeeds ?? [])]);
+      raws.set(point, point.encode(value, await this._raws(point, needs, { known: raws, writes: true })));
+    }
+    await this._automatic("before write");
+    await this._select(points[0].facts.selects);
+    await this._about(points, async () => {
+      /** @type {Map<number, number>} */
+      const words = new Map();
+      for (const [point, raw] of raws) {
+        const addresses = ascending(point.facts.writeAt ?? point.at);
+        const held = words.get(addresses[0]);
+        if (point.facts.bits === undefined) {
+          point.toWords(raw).forEach((/** @type {number} */ word, /** @type {number} */ each) => {
+            words.set(addresses[each], word);
+          });
+        } else words.set(addresses[0], point.insert(held ?? (await this._sharedWord(point)), raw));
+      }
+      await this._put(
+        at,
+        at.addresses.map((address) => words.get(address) ?? 0),
+      );
+    });
+    this._selected = new Map(points[0].facts.selects);
   }
 
   /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
@@ -534,6 +600,13 @@ export class Session {
     return point;
   }
 
+  /** @param {string} name @returns {AnyPoint} */
+  _writable(name) {
+    const point = this.table.resolved(name, this.variants);
+    if (!this._required(point).encode) throw new AccessError(`${labelOf(point)} cannot be written`);
+    return point;
+  }
+
   /** The attribute of a point, or of one that is bound to this device. @param {any} one @returns {unknown} */
   _attributeOf(one) {
     const point = this.table.attributes.has(one) ? one : Object.getPrototypeOf(one);
@@ -603,6 +676,17 @@ export class Session {
         throw error instanceof FieldscribeError ? error.about({ group }) : error;
       }
     });
+  }
+
+  /**
+   * Write several points by one request, as `writeWith` asks for: values by the name of the point. Raises RequestError
+   * (not_together) where a point is missing, or one request cannot write them.
+   * @param {Readonly<Record<string, unknown>>} values @returns {Promise<void>}
+   */
+  writeTogether(values) {
+    return this._run(() =>
+      this._writeTogether(new Map(Object.entries(values).map(([name, value]) => [this._writable(name), value]))),
+    );
   }
 
   /**

@@ -291,12 +291,13 @@ def _bool(value: bool) -> str:
 def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, selections: Selections) -> Frame | None:
     """Return the requests of a point; None if no function of the device reaches it.
 
-    A point that shares its word cannot be written if its word cannot be read.
+    A point that shares its word cannot be written if its word cannot be read. Nothing writes one alone that the device
+    takes with others only.
     """
     read = SPACES[point.space].read if point.readable and point.space in SPACES else 0
     write = profile.write_function(point.space, point.words) if point.writable and point.space in SPACES else 0
     read = read if profile.most.get(read, 0) >= point.words else 0
-    if profile.most.get(write or 0, 0) < point.words or (point.bits is not None and not read):
+    if profile.most.get(write or 0, 0) < point.words or (point.bits is not None and not read) or point.write_with:
         write = 0
     if point.place.is_scattered or (not read and not write):
         return None
