@@ -312,12 +312,8 @@ class Session(NamedPoints, ABC):
         yield from self._put_raw_steps(point, raw, place, raws)
 
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
-<<<<<<< HEAD
         """Write a checked raw number; raises EchoError if the device confirms another one."""
-=======
-        """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         self._require_partners((point,))
->>>>>>> 443fea8e (What a device takes together alone: write of one is refused in Python and TypeScript, which has writeTogether; C has no function for it)
         words = point.to_words(raw)
         for command in self.AUTOMATIC.get("before write", ()):
             yield from command.steps(self, {})
@@ -373,13 +369,8 @@ class Session(NamedPoints, ABC):
             raise AccessError(f"{point.label} cannot be written")
         return point
 
-<<<<<<< HEAD
-    def _joint_place(self, points: Collection[Point]) -> Place:
-        """Return the common place of points that one request writes; raises RequestError (not_together)."""
-=======
     def _require_partners(self, points: Collection[Point]) -> None:
         """Raise RequestError (not_together) if a point is missing that one request has to write with these."""
->>>>>>> 443fea8e (What a device takes together alone: write of one is refused in Python and TypeScript, which has writeTogether; C has no function for it)
         names = {point.facts.name for point in points}
         for point in points:
             if missing := [name for name in point.facts.write_with if name not in names and self._found(name)]:
@@ -387,7 +378,7 @@ class Session(NamedPoints, ABC):
                 raise RequestError("not_together", f"{text}: write_together takes them all")
 
     def _joint_place(self, points: Collection[Point]) -> Place:
-        """Return the place of points that one request writes; raises RequestError (not_together)."""
+        """Return the common place of points that one request writes; raises RequestError (not_together)."""
         self._require_partners(points)
         places = [point.facts.write_at or point.facts.at for point in points]
         addresses = sorted({address for place in places for address in place.addresses})
