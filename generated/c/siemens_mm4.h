@@ -965,15 +965,15 @@ static inline fieldscribe_rule siemens_mm4_main_setpoint_rule(
     const siemens_mm4_with_reference_frequency_and_uss_normalisation *with)
 {
     return (with->uss_normalisation_raw == 0)
-        ? fieldscribe_rule_f32(fieldscribe_rule_of(16384, 1, 0, 1), with->reference_frequency_raw, true)
+        ? fieldscribe_rule_f32(fieldscribe_rule_of(1, 1, 0, 1), with->reference_frequency_raw, true, 14)
         : ((with->uss_normalisation_raw == 1) ? fieldscribe_rule_of(100, 1, 0, 1)
         : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)));
 }
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode_count(
     int64_t count, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
 {
-    return fieldscribe_store_u16(fieldscribe_ratio_count(siemens_mm4_main_setpoint_rule(with), count, 100000, 0, 65535),
-        raw);
+    return fieldscribe_store_u16(fieldscribe_ratio_count(siemens_mm4_main_setpoint_rule(with), count, 3125, 5, 0,
+        65535), raw);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
@@ -1046,7 +1046,7 @@ static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw;
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_DECIMALS 5
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
     uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, int64_t *count)
-{ return fieldscribe_decode_ratio(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 100000, count); }
+{ return fieldscribe_decode_ratio(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 3125, 5, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
     uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, double *value)

@@ -163,7 +163,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode_count(
     int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
     int64_t *count)
 {
-    return fieldscribe_decode_ratio(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 10000,
+    return fieldscribe_decode_ratio(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 625, 4,
         count);
 }
 static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t raw, uint16_t words[1])
@@ -1245,7 +1245,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1255,7 +1255,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode(
@@ -1294,7 +1294,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1304,7 +1304,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
@@ -1343,7 +1343,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1353,7 +1353,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
@@ -1392,7 +1392,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1402,7 +1402,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
@@ -3071,7 +3071,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3082,7 +3082,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
@@ -3122,7 +3122,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3133,7 +3133,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
@@ -3195,7 +3195,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3206,7 +3206,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
@@ -3246,7 +3246,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3257,7 +3257,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
@@ -3338,7 +3338,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3349,7 +3349,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
@@ -3389,7 +3389,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3400,7 +3400,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
@@ -3462,7 +3462,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3473,7 +3473,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
@@ -3513,7 +3513,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3524,7 +3524,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
@@ -3708,7 +3708,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3719,7 +3719,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
@@ -3759,7 +3759,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3770,7 +3770,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
@@ -3830,7 +3830,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3841,7 +3841,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
@@ -3881,7 +3881,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ratio_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), count, 125, 3,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3892,7 +3892,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+        (int64_t)raw, 125, 3, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
@@ -4769,13 +4769,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode_coun
 {
     return fieldscribe_store_s16(
         fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        count, 100, -9999, 9999), raw);
+        count, 25, 2, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, 100, count);
+        (int64_t)raw, 25, 2, count);
 }
 static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
@@ -4812,13 +4812,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode_co
 {
     return fieldscribe_store_s16(
         fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        count, 100, -9999, 9999), raw);
+        count, 25, 2, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, 100, count);
+        (int64_t)raw, 25, 2, count);
 }
 static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
@@ -4882,13 +4882,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode_coun
 {
     return fieldscribe_store_s16(
         fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        count, 100, -9999, 9999), raw);
+        count, 25, 2, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, 100, count);
+        (int64_t)raw, 25, 2, count);
 }
 static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
@@ -4925,13 +4925,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode_co
 {
     return fieldscribe_store_s16(
         fieldscribe_ratio_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        count, 100, -9999, 9999), raw);
+        count, 25, 2, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
     return fieldscribe_decode_ratio(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, 100, count);
+        (int64_t)raw, 25, 2, count);
 }
 static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }

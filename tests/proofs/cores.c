@@ -157,6 +157,7 @@ void prove_128_bits(void)
     (void)status;
     (void)fieldscribe_quotient_bit(&product, &rest, big);
     (void)fieldscribe_quotient_bits(&rest, big, between(0, 32));
+    (void)fieldscribe_narrow_ratio(big, big, between(-63, 62), &a_u64, &left_over);
     (void)fieldscribe_short_ratio(big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_twice_ratio(big, big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_ratio_of(wide, wide, wide, narrow, &an_s64);
@@ -171,7 +172,7 @@ void prove_rules(void)
     rule = fieldscribe_rule_within(rule, wide, wide, wide);
     rule = fieldscribe_rule_times(rule, wide);
     rule = fieldscribe_rule_over(rule, wide);
-    rule = fieldscribe_rule_f32(rule, pattern, coin != 0U);
+    rule = fieldscribe_rule_f32(rule, pattern, coin != 0U, between(-60, 60));
     rule = fieldscribe_rule_ten_to(rule, wide);
     rule = fieldscribe_rule_scaled(rule, wide);
     rule = fieldscribe_no_rule(FIELDSCRIBE_NO_CASE);
@@ -195,9 +196,10 @@ void prove_ruled(void)
     const fieldscribe_rule rule = any_rule();
     fieldscribe_whole whole = fieldscribe_ruled_count(rule, wide, between_wide(1, INT64_MAX), wide, wide);
     fieldscribe_status status = fieldscribe_decode_count(rule, wide, between_wide(1, INT64_MAX), &an_s64);
-    fieldscribe_whole plain = fieldscribe_ratio_count(rule, wide, between_wide(1, INT64_MAX), wide, wide);
+    fieldscribe_whole plain =
+        fieldscribe_ratio_count(rule, wide, between_wide(1, INT64_MAX), between(0, 18), wide, wide);
     const int64_t fits = between_wide(INT64_MIN / 1000000000, INT64_MAX / 1000000000);
-    status = fieldscribe_decode_ratio(rule, wide, between_wide(1, INT64_MAX), &an_s64);
+    status = fieldscribe_decode_ratio(rule, wide, between_wide(1, INT64_MAX), between(0, 18), &an_s64);
     status = fieldscribe_decode_power(fits, narrow, between(0, 9), &an_s64);
     (void)fieldscribe_apply_rule(&rule, wide, between_wide(1, INT64_MAX), &an_s64);
     (void)fieldscribe_lifted(&rule, wide, between_wide(-INT64_MAX, INT64_MAX), &an_s64);

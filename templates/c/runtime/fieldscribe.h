@@ -497,6 +497,65 @@ static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t diviso
     return quotient;
 }
 
+/*
+ * fieldscribe_twice_ratio of the leading bits of number / divisor, which is above 0, in 32 bits; false, with nothing
+ * stored, where the other bits may change the result.
+ */
+static inline bool fieldscribe_narrow_ratio(
+    uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
+{
+    uint64_t leading = number;
+    uint64_t under = divisor;
+    uint32_t lost = 0U;
+    uint32_t quotient = 1U; /* ahead of its bits; at `end` all of them are there */
+    uint32_t rest;
+    uint32_t over;
+    uint32_t end;
+    uint32_t up = 0U;
+    uint32_t down = 0U;
+    int32_t bits;
+    if (number == 0U) {
+        return false;
+    }
+    for (; under > 0x7FFFFFFFU; under >>= 4) {
+        lost |= (uint32_t)(under & 0xFU);
+        down += 4U;
+    }
+    for (; leading > 0x3FFFFFFFU; leading >>= 4) {
+        lost |= (uint32_t)(leading & 0xFU);
+        up += 4U;
+    }
+    rest = (uint32_t)leading;
+    over = (uint32_t)under;
+    for (; over <= rest; over <<= 1) {
+        ++up;
+    }
+    for (; rest < (over >> 1); rest <<= 1) {
+        ++down;
+    }
+    bits = shift + 1 + (int32_t)(up & 0x7FU) - (int32_t)(down & 0x7FU); /* neither is more than 66 */
+    if ((bits < 1) || (bits > 29)) {
+        return false;
+    }
+    end = (uint32_t)1U << bits;
+    do {
+        rest <<= 1;
+        quotient <<= 1;
+        if (rest >= over) {
+            rest -= over;
+            ++quotient;
+        }
+    } while (quotient < end);
+    quotient -= end;
+    /* at most 5 shifts follow a loss: lost bits take less than 32 quotients from the rest, and add less than 32 ends */
+    if ((lost != 0U) && (((rest >> 5) <= quotient) || (((over - rest) >> 5) < end))) {
+        return false;
+    }
+    *twice = quotient;
+    *left_over = rest != 0U;
+    return true;
+}
+
 /* fieldscribe_twice_ratio of number / divisor in 64 bits; false, with nothing stored, if 64 bits may be too few. */
 static inline bool fieldscribe_short_ratio(
     uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
@@ -522,6 +581,8 @@ static inline bool fieldscribe_short_ratio(
         }
         quotient = (bits < 0) ? (number >> -bits) : (number << bits);
         rest = (bits < 0) ? (number - (quotient << -bits)) : 0U;
+    } else if (fieldscribe_narrow_ratio(number, divisor, shift, twice, left_over)) {
+        return true;
     } else {
         for (; over <= rest; over <<= 1) {
             ++shifts;
@@ -548,11 +609,14 @@ static inline bool fieldscribe_short_ratio(
 static inline bool fieldscribe_twice_ratio(
     uint64_t a, uint64_t b, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
 {
-    fieldscribe_u128 number = fieldscribe_product(a, b);
+    fieldscribe_u128 number = {0U, a};
     uint64_t rest = 0U;
     uint64_t quotient = 0U;
     int32_t bit = -129;
     bool fits = true;
+    if (b != 1U) {
+        number = fieldscribe_product(a, b);
+    }
     if ((number.high == 0U) && fieldscribe_short_ratio(number.low, divisor, shift, twice, left_over)) {
         return true;
     }
@@ -638,13 +702,16 @@ static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
     fieldscribe_u128 size;
-    if ((a == 1) && (b > INT64_MIN)) {
-        *product = b;
-        return true;
-    }
-    if ((a >= INT32_MIN) && (a <= INT32_MAX) && (b >= INT32_MIN) && (b <= INT32_MAX)) {
-        *product = a * b;
-        return true;
+    if ((a >= 0) && (b >= 0)) {
+        const uint64_t bits = (uint64_t)a | (uint64_t)b;
+        if (bits <= 0xFFFFU) {
+            *product = (int64_t)((uint32_t)((uint64_t)a & 0xFFFFU) * (uint32_t)((uint64_t)b & 0xFFFFU));
+            return true;
+        }
+        if (bits <= 0x7FFFFFFFU) {
+            *product = (int64_t)(((uint64_t)a & 0x7FFFFFFFU) * ((uint64_t)b & 0x7FFFFFFFU));
+            return true;
+        }
     }
     size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
     if ((size.high != 0U) || (size.low > (uint64_t)INT64_MAX)) {
@@ -783,8 +850,8 @@ static inline fieldscribe_rule fieldscribe_rule_within(fieldscribe_rule rule, in
 /* Multiply a limit by a factor; it may be zero. */
 static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, int64_t factor)
 {
-    int64_t num = rule.num;
-    const bool fits = fieldscribe_multiply(num, factor, &num);
+    int64_t num = factor;
+    const bool fits = (rule.num == 1) ? (factor > INT64_MIN) : fieldscribe_multiply(rule.num, factor, &num);
     rule.num = num;
     return fieldscribe_rule_if(rule, fits);
 }
@@ -800,8 +867,8 @@ static inline fieldscribe_rule fieldscribe_rule_times(fieldscribe_rule rule, int
 static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int64_t factor)
 {
     const fieldscribe_status status = (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK;
-    int64_t den = rule.den;
-    const bool fits = fieldscribe_multiply(den, factor, &den);
+    int64_t den = factor;
+    const bool fits = (rule.den == 1) ? (factor > INT64_MIN) : fieldscribe_multiply(rule.den, factor, &den);
     rule.den = den;
     return fieldscribe_rule_if(fieldscribe_rule_fails(rule, status), fits);
 }
@@ -820,13 +887,20 @@ static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, in
     return rule;
 }
 
-/* Multiply or divide by the number of a binary32 pattern; zero, infinity and NaN are no factors. */
-static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides)
+/*
+ * Multiply or divide by the number of a binary32 pattern, and multiply by 2^twos; zero, infinity and NaN are no
+ * factors.
+ */
+static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides, int32_t twos)
 {
-    const int32_t exponent = fieldscribe_f32_exponent(bits);
-    const int32_t size = (exponent > 104) ? 0 : (int32_t)fieldscribe_f32_mantissa(bits);
-    const int64_t factor = (bits > 0x7FFFFFFFU) ? -size : size;
-    rule.shift += divides ? -exponent : exponent;
+    int32_t exponent = fieldscribe_f32_exponent(bits);
+    uint32_t size = (exponent > 104) ? 0U : fieldscribe_f32_mantissa(bits);
+    int64_t factor;
+    for (; (size != 0U) && ((size & 0xFFU) == 0U); size >>= 8) { /* short numbers cost less */
+        exponent += 8;
+    }
+    factor = (bits > 0x7FFFFFFFU) ? -(int64_t)size : (int64_t)size;
+    rule.shift += twos + (divides ? -exponent : exponent);
     return divides ? fieldscribe_rule_over(rule, factor) : fieldscribe_rule_times(rule, factor);
 }
 
@@ -879,30 +953,32 @@ static inline fieldscribe_whole fieldscribe_ruled_count(
                                                             : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
 }
 
-/* The same for a rule without an offset. */
+/* The same for a rule without an offset, where fives * 2^twos counts are one unit. */
 static inline fieldscribe_whole fieldscribe_ratio_count(
-    fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
+    fieldscribe_rule rule, int64_t count, int64_t fives, int32_t twos, int64_t low, int64_t high)
 {
     int64_t den = 0;
     int64_t raw = 0;
     if (rule.status != FIELDSCRIBE_OK) {
         return fieldscribe_no_whole(rule.status);
     }
-    return (fieldscribe_multiply(rule.den, tens, &den) && fieldscribe_ratio_of(count, rule.num, den, rule.shift, &raw))
+    return (fieldscribe_multiply(rule.den, fives, &den) &&
+               fieldscribe_ratio_of(count, rule.num, den, rule.shift - twos, &raw))
         ? fieldscribe_whole_in(raw, low, high)
         : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
 }
 
-/* The count of a raw number by a rule without an offset. */
-FIELDSCRIBE_STATUS fieldscribe_decode_ratio(fieldscribe_rule rule, int64_t raw, int64_t tens, int64_t *count)
+/* The count of a raw number by a rule without an offset, where fives * 2^twos counts are one unit. */
+FIELDSCRIBE_STATUS fieldscribe_decode_ratio(
+    fieldscribe_rule rule, int64_t raw, int64_t fives, int32_t twos, int64_t *count)
 {
     int64_t den = 0;
     int64_t number = 0;
     if (rule.status != FIELDSCRIBE_OK) {
         return rule.status;
     }
-    if ((!fieldscribe_multiply(rule.den, tens, &den)) ||
-        (!fieldscribe_ratio_of(raw, den, rule.num, -rule.shift, &number))) {
+    if ((!fieldscribe_multiply(rule.den, fives, &den)) ||
+        (!fieldscribe_ratio_of(raw, den, rule.num, twos - rule.shift, &number))) {
         return FIELDSCRIBE_OVERFLOW;
     }
     *count = number;

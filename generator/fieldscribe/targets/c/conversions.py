@@ -173,9 +173,10 @@ class Writer:
         point = self.point
         if self.rule is not None and self.rule.text:
             yield Function(self.rule.name, self.rule.text)
-        tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
+        places, limits = point.decimals or 0, self._outer()
         counts = point.decimals is not None
         lifts = any(case.rule.offset for case in point.scale or ())
+        tens = bare(10**places) if lifts else f"{bare(5**places)}, {places}"
         if point.writable and counts:
             rule = self._rule(point.arguments)
             body_of = self._whole(f"fieldscribe_{'ruled' if lifts else 'ratio'}_count({rule}, count, {tens}, {limits})")

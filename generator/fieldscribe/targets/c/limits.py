@@ -1,6 +1,7 @@
 """C expressions for the check of raw numbers, and for scales and limits whose factors are read at run time."""
 
 from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
 from math import prod
 from operator import attrgetter
 
@@ -221,18 +222,29 @@ def _is_no_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
 def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
     """Return the expression that builds a rule. A scale refuses every factor of zero, a limit only divisors of zero."""
     ratio, offset = rule.ratio, rule.offset
+    floating = any(operand.floating for operand in rule.operands)
+    twos = _twos(ratio.numerator) - _twos(ratio.denominator) if floating else 0
+    ratio /= Fraction(2) ** twos
     numbers = (ratio.numerator, ratio.denominator, offset.numerator, offset.denominator)
     text = f"fieldscribe_rule_of({', '.join(map(bare, numbers))})"
     for operand in rule.steps:
-        text = _step(text, operand, scope, of_limit=of_limit)
+        if operand.floating:
+            over = "true" if operand.over else "false"
+            text = f"fieldscribe_rule_f32({text}, {scope.raw(operand.factor.point)}, {over}, {twos})"
+            twos = 0
+        else:
+            text = _step(text, operand, scope, of_limit=of_limit)
     return text
+
+
+def _twos(number: int) -> int:
+    """Return the power of two in an integer other than zero."""
+    return (number & -number).bit_length() - 1
 
 
 def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
     """Return the rule with another factor."""
     number, raw = _number(operand, scope), scope.raw(operand.factor.point)
-    if operand.floating:
-        return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
     if not operand.factor.ten_to:
         how = "over" if operand.over else "scaled" if of_limit else "times"
         return _within(f"fieldscribe_rule_{how}({rule}, {number})", operand, raw)
