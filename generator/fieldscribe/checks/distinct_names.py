@@ -138,10 +138,15 @@ def _sample(device: Device, left_out: set[str]) -> Device:
 
 
 def _needed(device: Device) -> set[str]:
-    """Return the names of the points that scales, limits and commands need."""
+    """Return the names of the points that scales, limits, selections and commands need."""
     scales = {id(point.shape): point.shape.scale_arguments for point in device.points}
     limits = {id(point.allowed): point.allowed.arguments for point in device.points}
     names = {name for arguments in (*scales.values(), *limits.values()) for name in arguments}
+    names |= {
+        name
+        for terms in {id(point.terms): point.terms for point in device.points}.values()
+        for name, _ in terms.selects
+    }
     return names | {command.busy for command in device.commands if command.busy is not None}
 
 
