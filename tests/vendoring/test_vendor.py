@@ -18,7 +18,7 @@ from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select
 from support.c_device import PROGRAMS, WARNINGS
-from support.described import SHIPPED, described, made, shipped, write
+from support.described import SHIPPED, described, group, head, made, shipped, together, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
@@ -417,6 +417,16 @@ def test_parts_of_the_runtime_that_no_point_needs_are_left_out(
     assert {part for part, line in lines.items() if line in text} == parts
     assert ("#if defined(FIELDSCRIBE_MODBUS_" in text) == (len(parts) == 3)
     compiles(tmp_path, f"{device}_modbus.h")
+
+
+@pytest.mark.parametrize(("words", "has_pages"), [("delay", True), ("page", False)])
+def test_a_point_behind_a_page_brings_the_count_of_requests(words: str, has_pages: bool, tmp_path: Path) -> None:
+    page = group("- {name: page, at: 1, range: 0..1}\n")
+    behind = group("- {name: delay, at: 2}\n", group="behind", select="{page: 1}")
+    file = write(tmp_path, together(head(device="drive"), page, behind))
+    assert vendor("c", file, "--out", tmp_path, "--points", words) == 0
+    assert ("_select(" in (tmp_path / "fieldscribe_modbus.h").read_text("utf-8")) == has_pages
+    compiles(tmp_path, "drive_modbus.h")
 
 
 def test_reads_do_the_same_without_the_other_parts_of_the_runtime(tmp_path: Path) -> None:

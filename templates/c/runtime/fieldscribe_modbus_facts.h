@@ -17,7 +17,7 @@
 /* Parts that vendoring leaves out if no chosen point or function needs them. */
 #define FIELDSCRIBE_MODBUS_COILS    /* part: functions 01h, 02h, 05h and 0Fh */
 #define FIELDSCRIBE_MODBUS_WRITES   /* part: functions 05h to 10h, fieldscribe_modbus_write*, fieldscribe_modbus_send */
-#define FIELDSCRIBE_MODBUS_OVER_TCP /* part: TCP beside RTU, fieldscribe_modbus_*tcp */
+#define FIELDSCRIBE_MODBUS_OVER_TCP /* part: TCP, pages, fieldscribe_modbus_*tcp, fieldscribe_modbus_select* */
 
 /* The limits of function codes: all are below the first, those that read below the second. */
 #define FIELDSCRIBE_MODBUS_READS 5U
