@@ -430,7 +430,7 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_li
     fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_OK &&
         stream.patience == FIELDSCRIBE_ANSWER_MS);
     memset(&stream, 0, sizeof stream);
-    reply.room = link->pzd - 1U;
+    reply.room = (link->pzd == 0U) ? 0U : (link->pzd - 1U);
     fieldscribe_agree(v, link->pzd == 0U ||
         (fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_BUFFER_TOO_SMALL &&
             stream.sent_count == 0U));
