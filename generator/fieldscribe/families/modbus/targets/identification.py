@@ -126,7 +126,8 @@ def _raw_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
     if view.point.words == 1:
         yield "const uint16_t word = words[0];"
     yield f"const {view.raw_type} raw = {raw_of_words(view)};"
-    yield _status([f"(raw == {literal})" for literal in literals])
+    cast = f"({view.raw_type})" if view.raw_type.startswith("u") else ""  # the macros have no suffix
+    yield _status([f"(raw == {cast}{literal})" for literal in literals])
 
 
 def _text_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
