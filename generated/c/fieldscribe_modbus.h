@@ -1566,7 +1566,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_write_selection(
         status = fieldscribe_modbus_read_word(unit, row->read, row->address, &word);
     }
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        word = (uint16_t)((word & (uint16_t)~row->mask) | row->word);
+        word = (uint16_t)(((uint32_t)word & ~(uint32_t)row->mask) | row->word);
         status = fieldscribe_modbus_write_word(unit, row->write, row->address, word);
     }
     return status;

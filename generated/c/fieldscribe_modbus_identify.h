@@ -59,7 +59,7 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_identify(fieldscribe_modbus_unit *uni
     const fieldscribe_modbus_expectation *rows, size_t count, uint8_t *found, size_t axes)
 {
     const fieldscribe_modbus_reading *held = NULL;
-    uint16_t words[FIELDSCRIBE_MODBUS_IDENTIFY_WORDS] = {0U};
+    uint16_t words[FIELDSCRIBE_MODBUS_IDENTIFY_WORDS] = {0};
     fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
     size_t at;
     for (at = 0U; at < axes; ++at) {

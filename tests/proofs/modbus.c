@@ -8,7 +8,7 @@
 #include "fieldscribe_modbus.h"
 #include "modbus_items.h"
 
-#define STEPS 6U /* bytes that a receiver has got: each way through them is followed alone */
+#define STEPS 6U    /* bytes that a receiver has got, or words of a point: each way through them is followed alone */
 #define KNOWN 3U    /* places of a marker: each is looked at alone */
 #define FRAMES 264U /* longer than the longest frame, of 260 bytes */
 #ifndef SHORT
@@ -800,6 +800,89 @@ void prove_write_word(uint8_t function, uint16_t address, uint16_t word)
 {
     on_line();
     (void)fieldscribe_modbus_write_word(&unit, function, address, word);
+}
+
+#define ROWS 3U /* of a selection: each count is followed alone */
+
+static fieldscribe_modbus_selection wanted_rows[ROWS];
+static fieldscribe_modbus_selection other_rows[ROWS];
+static fieldscribe_modbus_selected selected;
+
+/* So many rows: behind the last nothing is looked at. */
+static const fieldscribe_modbus_selection *rows_of(fieldscribe_modbus_selection *rows, size_t count)
+{
+    size_t at;
+    //@ loop unroll ROWS;
+    for (at = 0U; at < ROWS; ++at) {
+        rows[at].last = number % 2U != 0U || at + 1U == ROWS;
+    }
+    return count == 0U ? NULL : &rows[ROWS - count];
+}
+
+/* A unit that brings anything, of which some rows stand, perhaps. */
+static void select_before(size_t standing)
+{
+    on_line();
+    unit.ask = &bring_anything;
+    selected.rows = rows_of(other_rows, standing);
+}
+
+void prove_stands(size_t standing)
+{
+    if (standing <= ROWS) {
+        //@ split standing;
+        (void)fieldscribe_modbus_stands(rows_of(other_rows, standing), rows_of(wanted_rows, 1U));
+    }
+}
+
+void prove_write_selection(void)
+{
+    select_before(0U);
+    (void)fieldscribe_modbus_write_selection(&unit, rows_of(wanted_rows, 1U));
+}
+
+void prove_selects(size_t count, unsigned status)
+{
+    if (count <= ROWS) {
+        //@ split count;
+        select_before(ROWS);
+        (void)fieldscribe_modbus_selects(
+            &unit, &selected, rows_of(wanted_rows, count), (fieldscribe_modbus_status)status);
+    }
+}
+
+void prove_select(size_t count, size_t standing)
+{
+    if (count <= ROWS && standing <= ROWS) {
+        //@ split count;
+        //@ split standing;
+        select_before(standing);
+        (void)fieldscribe_modbus_select(&unit, &selected, rows_of(wanted_rows, count));
+    }
+}
+
+void prove_read_selected(size_t count, size_t words)
+{
+    if (count <= ROWS && words <= STEPS) {
+        //@ split count;
+        //@ split words;
+        select_before(1U);
+        reading.count = (uint16_t)words;
+        (void)fieldscribe_modbus_read_selected(
+            &unit, &selected, rows_of(wanted_rows, count), &reading, EXACTLY(words, items));
+    }
+}
+
+void prove_write_selected(size_t count, size_t words)
+{
+    if (count <= ROWS && words <= STEPS) {
+        //@ split count;
+        //@ split words;
+        select_before(1U);
+        writing.count = (uint16_t)words;
+        (void)fieldscribe_modbus_write_selected(
+            &unit, &selected, rows_of(wanted_rows, count), &writing, EXACTLY(words, items));
+    }
 }
 
 static fieldscribe_modbus_base base;

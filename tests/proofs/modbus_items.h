@@ -1,4 +1,4 @@
-/* What proofs of Modbus parsers share. */
+/* What proofs of Modbus share. */
 #ifndef MODBUS_ITEMS_H
 #define MODBUS_ITEMS_H
 
@@ -22,5 +22,21 @@
     } else { \
         (void)(call); \
     }
+
+static volatile uint16_t any_word;
+
+/* A unit of which any request brings any words and any status. */
+static fieldscribe_modbus_status bring_anything(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    size_t at;
+    (void)line;
+    (void)request;
+    for (at = 0U; (reply->values != NULL) && (at < reply->room); ++at) {
+        reply->values[at] = any_word;
+    }
+    reply->exception = (uint8_t)(any_word & 0xFFU);
+    return (fieldscribe_modbus_status)(any_word % ((uint16_t)FIELDSCRIBE_MODBUS_NOISE + 1U));
+}
 
 #endif

@@ -29,7 +29,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RUNTIME = ROOT / "templates" / "c" / "runtime"
 GENERATED = ROOT / "generated" / "c"
-FAMILIES = ("cores", "words", "modbus", "modbus_steps", "can", "uss")
+FAMILIES = ("cores", "words", "dates", "modbus", "modbus_identify", "modbus_steps", "can", "uss")
 """The headers with functions to prove; in fieldscribe.h, `words` is how raw numbers lie in words, `cores` all else."""
 SOURCES = (*FAMILIES, "shipped")
 """The sources of harnesses: one for the functions of each of these, one with the tables of shipped devices."""
@@ -40,8 +40,15 @@ OPTIONS = (
     *("-warn-left-shift-negative", "-warn-right-shift-negative", "-warn-invalid-bool", "-warn-invalid-pointer"),
     *("-eva-no-results", "-eva-msg-key=-initial-state,-final-states"),
 )
-MORE = {"cores": ("-warn-special-float", "none", "-eva-precision", "2")}
-"""Values may be infinite and NaN, as IEEE 754 has it; what a function stores is known by what it returns."""
+MORE = {
+    "cores": ("-warn-special-float", "none", "-eva-precision", "2"),
+    "dates": ("-warn-unsigned-overflow",),
+    "modbus": ("-eva-slevel-function", "fieldscribe_modbus_stands:16,fieldscribe_modbus_select:64"),
+    "modbus_identify": ("-eva-slevel-function", "fieldscribe_is_same_text:16"),
+}
+"""Values may be infinite and NaN, as IEEE 754 has it; what a function stores is known by what it returns.
+No number of a date wraps around. Each step of a loop up to a mark, which its array has, is followed alone.
+"""
 LIMIT = 600
 """Seconds after which an analysis is taken to hang."""
 
@@ -76,8 +83,13 @@ def functions(family: str, runtime: Path = RUNTIME) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-_NAMES = {"words": r"fieldscribe_((?:take|put|layout)_\w+)", "cores": r"fieldscribe_(?!take_|put_|layout_)(\w+)"}
-"""What the names of functions are in fieldscribe.h."""
+_NAMES = {
+    "words": r"fieldscribe_((?:take|put|layout)_\w+)",
+    "cores": r"fieldscribe_(?!take_|put_|layout_)(\w+)",
+    "dates": r"fieldscribe_(\w+)",
+    "modbus_identify": r"fieldscribe_(?:modbus_)?(\w+)",
+}
+"""What the names of functions are where they do not begin with that of the header."""
 
 
 def harnesses(source: Path) -> list[str]:

@@ -55,16 +55,18 @@ static inline bool fieldscribe_date_has(const fieldscribe_date_form *form, uint8
     return found;
 }
 
-/* The number with these decimal digits of four bits; UINT32_MAX if one is not a digit. */
+/* The number with these decimal digits of four bits; more than any part holds if one is not a digit. */
 static inline uint32_t fieldscribe_date_decimal(uint32_t bits)
 {
     uint32_t number = 0U;
     uint32_t shift;
+    bool decimal = true;
     for (shift = 16U; shift > 0U; shift -= 4U) {
         const uint32_t digit = (bits >> (shift - 4U)) & 0xFU;
-        number = ((digit > 9U) || (number == UINT32_MAX)) ? UINT32_MAX : ((number * 10U) + digit);
+        number = (number * 10U) + digit;
+        decimal = decimal && (digit <= 9U);
     }
-    return number;
+    return decimal ? number : 0x10000U;
 }
 
 /* The number in decimal digits of four bits each; it is less than 10000. */
@@ -82,7 +84,7 @@ static inline bool fieldscribe_date_is_real(const fieldscribe_date_form *form, c
     bool real = true;
     if (fieldscribe_date_has(form, FIELDSCRIBE_DATE_DAY)) {
         const bool leap = ((year % 4U) == 0U) && (((year % 100U) != 0U) || ((year % 400U) == 0U));
-        const uint32_t days = (month == 2U) ? (leap ? 29U : 28U) : (30U + ((month + (month >> 3U)) & 1U));
+        const uint32_t days = (month == 2U) ? (leap ? 29U : 28U) : (30U + ((month ^ (month >> 3U)) & 1U));
         real = (year >= 1U) && (year <= 9999U) && (month >= 1U) && (month <= 12U) &&
                (numbers[FIELDSCRIBE_DATE_DAY] >= 1U) && (numbers[FIELDSCRIBE_DATE_DAY] <= days);
     }
@@ -97,14 +99,13 @@ static inline bool fieldscribe_date_is_real(const fieldscribe_date_form *form, c
 static inline fieldscribe_status fieldscribe_date_of_words(
     const uint16_t *words, const fieldscribe_date_form *form, fieldscribe_date_time *time)
 {
-    uint32_t numbers[FIELDSCRIBE_DATE_FIELDS] = {0U};
+    uint32_t numbers[FIELDSCRIBE_DATE_FIELDS] = {0};
     uint8_t at;
     for (at = 0U; at < form->count; ++at) {
         const fieldscribe_date_part *const part = &form->parts[at];
         const uint16_t word = form->low_first ? fieldscribe_exchanged(words[part->word]) : words[part->word];
         const uint32_t bits = ((uint32_t)word >> part->low) & part->mask;
-        const uint32_t number = form->bcd ? fieldscribe_date_decimal(bits) : bits;
-        numbers[part->field] = (number == UINT32_MAX) ? number : (number + part->base);
+        numbers[part->field] = (form->bcd ? fieldscribe_date_decimal(bits) : bits) + part->base;
     }
     if (!fieldscribe_date_has(form, FIELDSCRIBE_DATE_SECOND)) {
         numbers[FIELDSCRIBE_DATE_SECOND] = numbers[FIELDSCRIBE_DATE_MILLISECOND] / 1000U;
@@ -113,20 +114,20 @@ static inline fieldscribe_status fieldscribe_date_of_words(
     if (!fieldscribe_date_is_real(form, numbers)) {
         return FIELDSCRIBE_MALFORMED;
     }
-    time->year = (uint16_t)numbers[FIELDSCRIBE_DATE_YEAR];
-    time->month = (uint8_t)numbers[FIELDSCRIBE_DATE_MONTH];
-    time->day = (uint8_t)numbers[FIELDSCRIBE_DATE_DAY];
-    time->hour = (uint8_t)numbers[FIELDSCRIBE_DATE_HOUR];
-    time->minute = (uint8_t)numbers[FIELDSCRIBE_DATE_MINUTE];
-    time->second = (uint8_t)numbers[FIELDSCRIBE_DATE_SECOND];
-    time->millisecond = (uint16_t)numbers[FIELDSCRIBE_DATE_MILLISECOND];
+    time->year = (uint16_t)(numbers[FIELDSCRIBE_DATE_YEAR] & 0xFFFFU);
+    time->month = (uint8_t)(numbers[FIELDSCRIBE_DATE_MONTH] & 0xFFU);
+    time->day = (uint8_t)(numbers[FIELDSCRIBE_DATE_DAY] & 0xFFU);
+    time->hour = (uint8_t)(numbers[FIELDSCRIBE_DATE_HOUR] & 0xFFU);
+    time->minute = (uint8_t)(numbers[FIELDSCRIBE_DATE_MINUTE] & 0xFFU);
+    time->second = (uint8_t)(numbers[FIELDSCRIBE_DATE_SECOND] & 0xFFU);
+    time->millisecond = (uint16_t)(numbers[FIELDSCRIBE_DATE_MILLISECOND] & 0xFFFFU);
     return FIELDSCRIBE_OK;
 }
 
-/* The weekday of a date if Sunday has the number `sunday`. Days count from 0000-03-01, a Wednesday. */
+/* The weekday of a date if Sunday has the number `sunday`. Days count from -0400-03-01, a Wednesday. */
 static inline uint32_t fieldscribe_date_weekday(const fieldscribe_date_time *time, uint32_t sunday)
 {
-    const uint32_t year = (uint32_t)time->year - ((time->month < 3U) ? 1U : 0U);
+    const uint32_t year = (uint32_t)time->year + ((time->month < 3U) ? 399U : 400U);
     const uint32_t month = ((uint32_t)time->month + 9U) % 12U;
     const uint32_t days = (365U * year) + (year / 4U) - (year / 100U) + (year / 400U) + (((153U * month) + 2U) / 5U) +
                           (uint32_t)time->day - 1U;
@@ -160,10 +161,15 @@ static inline fieldscribe_status fieldscribe_words_of_date(
     }
     for (at = 0U; (at < form->count) && fits; ++at) {
         const fieldscribe_date_part *const part = &form->parts[at];
-        uint32_t number = numbers[part->field] - part->base;
-        number = (part->field == FIELDSCRIBE_DATE_WEEKDAY) ? fieldscribe_date_weekday(time, part->base) : number;
-        fits = number <= (form->bcd ? fieldscribe_date_decimal(0x9999U & (uint32_t)part->mask) : part->mask);
-        numbers[part->field] = form->bcd ? fieldscribe_date_digits(number) : number;
+        const uint32_t most = form->bcd ? fieldscribe_date_decimal(0x9999U & (uint32_t)part->mask) : part->mask;
+        const int32_t number = (part->field == FIELDSCRIBE_DATE_WEEKDAY)
+            ? (int32_t)fieldscribe_date_weekday(time, part->base)
+            : ((int32_t)numbers[part->field] - (int32_t)part->base);
+        if ((number < 0) || (number > (int32_t)most)) {
+            fits = false;
+        } else {
+            numbers[part->field] = form->bcd ? fieldscribe_date_digits((uint32_t)number) : (uint32_t)number;
+        }
     }
     if (!fits) {
         return FIELDSCRIBE_OUT_OF_RANGE;
@@ -172,7 +178,7 @@ static inline fieldscribe_status fieldscribe_words_of_date(
         uint32_t bits = 0U;
         for (at = 0U; at < form->count; ++at) {
             const fieldscribe_date_part *const part = &form->parts[at];
-            bits |= ((size_t)part->word == word) ? (numbers[part->field] << part->low) : 0U;
+            bits |= ((size_t)part->word == word) ? (((numbers[part->field] & part->mask) << part->low) & 0xFFFFU) : 0U;
         }
         words[word] = form->low_first ? fieldscribe_exchanged((uint16_t)bits) : (uint16_t)bits;
     }

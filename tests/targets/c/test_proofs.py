@@ -13,7 +13,9 @@ from support.toolchains import tool
 PLANTED = {
     "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
     "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
+    "dates": ("words_of_date", "word < count; ++word", "word <= count; ++word", "words_of_date"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
+    "modbus_identify": ("modbus_identify", "at < axes; ++at", "at <= axes; ++at", "identify"),
     "modbus_steps": ("fill", "at < step->read.count", "at <= step->read.count", "fill"),
     "can": ("listen", "at < receiver.slot_count", "at <= receiver.slot_count", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
@@ -45,7 +47,7 @@ def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
     for path in RUNTIME.glob("fieldscribe*.h"):
         shutil.copy(path, tmp_path)
     header = header_of(family, tmp_path)
-    start = rf"\bfieldscribe_{'' if family in ('cores', 'words') else f'{family}_'}{function}\([^;{{}}]*\)\n\{{"
+    start = rf"\bfieldscribe_(?:{family}_)?{function}\([^;{{}}]*\)\n\{{"
     text = header.read_text("utf-8")
     [begin] = [found.end() for found in re.finditer(start, text)]
     before, after = text[:begin], text[begin:]
