@@ -363,6 +363,13 @@ def test_a_page_that_is_written_before_is_said_before(run: Run) -> None:
     assert names == ["page", "array_index", "input_delay_index_2"]
 
 
+def test_a_condition_is_said_before_a_write(run: Run) -> None:
+    with simulated(DEVICES / "kitchen_sink") as sink:
+        line = f"tcp://127.0.0.1:{sink.port}"
+        asked = run("write", str(DEVICES / "kitchen_sink"), "target_torque=2", "--line", line).err
+    assert "    it exists only when control_mode == by_torque\n" in asked
+
+
 def test_a_base_that_only_a_given_number_moves_and_steps_where_no_point_lies(tmp_path: Path, run: Run) -> None:
     """The words of a mailbox belong to no point: the device takes them, and nothing else beside them."""
     modules = head(

@@ -12,14 +12,14 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.conversation.encoding import encode_point, require_writable
 from fieldscribe.conversation.meanings import Meanings
-from fieldscribe.conversation.selection import choose_point
+from fieldscribe.conversation.selection import choose_point, points_by_name
 from fieldscribe.families import family
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.live.readings import Reading
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import RefusedError, UnclearError
-from fieldscribe.wording import label, title_text
+from fieldscribe.wording import condition_text, label, title_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +168,8 @@ class Planner:
 
     def _remarks(self, point: Point, keep: bool) -> Iterator[str]:
         """Yield what to know before a point is written."""
+        if point.when is not None and not point.selects:
+            yield f"it exists only when {condition_text(point.when, points_by_name(self._model))}"
         for name, raw in point.selects:
             other = choose_point(self._model, name)
             yield f"written first, unless it stands: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
