@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from importlib import import_module
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.simulation import simulated
 from support.c_device import WARNINGS, write_headers
-from support.described import kitchen_sink
+from support.described import described, kitchen_sink, loaded_in
 from support.places import TESTS
+from support.python_package import Slave, imported, write_package
 from support.quick import full_but
 from support.rust_workspace import rust_program
 from support.toolchains import compiled, succeed
@@ -109,3 +112,47 @@ def test_c_knows_another_device(in_c: Callable[[int], str]) -> None:
     """By its refusal to read a point."""
     with simulated("hitachi_l200", on="tcp") as device:
         assert in_c(device.port) == "1 ok 0 0 0 exception \n"
+
+
+TEXTS = described(
+    "- {name: maker, at: 0, type: text, characters: 8, encoding: utf-8}\n"
+    "- {name: line, at: 4, type: text, characters: 4, encoding: utf-16}\n",
+    identify="{maker: Zürich}",
+    variants="{series: {values: {a: {identify: {line: ä€}}, b: {identify: {line: ß}}}}}",
+)
+ZURICH = (0x5AC3, 0xBC72, 0x6963, 0x6820)
+SERIES = {"a": (0xE4, 0x20AC, 0x20, 0x20), "b": (0xDF, 0x20, 0x20, 0x20)}
+
+
+@pytest.fixture(scope="module")
+def of_texts(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, Any]]:
+    """The program in C and the package in Python that know a device by texts beyond ASCII."""
+    folder = tmp_path_factory.mktemp("texts")
+    device = loaded_in(folder, TEXTS)
+    flags = ("-std=c99", *WARNINGS, f"-I{write_headers(device, folder) / 'c'}")
+    program = compiled("gcc", flags, TESTS / "targets/c/programs/identify_texts.c", folder / "identify_texts")
+    for package in imported(write_package(device, folder), "made_up"):
+        yield program, package
+
+
+@pytest.mark.parametrize(
+    ("words", "in_c", "in_python"),
+    [
+        ((*ZURICH, *SERIES["a"]), "0 1 1", "{'series': 'a'}"),
+        ((*ZURICH, *SERIES["b"]), "0 1 2", "{'series': 'b'}"),
+        ((*ZURICH, 0xD800, 0, 0, 0), "0 1 0", "{}"),
+        ((0x5AFC, 0x7269, 0x6368, 0x2020, *SERIES["a"]), "0 0 0", "maker: the words are no utf-8"),
+    ],
+)
+def test_texts_beyond_ascii(of_texts: tuple[Path, Any], words: tuple[int, ...], in_c: str, in_python: str) -> None:
+    """Words that are no text are another device, and no failure."""
+    program, package = of_texts
+    assert succeed([program, *(f"{word:x}" for word in words)]) == in_c
+    slave = Slave()
+    slave.words.update(enumerate(words))
+    device = package.MadeUp(slave, unit=1)
+    try:
+        found = str(device.identify())
+    except import_module("fieldscribe_runtime").OtherDeviceError as other:
+        found = str(other)
+    assert found.startswith(in_python)

@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 from fieldscribe.families.modbus.targets import vectors as modbus_vectors
-from fieldscribe.model import Device, Interval, Limit, Point, ScaleCase
+from fieldscribe.model import Device, Interval, Limit, Point, ScaleCase, Text
 from fieldscribe.vendoring.selection import select
-from support.models import changed, named, units
+from support.models import changed, named, point, sample_device, units
 from support.sample_vectors import SAMPLE, VECTORS, vectors
 from support.vector_file import Vector
 
@@ -314,3 +314,12 @@ def vectors_of(item: str, device: Device) -> list[Vector]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(modbus_vectors, "frames", lambda *_: None)
         return vectors(select(device, [item]))
+
+
+@pytest.mark.parametrize("size", [256, 258, 1000])
+def test_a_long_text_has_each_byte(size: int) -> None:
+    """A text may be longer than there are bytes."""
+    memo = point("memo", 0, "text", order=range(size // 2), text=Text(size, "ascii"))
+    taken = [vector["words"] for vector in vectors(sample_device((memo,))) if vector["kind"] == "text_decode"]
+    assert {len(words) for words in taken} == {size // 2}
+    assert {byte for words in taken for word in words for byte in divmod(word, 256)} == set(range(256))

@@ -41,13 +41,16 @@ pub(crate) fn divided<D>(
     (first.unwrap_or_default(), others.unwrap_or_default())
 }
 
-/// Whether the words hold what one of the alternatives says.
+/// Whether the words hold what one of the alternatives says; words that are no text do not.
 pub(crate) fn holds<D>(rows: &[Identification<D>], words: &HeldWords) -> Result<bool, Error> {
     let [a, b, c, d, ..] = *words;
     for row in rows {
         let is_held = match row.holds {
             Held::Raw(raw) => row.point.raw_of([a, b, c, d]) == raw,
-            Held::Text(text, is_text) => is_text(words, text)?,
+            Held::Text(text, is_text) => match is_text(words, text) {
+                Err(Error::Malformed(_)) => false,
+                compared => compared?,
+            },
         };
         if is_held {
             return Ok(true);

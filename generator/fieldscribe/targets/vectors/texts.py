@@ -39,7 +39,15 @@ def text(lines: Lines, shape: Shape) -> None:
         _unicode(lines, shape, layout)
         return
     alphabet = bytes(0x41 + place % 26 for place in range(size))
-    received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B"[:size], bytes(range(size))]
+    received = [
+        alphabet,
+        alphabet[:1],
+        alphabet[:-1],
+        b"",
+        b"A " * (size // 2),
+        b" B"[:size],
+        bytes(place % 256 for place in range(size)),
+    ]
     received += [
         b"\xff\x80\0"[:size].ljust(size),
         b"\0" * size,

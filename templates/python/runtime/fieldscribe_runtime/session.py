@@ -22,6 +22,7 @@ from .errors import (
     EchoError,
     ExceptionReplyError,
     FieldscribeError,
+    MalformedError,
     OtherDeviceError,
     RefusedError,
     RequestError,
@@ -499,9 +500,12 @@ class Session(NamedPoints, ABC):
             if name not in held:
                 try:
                     raw = yield from self._read_raw_steps(point)
+                    is_text = isinstance(values[0], str) and isinstance(point, Decoding)
+                    held[name] = point.decode(raw) if is_text else raw
                 except ExceptionReplyError as error:
                     return f"{name}: {error}"
-                held[name] = point.decode(raw) if isinstance(values[0], str) and isinstance(point, Decoding) else raw
+                except MalformedError as error:
+                    return str(error)
             if held[name] not in values:
                 return f"{name} is {shown(held[name])}, not {' or '.join(map(shown, values))}"
         return None

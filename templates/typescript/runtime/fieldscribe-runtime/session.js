@@ -10,6 +10,7 @@ import {
   EchoError,
   ExceptionReplyError,
   FieldscribeError,
+  MalformedError,
   NoReplyError,
   OtherDeviceError,
   RefusedError,
@@ -724,8 +725,8 @@ export class Session {
           const raw = await this._readRaw(point);
           held.set(name, typeof values[0] === "string" ? point.decode(raw) : raw);
         } catch (error) {
-          if (error instanceof ExceptionReplyError) return `${name}: ${error.message}`;
-          throw error;
+          if (!(error instanceof ExceptionReplyError || error instanceof MalformedError)) throw error;
+          return `${name}: ${error.message}`;
         }
       }
       const found = /** @type {any} */ (held.get(name));

@@ -75,8 +75,9 @@ class IdentifyView:
         points = {each.point.name: each for each in self.points}
         defines = groupby(identification_defines(self.device, self.scope), lambda one: (one.variant, one.point))
         for number, (row, (_, wanted)) in enumerate(zip(self.device.identifications, defines, strict=True), 1):
-            literals = [_literal(row, place, one.macro) for place, one in enumerate(wanted)]
             point, view, _ = points[row.point]
+            is_utf8 = point.text is not None and point.text.is_unicode
+            literals = [one.macro if is_utf8 else _literal(row, place, one.macro) for place, one in enumerate(wanted)]
             body = _text_body(view, literals) if row.texts else _raw_body(view, literals)
             named = [text.replace(view.function, f"{self.scope.prefix}_{point.item}") for text in body]
             yield function(f"{INLINE} fieldscribe_status", self._holds(number), ("const uint16_t *words",), *named).text
@@ -137,7 +138,7 @@ def _text_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
     if text.is_unicode:
         yield "size_t length = 0U;"
         yield f"const fieldscribe_status status = {view.function}_decode(words, text, &length);"
-        yield "if (status != FIELDSCRIBE_OK) { return status; }"
+        yield "if (status != FIELDSCRIBE_OK) { return FIELDSCRIBE_UNKNOWN_VALUE; }"
     else:
         yield f"(void){view.function}_decode(words, text);"
     yield _status([f"fieldscribe_is_same_text(text, {literal})" for literal in literals])
