@@ -5,7 +5,7 @@ from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:
-    """Report points under `select` that cannot be written, or are selected themselves; only Modbus has any."""
+    """Report points under `select` that cannot be written or are selected; a family without bases has no `select`."""
     points = {resolved.point.name: resolved.point for resolved in analysis.resolved}
     for resolved in analysis.resolved:
         facts = resolved.facts
@@ -15,7 +15,7 @@ def check(analysis: Analysis) -> None:
         if not analysis.scope.family.has_bases:
             message = f"addresses of the family {analysis.scope.family.name} have one meaning"
             hint = "leave it out"
-        elif unwritable := next((other for other in others if not _can_be_written(other)), None):
+        elif unwritable := next((other for other in others if not _is_written(other)), None):
             message, hint = f"`{unwritable.name}` cannot be written", "correct its `access`, or name another point"
         elif selected := next((other for other in others if other.selects), None):
             message, hint = f"`{selected.name}` is selected itself", "name all points that select, at each group"
@@ -24,5 +24,5 @@ def check(analysis: Analysis) -> None:
         analysis.report.error("wrong-choice", message, facts.span("select"), hint)
 
 
-def _can_be_written(point: Point) -> bool:
+def _is_written(point: Point) -> bool:
     return point.writable and point.generated and bool(point.place.addresses)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.layout import Item, assignment, binding, called, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.literals import nearest_float
+from support.described import described, loaded_in
+from support.rust_crates import write_crate
 
 
 @pytest.mark.parametrize(
@@ -80,3 +84,11 @@ def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
     )
     assert chained((f"Rule::new(1, 1){steps[0]}", *steps[1:]))[1] == "    ?.times(with.factor_1)"
     assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
+
+
+@pytest.mark.parametrize(("number", "literal"), [("4711", "4711"), ("305419896", "305_419_896")])
+def test_numbers_that_identify_are_grouped(tmp_path: Path, number: str, literal: str) -> None:
+    """Clippy wants the digits of a long literal in groups."""
+    text = described("- {name: serial, at: 0, type: u32}\n", identify=f"{{serial: {number}}}")
+    crate = write_crate(loaded_in(tmp_path, text), tmp_path)
+    assert f"Serial holds Raw {literal};" in (crate / "src/lib.rs").read_text("utf-8")

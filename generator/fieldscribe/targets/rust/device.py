@@ -39,7 +39,7 @@ def _identifications(device: Device, scope: CrateScope) -> Iterator[str]:
         variant = identification.variant
         axis = "" if variant is None else f" of {rust_string(variant.axis)} {rust_string(variant.value)}"
         held = [
-            *(f"Raw {raw}" for raw in identification.raws),
+            *(f"Raw {integer(raw)}" for raw in identification.raws),
             *(f"Text {rust_string(text)}" for text in identification.texts),
         ]
         yield from (f"{names[identification.point]}{axis} holds {each};" for each in held)

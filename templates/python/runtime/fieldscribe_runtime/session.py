@@ -500,8 +500,8 @@ class Session(NamedPoints, ABC):
             if name not in held:
                 try:
                     raw = yield from self._read_raw_steps(point)
-                    is_text = isinstance(values[0], str) and isinstance(point, Decoding)
-                    held[name] = point.decode(raw) if is_text else raw
+                    is_text = isinstance(values[0], str)
+                    held[name] = point.decode(raw) if is_text and isinstance(point, Decoding) else raw
                 except ExceptionReplyError as error:
                     return f"{name}: {error}"
                 except MalformedError as error:
