@@ -141,7 +141,7 @@ def of_texts(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, A
         ((*ZURICH, *SERIES["a"]), "0 1 1", "{'series': 'a'}"),
         ((*ZURICH, *SERIES["b"]), "0 1 2", "{'series': 'b'}"),
         ((*ZURICH, 0xD800, 0, 0, 0), "0 1 0", "{}"),
-        ((0x5AFC, 0x7269, 0x6368, 0x2020, *SERIES["a"]), "0 0 0", "maker: the words are no utf-8"),
+        ((0x5AFC, 0x7269, 0x6368, 0x2020, *SERIES["a"]), "0 0 0", "maker: the words are no valid utf-8"),
     ],
 )
 def test_texts_beyond_ascii(of_texts: tuple[Path, Any], words: tuple[int, ...], in_c: str, in_python: str) -> None:
