@@ -537,7 +537,7 @@ static inline bool fieldscribe_narrow_ratio(
     if ((bits < 1) || (bits > 29)) {
         return false;
     }
-    end = (uint32_t)1U << bits;
+    end = (uint32_t)1U << (uint32_t)bits;
     do {
         rest <<= 1;
         quotient <<= 1;
