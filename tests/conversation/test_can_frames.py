@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder, decode
@@ -16,6 +15,7 @@ from fieldscribe.conversation.meanings import quoted_text
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
+from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Role
 from fieldscribe.user_errors import RefusedError, UnclearError
@@ -170,20 +170,19 @@ RECOGNISER = CanFrameDecoder(DEVICE)
 """It remembers what the heads of all the frames have told."""
 
 
-class _Forgetful(dict[Any, Any]):
+class _Forgetful(CanFrameDecoder):
     """Keeps nothing."""
 
-    def __setitem__(self, key: object, value: object) -> None:
-        pass
+    def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
+        self._heads.clear()
+        return super().decode(frame, requests, expecting=expecting)._replace(memo=None)
 
 
 def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
     """Also where other frames bring exponents, or halves of numbers; a decoder that keeps nothing says the same."""
     random, again = Random(26), 0
     for _ in range(40):
-        forgetful = CanFrameDecoder(DEVICE)
-        vars(forgetful).update(remembers=False, _decoded=_Forgetful())
-        keeping, forgetting = (StreamDecoder(DEVICE, {}, each) for each in (CanFrameDecoder(DEVICE), forgetful))
+        keeping, forgetting = (StreamDecoder(DEVICE, {}, each(DEVICE)) for each in (CanFrameDecoder, _Forgetful))
         seen = list[FrameResult]()
         for _ in range(60):
             (place,) = random.choices((0, 1, 7, 10, 14, 15), (9, 3, 9, 3, 2, 2))

@@ -336,7 +336,7 @@ def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
     model, random = kitchen_sink(), Random(26)
     framing = model.bus.framings[0]
     forgetful = ModbusFrameDecoder(model)
-    vars(forgetful).update(remembers=False, _decoded=forgetful._decode)
+    vars(forgetful).update(_decoded=forgetful._decode)
     keeping, forgetting = (StreamDecoder(model, {}, each) for each in (ModbusFrameDecoder(model), forgetful))
     scaled = [point for point in model.points if point.scale_arguments and point.addresses]
     needed = {name for point in scaled for name in point.scale_arguments}

@@ -19,8 +19,6 @@ QUIET = FrameResult(b"", "rtu", "request", 1, None, "texts")
 class Script:
     """A decoder whose frames are what they say; the summary tells which request was open."""
 
-    remembers = False
-
     def frames(self, texts: Sequence[str]) -> Sequence[DecodedFrame]:
         """None: nobody pastes anything here."""
         return [DecodedFrame(QUIET._replace(summary=text)) for text in texts]

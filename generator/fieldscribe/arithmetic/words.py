@@ -1,7 +1,7 @@
 """Raw numbers in 16-bit words (high part first), in bits of a word that points share, and in other codings."""
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from operator import itemgetter
 from struct import unpack_from
 
 from fieldscribe.model import Point, Special
@@ -102,25 +102,24 @@ def raw_of(point: Point, words: Sequence[int]) -> int:
     return number_of(pattern, point.width, signed=point.info.signed)
 
 
-def reader_of(point: Point) -> Callable[[Sequence[int]], int]:
-    """Return a function that does for this point what `raw_of` does, and is quicker."""
+def reader_of(point: Point, places: Sequence[int] = ()) -> Callable[[Sequence[int]], int]:
+    """Return a function that does for this point what `raw_of` does, and is quicker.
+
+    `places` are those of the point's words among the words that it is given, if not from 0 on.
+    """
+    places = places or range(point.words)
+    first, second = places[0], places[-1]
     plain = point.text is None and not (point.coding or point.swapped)
     if plain and point.bits is not None and point.words == 1 and not point.info.signed:
         low, mask = point.bits[1], mask_of(point.width)
-        return lambda words: words[0] >> low & mask
+        return lambda words: words[first] >> low & mask
     plain = plain and point.bits is None
     if not plain or point.width != 16 * point.words or point.words not in (1, 2):
-        return partial(raw_of, point)
-    read, top = (_first, 0x8000) if point.words == 1 else (_first_two, 0x80000000)
-    return (lambda words: (read(words) ^ top) - top) if point.info.signed else read
-
-
-def _first(words: Sequence[int]) -> int:
-    return words[0]
-
-
-def _first_two(words: Sequence[int]) -> int:
-    return words[0] << 16 | words[1]
+        return lambda words: raw_of(point, [words[place] for place in places])
+    if point.words == 1:
+        return (lambda words: (words[first] ^ 0x8000) - 0x8000) if point.info.signed else itemgetter(first)
+    top = 0x80000000 if point.info.signed else 0
+    return lambda words: ((words[first] << 16 | words[second]) ^ top) - top
 
 
 def pattern_of(point: Point, raw: int) -> int:

@@ -206,7 +206,7 @@ class DecodeState:
         if key not in self.formatters:
             neighbours = partial(self.directory.neighbours, point) if self.doubting else None
             made = PointFormatter(self.device, point, base, written=written, neighbours=neighbours)
-            made.place["stays"] = not (made.needs or self.directory.teaches(point))
+            made.stays = made.stays and not self.directory.teaches(point)
             self.formatters[key] = made
         return self.formatters[key]
 

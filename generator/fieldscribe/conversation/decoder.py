@@ -12,7 +12,7 @@ from fieldscribe.conversation.encoding import family_part
 from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
-from fieldscribe.families.frame_results import FrameResult, Item, Options
+from fieldscribe.families.frame_results import Captured, FrameResult, Item, Options
 from fieldscribe.model import Device
 from fieldscribe.text import line
 from fieldscribe.wording import label
@@ -30,8 +30,6 @@ _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
 }
 """The function that builds items for each kind of content of a frame."""
 
-_MOST_KEPT = 1024
-"""The number of results that are kept for repeated frames."""
 _LOGGED = re.compile(
     r".{0,200}?\bunit \d+(?:"
     r" (?:->|<-) (?:(?P<id>[0-9A-F]{1,8})[:h] )?\[?(?P<data>[0-9A-F]{2}(?:,? [0-9A-F]{2})*)\]?"
@@ -72,11 +70,6 @@ class StreamDecoder:
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = decoded_frame.OpenRequests()
-        self._kept: dict[int, tuple[decoded_frame.DecodedFrame, DecodeState, int | None, FrameResult]] = {}
-        """Results by the identity of their input, each with the state at that time and its version.
-
-        The version is None for results that neither need nor bring numbers for rules.
-        """
 
         @lru_cache(decoded_frame.MOST_STATES)
         def state_of_unit(_unit: int | None) -> DecodeState:
@@ -98,8 +91,8 @@ class StreamDecoder:
 
     def _pasted(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; where a text says more than bytes, the result has that."""
-        result = self.decode(frame, expecting=expecting)
-        return result if isinstance(frame, bytes) else result._replace(captured=frame)
+        captured = None if isinstance(frame, bytes) else frame
+        return self._decode(frame, self._open_requests, expecting=expecting, captured=captured)
 
     def decode(
         self, frame: Any, *, expecting: bool = False, requests: decoded_frame.OpenRequests | None = None
@@ -108,14 +101,19 @@ class StreamDecoder:
 
         `requests` are the open requests that it may answer, if the frames of several lines are mixed.
         """
-        requests = self._open_requests if requests is None else requests
+        return self._decode(frame, self._open_requests if requests is None else requests, expecting=expecting)
+
+    def _decode(
+        self, frame: Any, requests: decoded_frame.OpenRequests, *, expecting: bool, captured: Captured | None = None
+    ) -> FrameResult:
         decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
         state = self._state_of_unit(decoded.unit if self._device.found is None else decoded.result.unit)
         requests.follow(decoded, expecting=expecting)
-        kept = self._kept.get(id(decoded))
-        version = state.version
-        if kept is not None and kept[0] is decoded and kept[1] is state and kept[2] in (version, None):
-            return kept[3]
+        memo, version = decoded.memo, state.version
+        if memo:
+            kept: FrameResult = memo[2]
+            if memo[0] is state and (memo[1] == version or _stays(state, kept)):
+                return kept if kept.captured is captured else kept._replace(captured=captured)
         for content in decoded.contents if state.blocks else ():
             if isinstance(content, decoded_frame.AddressSpan) and content.learned and not content.written:
                 state.locate(content, self._device)
@@ -124,13 +122,10 @@ class StreamDecoder:
         notes = tuple(self._warnings(decoded, state.directory))
         if isinstance(frame, decoded_frame.CutFrame):
             return decoded.result.complete(items, (*notes, frame.note))
-        result = decoded.result.complete(items, notes)
+        result = decoded.result.complete(items, notes, captured)
         is_settled = not state.incomplete or not any(item.point in state.incomplete for item in items)
-        if self._frame_decoder.remembers and framings is self._framings and is_settled:
-            if len(self._kept) >= _MOST_KEPT:
-                self._kept.clear()
-            stays = state.blocks is None and not state.directory.has_selections and all(item.stays for item in items)
-            self._kept[id(decoded)] = decoded, state, None if stays else version, result
+        if memo is not None and framings is self._framings and is_settled:
+            memo[:] = state, version, result
         return result
 
     def _warnings(self, decoded: decoded_frame.DecodedFrame, directory: Directory) -> Iterator[str]:
@@ -146,6 +141,11 @@ class StreamDecoder:
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
             yield misprint_text(misprint)
+
+
+def _stays(state: DecodeState, result: FrameResult) -> bool:
+    """Return True if a result neither needs nor brings numbers for rules."""
+    return state.blocks is None and not state.directory.has_selections and all(item.stays for item in result.items)
 
 
 def logged_frame(text: str) -> str | None:

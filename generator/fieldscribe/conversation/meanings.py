@@ -64,7 +64,9 @@ class Meanings:
         if special is not None:
             remark = ", no value" if special.no_value else ""
             return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
-        return self._quantity(raw, settings) if self._of_names is None else self._of_names(raw)
+        if self._of_names is not None:
+            return self._of_names(raw)
+        return (self._exact_quantity(raw, settings) if self._exact else None) or self._quantity(raw, settings)
 
     def text(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number as text, with the flags of a word in one sentence."""
@@ -108,8 +110,6 @@ class Meanings:
         return Meaning(f"{text} {self._unit}" if self._unit else text, value)
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
-        if self._exact and (meaning := self._exact_quantity(raw, settings)) is not None:
-            return meaning
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))

@@ -65,21 +65,19 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
 
 
 class _Part(NamedTuple):
-    """A point in the frames of a telegram: the `offsets` of its words if one frame has all of them, else none."""
+    """A point in the frames of a telegram. `whole`: each has all words of the point, and `read` takes all its words."""
 
     point: Point
     formatter: PointFormatter
     read: Callable[[Sequence[int]], int]
-    offsets: tuple[int, ...]
-    teaches: bool
+    whole: bool
 
 
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     """Return the items of a frame of a telegram, and of earlier points whose missing settings it has."""
     telegram, settings = piece.telegram.name, state.settings
-    parts = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
-    parts = parts or _planned(state, piece)
-    teaching = [part for _, part in parts if part is not None and part.teaches]
+    plan = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
+    parts, teaching = plan or _planned(state, piece)
     if teaching:
         state.learn([(part.point, raw) for part in teaching if (raw := _raw(part, piece)) is not None])
     items: list[Item] = []
@@ -92,7 +90,7 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
             items.append(Item(telegram, place, 1, text, subject=subject))
             continue
         formatter = part.formatter
-        raw = _raw(part, piece)
+        raw = part.read(piece.words) if part.whole else _raw(part, piece)
         if raw is None:
             text = _incomplete_text(state, piece, part.point, formatter)
             items.append(named_item(part.point, formatter.base, text))
@@ -111,8 +109,11 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     return items
 
 
-def _planned(state: DecodeState, piece: Piece) -> list[tuple[int, _Part | None]]:
-    """Return the contents of a frame of a telegram by place (None: no point), which all such frames share."""
+def _planned(state: DecodeState, piece: Piece) -> tuple[list[tuple[int, _Part | None]], list[_Part]]:
+    """Return the contents of a frame of a telegram by place (None: no point), and those that rules need.
+
+    All such frames share them.
+    """
     telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
     parts: list[tuple[int, _Part | None]] = []
     for place in positions:
@@ -122,18 +123,17 @@ def _planned(state: DecodeState, piece: Piece) -> list[tuple[int, _Part | None]]
             if place == min(position for position in point.addresses if position in positions):
                 formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
                 whole = all(at in positions for at in point.addresses)
-                offsets = tuple(at - positions.start for at in point.addresses) if whole else ()
-                part = _Part(point, formatter, reader_of(point), offsets, directory.teaches(point))
-                parts.append((place, part))
-    directory.plans[(telegram, positions.start, -1), len(positions)] = parts
-    return parts
+                offsets = [at - positions.start for at in point.addresses] if whole else ()
+                parts.append((place, _Part(point, formatter, reader_of(point, offsets), whole)))
+    teaching = [part for _, part in parts if part is not None and directory.teaches(part.point)]
+    directory.plans[(telegram, positions.start, -1), len(positions)] = parts, teaching
+    return parts, teaching
 
 
 def _raw(part: _Part, piece: Piece) -> int | None:
     """Return the raw number; None while words of other frames are missing."""
-    if part.offsets:
-        words = piece.words
-        return part.read([words[offset] for offset in part.offsets])
+    if part.whole:
+        return part.read(piece.words)
     status, words = piece.pieces.words(part.point.addresses)
     return part.read(words) if status == "ok" else None
 

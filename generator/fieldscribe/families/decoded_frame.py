@@ -103,7 +103,8 @@ class DecodedFrame(NamedTuple):
     `unit` is the unit that sends or receives it; `exchange` distinguishes exchanges that are open at the same time.
     `request` is the family's own form of a request, if the frame is one. `unanswered`: nobody answers this request.
     `answers`: the frame closes the open request. `stays_open`: given as the expected request, it stays open for all
-    frames that follow.
+    frames that follow. `memo` is for what the conversation makes of it; only decoders that return the same object for
+    the same frame give one.
     """
 
     result: FrameResult
@@ -114,6 +115,7 @@ class DecodedFrame(NamedTuple):
     unanswered: bool = False
     answers: bool = False
     stays_open: bool = False
+    memo: list[Any] | None = None
 
 
 @dataclass(slots=True)
@@ -178,10 +180,8 @@ def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> li
 class FrameDecoder(Protocol):
     """Decodes the frames of a family; `decoder_of(device, options)` of its part `frame_decoder` makes one.
 
-    `remembers`: it returns the same object only for the same bytes after the same request, and if nothing else counts.
+    It may return the same object, with a `memo`, for the same bytes after the same request, if nothing else counts.
     """
-
-    remembers: bool
 
     def frames(self, texts: Sequence[str]) -> Sequence[Any]:
         """Return the frames in pasted texts. Raises UnclearError."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.model import Bus, Point
 from fieldscribe.user_errors import RefusedError
@@ -64,7 +64,7 @@ class BitTexts(Protocol):
         """Return only the flags that apply."""
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class Item:
     """The content of a frame at one address: a point with its value, a part of a point, a command, or nothing known.
 
@@ -90,7 +90,7 @@ class Item:
     doubts: tuple[str, ...] = ()
     carries: str = ""
     subject: str = ""
-    stays: ClassVar[bool] = True
+    stays: bool = True
     """True if it says the same whatever other frames bring, and brings nothing that others need."""
 
     def but(self, **changes: Any) -> Item:
@@ -183,9 +183,11 @@ class FrameResult(NamedTuple):
             "notes": list(self.notes),
         }
 
-    def complete(self, items: tuple[Item, ...], notes: tuple[str, ...]) -> FrameResult:
-        """Return the result with items and further notes."""
-        return self._replace(items=items, notes=self.notes + notes)
+    def complete(
+        self, items: tuple[Item, ...], notes: tuple[str, ...], captured: Captured | None = None
+    ) -> FrameResult:
+        """Return the result with items and further notes, as it was captured."""
+        return self._replace(items=items, notes=self.notes + notes, captured=captured)
 
     @property
     def wrong(self) -> bool:

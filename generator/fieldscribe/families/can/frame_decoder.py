@@ -34,13 +34,20 @@ _MOST_HEADS = 1024
 _KINDS = {"request": "request", "response": "reply"}
 
 
+@dataclass(slots=True)
+class _Known:
+    """A head, the result of frames with it, and the last of these if it depends on nothing but itself."""
+
+    head: Head
+    result: FrameResult
+    last: DecodedFrame | None = None
+
+
 class CanFrameDecoder:
     """Decodes the frames of one device; keeps the words of telegrams that span several frames.
 
-    Most frames of telegrams come again as they were, so what was decoded last is kept.
+    Most frames of telegrams come again as they were, so the last one of each head is kept.
     """
-
-    remembers = True
 
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
@@ -50,8 +57,8 @@ class CanFrameDecoder:
         )
         self._firsts = sorted({place for message in device.messages for place in places(message, "constant")[:1]})
         self._words = {message.name: message.words for message in device.messages}
-        self._decoded: dict[CanFrame, DecodedFrame] = {}
-        """By frame, what depends on nothing but the frame."""
+        self._signalled: dict[tuple[int, ...], DecodedFrame] = {}
+        """The last frame by its identifier and the places of its signals."""
         self._crossed = {
             message.name: _crossed(device, telegram, max(1, message.words))
             for telegram in device.telegrams
@@ -60,7 +67,7 @@ class CanFrameDecoder:
         }
         """By message, the multiplexers with a part of a number whose other part comes with another one."""
         self._telling: dict[tuple[int, bytes], tuple[int, ...]] = {}
-        self._heads: dict[tuple[int, bytes, bytes], tuple[Head, FrameResult] | None] = {}
+        self._heads: dict[tuple[int, bytes, bytes], _Known | None] = {}
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
         self._carrying = [message for message in device.messages if message.fields]
@@ -76,22 +83,21 @@ class CanFrameDecoder:
     def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
         del expecting  # the messages themselves say which frame answers which
-        if not frame.remote and frame.frame in self._decoded:
-            return self._decoded[frame.frame]
         for message in () if frame.remote else self._carrying:
             if frames.is_of(message, self._device.bus.units, frame.frame):
                 return self._signals(message, frame)
         known = None if frame.remote else self._known(frame.frame)
         if known is None:
             return self._unknown(frame)
-        head, result = known
-        result = result._replace(data=frame.frame.data)
-        telegram = self._telegrams.get(head.message.name)
+        if known.last is not None and known.last.result.data == frame.frame.data:
+            return known.last
+        result = known.result._replace(data=frame.frame.data)
+        telegram = self._telegrams.get(known.head.message.name)
         if telegram is None:
-            return self._parameter(head, result, frame, requests)
-        return self._cyclic(head, result, frame, telegram)
+            return self._parameter(known.head, result, frame, requests)
+        return self._cyclic(known, result, frame, telegram)
 
-    def _known(self, frame: CanFrame) -> tuple[Head, FrameResult] | None:
+    def _known(self, frame: CanFrame) -> _Known | None:
         """Return the message of a frame, and the result of its head; None if no message fits.
 
         Both depend only on the bytes that carry no words, so they are remembered for frames that differ in words alone.
@@ -106,7 +112,7 @@ class CanFrameDecoder:
         key = *beginning, bytes([data[place] for place in self._telling[beginning]])
         if key not in self._heads:
             head = self.recognise(frame)
-            self._heads[key] = None if head is None else (head, self._result(head, frame))
+            self._heads[key] = None if head is None else _Known(head, self._result(head, frame))
             _forget_many(self._heads)
         return self._heads[key]
 
@@ -153,8 +159,8 @@ class CanFrameDecoder:
             details=details,
         )
 
-    def _cyclic(self, head: Head, result: FrameResult, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
-        message = head.message
+    def _cyclic(self, known: _Known, result: FrameResult, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
+        head, message = known.head, known.head.message
         if head.slot * self._words[message.name] >= (telegram.words if self._words[message.name] else 0):
             last = -(-telegram.words // max(1, message.words)) - 1
             return DecodedFrame(result._replace(findings=(f"the manual knows multiplexers 0 to {last} only",)))
@@ -162,11 +168,10 @@ class CanFrameDecoder:
             return DecodedFrame(result._replace(notes=(_DAMAGED,)))
         receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
-        decoded = DecodedFrame(result, (piece,), head.unit)
-        if head.slot not in self._crossed[message.name]:
-            self._decoded[pasted.frame] = decoded
-            _forget_many(self._decoded)
-        return decoded
+        if head.slot in self._crossed[message.name]:
+            return DecodedFrame(result, (piece,), head.unit)
+        known.last = DecodedFrame(result, (piece,), head.unit, memo=[])
+        return known.last
 
     def _signals(self, message: Message, pasted: Pasted) -> DecodedFrame:
         """Return the result for the signals of a message."""
@@ -180,9 +185,13 @@ class CanFrameDecoder:
         result = FrameResult(frame.data, "can", kind, unit, None, text, details=details)
         pieces = Gathered(words)
         parts = [part for part, when in signals.parts(message) if signals.comes(message, when, words)]
+        key = frame.id, *(part.start for part in parts)
+        last = self._signalled.get(key)
+        if last is not None and last.result.data == frame.data:
+            return last
         contents = tuple(Piece(telegram, part, words[part.start : part.stop], pieces) for part in parts)
-        decoded = self._decoded[frame] = DecodedFrame(result, contents, unit)
-        _forget_many(self._decoded)
+        _forget_many(self._signalled)
+        decoded = self._signalled[key] = DecodedFrame(result, contents, unit, memo=[])
         return decoded
 
     def _parameter(self, head: Head, result: FrameResult, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:

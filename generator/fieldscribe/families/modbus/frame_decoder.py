@@ -34,12 +34,10 @@ class ModbusFrameDecoder:
     A bus repeats itself, so the last results are kept.
     """
 
-    remembers = True
-
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
-        self._decoded = lru_cache(_MOST_FRAMES)(self._decode)
+        self._decoded = lru_cache(_MOST_FRAMES)(lambda *frame: self._decode(*frame)._replace(memo=[]))
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """Return the frames in pasted texts. Raises UnclearError."""

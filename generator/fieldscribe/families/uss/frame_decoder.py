@@ -17,8 +17,6 @@ _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 class UssFrameDecoder:
     """Decodes the telegrams of one device, with the settings of its link."""
 
-    remembers = False
-
     def __init__(self, device: Device, link: parts.Link, framing: str = "uss", direction: str | None = None) -> None:
         self._device = device
         self._link = link if framing == "uss" else replace(link, pzd=0)
