@@ -109,6 +109,7 @@ def answers(*texts: str) -> io.StringIO:
         ("monitor hitachi_l200 A020 --every -1", 2, "^$", "no number of seconds"),
         ("monitor hitachi_l200 A020 --count 0", 2, "^$", "`0` is no number of times from 1 on"),
         ("read hitachi_l200 A020 --timeout 0", 2, "^$", "`0` is no number of seconds above 0"),
+        ("read hitachi_l200 A020 --retries -1", 2, "^$", "`-1` is no number of times from 0 on"),
         ("listen hitachi_l200 --for nan", 2, "^$", "`nan` is no number of seconds above 0"),
         ("listen hitachi_l200 --for -1", 2, "^$", "`-1` is no number of seconds above 0"),
         ("read hitachi_l200 A020 --with slot=3", 2, "^$", "no address .* depends on `slot=3`\n  hint: leave it out"),

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 _QUOTED = 16
 """The most bytes that an error quotes."""
-_HINT = "is the baud rate right?"
 
 
 class Broadcast(bytes):
@@ -56,6 +55,8 @@ class Framing(NamedTuple):
     address: Callable[[bytes], int | bytes]
     shortest: int
     longest: int
+    hint: str = "; is the baud rate right?"
+    """What may help where bytes are no reply."""
 
     def size_of(self, received: bytes) -> int | None:
         """Return the length as `size` does; raises FrameError (long_frame) if it is too long for a frame."""
@@ -99,7 +100,8 @@ class Receiver:
             size = framing.size_of(self.received)
             if size is None or length < size:
                 if length >= framing.longest:
-                    raise FrameError("long_frame", f"{_quoted(self.received)}, more than any frame has; {_HINT}")
+                    text = f"{_quoted(self.received)}, more than any frame has{framing.hint}"
+                    raise FrameError("long_frame", text)
                 self.missing = max(framing.shortest, size or 0, length + 1) - length
                 return None
             frame, self.received = self.received[:size], self.received[size:]
@@ -112,7 +114,7 @@ class Receiver:
         if self._foreign and not (self.received and self._framing.address(self.received) == self._address):
             return self._foreign
         if self.received:
-            raise NoFrameError(f"{_quoted(self.received)}, which are no reply; {_HINT}", self.received)
+            raise NoFrameError(f"{_quoted(self.received)}, which are no reply{self._framing.hint}", self.received)
         raise TimeoutError("no byte came")
 
 

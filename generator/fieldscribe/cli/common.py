@@ -63,6 +63,11 @@ def times(text: str) -> int:
     return int(_number(text, "times from 1 on", lambda number: 1 <= number < inf and number == int(number)))
 
 
+def repeats(text: str) -> int:
+    """Return a whole number from 0 on, for argparse."""
+    return int(_number(text, "times from 0 on", lambda number: 0 <= number < inf and number == int(number)))
+
+
 def _number(text: str, what: str, is_allowed: Callable[[float], bool]) -> float:
     with suppress(ValueError):
         if is_allowed(number := float(text)):

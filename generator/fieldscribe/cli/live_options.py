@@ -12,7 +12,7 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device
+from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device, repeats
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, USAGE
 from fieldscribe.live.connection import AnyDevice, Connection, FieldscribeError, advice
@@ -57,7 +57,7 @@ def add_unit(parser: ArgumentParser) -> None:
     """Add `--unit` and `--retries`."""
     parser.add_argument("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
     tries = "how often a failed read is repeated (default: 1); writes never are"
-    parser.add_argument("--retries", type=int, default=1, metavar="N", help=tries)
+    parser.add_argument("--retries", type=repeats, default=1, metavar="N", help=tries)
 
 
 def line_of(arguments: Namespace) -> LineAddress:

@@ -372,5 +372,6 @@ def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Set
     except (CodecError, OverflowError) as error:
         raise ValueError(f"{point.name} cannot hold {value}: {error}") from None
     if point.text is None and not point.least <= raw <= point.greatest:
-        raise ValueError(f"{point.name} cannot hold {value}")
+        span = f"{point.least}..{point.greatest}"
+        raise ValueError(f"{point.name} cannot hold {value}: raw {raw} is outside {span}")
     return raw

@@ -240,6 +240,8 @@ def check_receiving(package: Package) -> None:
         silent = refusal(receive, _pieces(data, 9), ask["rtu"])
         assert (isinstance(silent, TimeoutError), str(silent)) == (True, told)
         assert getattr(silent, "received", b"") == data[-4:]
+    cut = refusal(receive, _pieces(tcp[:4], 9), ask["tcp"], "tcp")
+    assert str(cut) == "4 bytes came (00 01 00 00), which are no reply"
     noise = f"256 bytes came ({' '.join(['55'] * 16)} ...), more than any frame has; is the baud rate right?"
     refuses(package.runtime.FrameError, noise, receive, _pieces(b"\x55" * 999, 1), ask["rtu"])
     long = "5 bytes came (01 03 FF 00 00): the reply would have 260 bytes, and a frame has at most 256"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from io import BytesIO
 from typing import Any
 
 import pytest
@@ -23,7 +24,10 @@ function told([kind, asked, hex]) {
   const reply = Uint8Array.from(Buffer.from(hex.replaceAll(" ", ""), "hex"));
   try {
     if (kind === "uss") parseUssReply({ unit: 9, task: 1, parameter: 5 }, reply, uss, asked);
-    else if (kind === "reader") new ReplyReader(modbusReplyShape(Uint8Array.of(0, 1), "tcp", false)).take(reply);
+    else if (kind === "reader") {
+      const reader = new ReplyReader(modbusReplyShape(Uint8Array.of(0, 1), asked, false));
+      reader.take(reply) ?? reader.giveUp();
+    }
     else parseModbusReply({ unit: 5, ...asked }, reply, modbus, kind, 7);
   } catch (error) {
     return [error.status, error.message];
@@ -38,7 +42,7 @@ ONE = {"function": 6, "address": 40, "values": [500]}
 COIL = {"function": 5, "address": 40, "values": [1]}
 SEVERAL = {"function": 16, "address": 40, "values": [1, 2]}
 LINK = {"pkw": 4, "pzd": 2}
-ROWS: list[tuple[str, dict[str, Any], str, str, str]] = [
+ROWS: list[tuple[str, Any, str, str, str]] = [
     ("pdu", ONE, "05 06 0028 0007", "echo_mismatch", "500 was written to 0028h, but the device answered 7"),
     (
         *("pdu", ONE, "05 06 0029 01F4", "echo_mismatch"),
@@ -77,9 +81,11 @@ ROWS: list[tuple[str, dict[str, Any], str, str, str]] = [
     ("tcp", READ, "0007 0000 0007 05 03 04 0001", "short_frame", "the reply has 11 bytes where 13 belong"),
     ("tcp", READ, "0007 0000 0003 05 03 04 0001", "long_frame", "the reply has 11 bytes where 9 belong"),
     (
-        *("reader", {}, "0001 0000 0200 05 03 04", "long_frame"),
+        *("reader", "tcp", "0001 0000 0200 05 03 04", "long_frame"),
         "9 bytes came (00 01 00 00 02 00 05 03 04): the reply would have 518 bytes, and a frame has at most 260",
     ),
+    ("reader", "tcp", "0001 0000", "timeout", "4 bytes came (00 01 00 00), which are no reply"),
+    ("reader", "rtu", "00 03 02", "timeout", "3 bytes came (00 03 02), which are no reply; is the baud rate right?"),
     (
         *("uss", LINK, "02 0A 09 1005 0000 0001 0000 1D", "wrong_length"),
         "the reply has 12 bytes where 16 belong: is the link of the device set so?",
@@ -127,7 +133,9 @@ def test_a_wrong_reply(told: list[list[str]], runtime: Any, row: int) -> None:
         profile = uss.Profile((0, 30), (0, 3, 4, 127), (0, 4), {0: (0,), 1: (1, 2)})
         assert status(uss.parse, uss.Request(9, 1, 5), reply, profile, uss.Link(**asked)) == (expected, text)
     elif kind == "reader":
-        assert status(modbus.reply_size, reply, "tcp") == (expected, text)
+        with pytest.raises(TimeoutError if expected == "timeout" else modbus.FrameError) as error:
+            modbus.receive(BytesIO(reply).read, b"\0\1", asked)
+        assert str(error.value) == text
     else:
         functions = {1: 32, 3: 32, 5: 1, 6: 1, 16: 32}
         profile = modbus.Profile(functions, exceptions={2: "no_such_place"})

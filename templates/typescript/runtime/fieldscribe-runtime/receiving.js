@@ -54,7 +54,7 @@ export class ReplyReader {
         if (length < longest) return undefined;
         throw new FrameError(
           "long_frame",
-          `${quotedBytes(this.received)}, more than any frame has; is the baud rate right?`,
+          `${quotedBytes(this.received)}, more than any frame has${hintOf(this.shape)}`,
         );
       }
       const frame = this.received.subarray(0, expected);
@@ -68,8 +68,13 @@ export class ReplyReader {
   giveUp() {
     if (this.foreign && !(this.received.length && this.shape.isOwn(this.received))) return this.foreign;
     if (!this.received.length) throw new NoReplyError("no byte came");
-    throw new NoReplyError(`${quotedBytes(this.received)}, which are no reply; is the baud rate right?`, this.received);
+    throw new NoReplyError(`${quotedBytes(this.received)}, which are no reply${hintOf(this.shape)}`, this.received);
   }
+}
+
+/** What may help where bytes are no reply. @param {ReplyShape} shape @returns {string} */
+function hintOf(shape) {
+  return shape.framing === "tcp" ? "" : "; is the baud rate right?";
 }
 
 /** @param {Uint8Array} received @returns {string} */

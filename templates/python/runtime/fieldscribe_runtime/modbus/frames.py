@@ -225,7 +225,7 @@ def _rtu_size(received: bytes) -> int | None:
 
 _FRAMINGS = {
     RTU: Framing(_rtu_size, itemgetter(0), shortest=5, longest=256),
-    TCP: Framing(_tcp_size, itemgetter(slice(2)), shortest=9, longest=260),
+    TCP: Framing(_tcp_size, itemgetter(slice(2)), shortest=9, longest=260, hint=""),
 }
 
 
