@@ -1,15 +1,15 @@
 /**
- * What addresses count from: `offset` plus multiples of given numbers, or a place in the found block of that id. This
- * lies `offset` words behind the start of the block, plus multiples of what the words of `counts` hold, by address.
+ * A base of addresses: `offset` plus multiples of given numbers, or a place in the found block with this id: `offset`
+ * words after the start of the block, plus multiples of the words at the addresses of `counts`.
  * @typedef {{ offset: number, factors: Readonly<Record<string, number>>, block?: number,
  *   counts: Readonly<Record<number, number>> }} ModbusBase
  */
 /**
- * Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two.
+ * Blocks after a `marker` at one of `places`: each starts with its id and the number of words that follow these two.
  * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[],
  *   end: number }} ModbusChain
  */
-/** The address that others count from, and the last one that does, counted from it.
+/** The address that others count from, and the last address relative to it.
  * @typedef {{ address: number, last: number }} BlockStart */
 /** @typedef {(address: number, count: number) => Promise<number[]>} ReadWords */
 /** @param {...(number | Readonly<Record<string, number>> | Partial<ModbusBase>)} where offset and factors, or facts
@@ -34,22 +34,22 @@ export class ModbusBases {
     numbers: Record<string, number>;
     /** @type {Map<number, BlockStart> | BlockError | undefined} */
     found: Map<number, BlockStart> | BlockError | undefined;
-    /** Take a base that is known from elsewhere; raises RequestError for what is none.
+    /** Set a base that is known from elsewhere; raises RequestError if it is invalid.
      * @param {string} name @param {number} address @param {number} [last] */
     put(name: string, address: number, last?: number): void;
-    /** Search the blocks anew when they are needed. */
+    /** Forget the blocks; they are searched again when needed. */
     forget(): void;
     /** The blocks of the device by their ids, found once. @returns {Promise<Map<number, BlockStart>>} */
     blocks(): Promise<Map<number, BlockStart>>;
-    /** Where a base is. Raises BlockError, or RequestError where a number was not given. @param {string} name
+    /** The address of a base. Raises BlockError, or RequestError if a number was not given. @param {string} name
      * @returns {Promise<BlockStart>} */
     start(name: string): Promise<BlockStart>;
     /** @private @param {string} name @param {ModbusBase} base @param {number} id @returns {Promise<BlockStart>} */
     private inBlock;
 }
 /**
- * What addresses count from: `offset` plus multiples of given numbers, or a place in the found block of that id. This
- * lies `offset` words behind the start of the block, plus multiples of what the words of `counts` hold, by address.
+ * A base of addresses: `offset` plus multiples of given numbers, or a place in the found block with this id: `offset`
+ * words after the start of the block, plus multiples of the words at the addresses of `counts`.
  */
 export type ModbusBase = {
     offset: number;
@@ -58,7 +58,7 @@ export type ModbusBase = {
     counts: Readonly<Record<number, number>>;
 };
 /**
- * Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two.
+ * Blocks after a `marker` at one of `places`: each starts with its id and the number of words that follow these two.
  */
 export type ModbusChain = {
     name: string;
@@ -68,7 +68,7 @@ export type ModbusChain = {
     end: number;
 };
 /**
- * The address that others count from, and the last one that does, counted from it.
+ * The address that others count from, and the last address relative to it.
  */
 export type BlockStart = {
     address: number;

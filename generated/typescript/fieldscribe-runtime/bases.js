@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: 0BSD
-/** What addresses count from: numbers that are given when a device is opened, and blocks that are found in it. */
+/** Bases of addresses: from numbers that are given when a device is opened, or blocks that are found in it. */
 import { BlockError, ExceptionReplyError, FieldscribeError, RequestError, shown } from "./errors.js";
 import { checkNumber } from "./receiving.js";
 
 const LAST_ADDRESS = 0xffff;
-/** So many blocks are walked at most: no device has so many, and a broken one must not keep the line busy. */
+/** The most blocks that a search reads, so that a broken device cannot keep the line busy. */
 const MOST_BLOCKS = 256;
 
 /**
- * What addresses count from: `offset` plus multiples of given numbers, or a place in the found block of that id. This
- * lies `offset` words behind the start of the block, plus multiples of what the words of `counts` hold, by address.
+ * A base of addresses: `offset` plus multiples of given numbers, or a place in the found block with this id: `offset`
+ * words after the start of the block, plus multiples of the words at the addresses of `counts`.
  * @typedef {{ offset: number, factors: Readonly<Record<string, number>>, block?: number,
  *   counts: Readonly<Record<number, number>> }} ModbusBase
  */
 
 /**
- * Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two.
+ * Blocks after a `marker` at one of `places`: each starts with its id and the number of words that follow these two.
  * @typedef {{ name: string, function: number, marker: readonly number[], places: readonly number[],
  *   end: number }} ModbusChain
  */
 
-/** The address that others count from, and the last one that does, counted from it.
+/** The address that others count from, and the last address relative to it.
  * @typedef {{ address: number, last: number }} BlockStart */
 
 /** @typedef {(address: number, count: number) => Promise<number[]>} ReadWords */
@@ -65,7 +65,7 @@ export class ModbusBases {
     }
   }
 
-  /** Take a base that is known from elsewhere; raises RequestError for what is none.
+  /** Set a base that is known from elsewhere; raises RequestError if it is invalid.
    * @param {string} name @param {number} address @param {number} [last] */
   put(name, address, last = LAST_ADDRESS - address) {
     if (!(name in this.bases)) {
@@ -76,7 +76,7 @@ export class ModbusBases {
     this.starts.set(name, { address, last });
   }
 
-  /** Search the blocks anew when they are needed. */
+  /** Forget the blocks; they are searched again when needed. */
   forget() {
     this.found = undefined;
     this.behind.clear();
@@ -97,7 +97,7 @@ export class ModbusBases {
     return this.found;
   }
 
-  /** Where a base is. Raises BlockError, or RequestError where a number was not given. @param {string} name
+  /** The address of a base. Raises BlockError, or RequestError if a number was not given. @param {string} name
    * @returns {Promise<BlockStart>} */
   async start(name) {
     const known = this.starts.get(name) ?? this.behind.get(name);
@@ -134,7 +134,7 @@ export class ModbusBases {
   }
 }
 
-/** Where each block starts, by its id; of two with the same id the first. Raises BlockError.
+/** The start of each block by its id; the first one of two with the same id. Raises BlockError.
  * @param {ModbusChain} chain @param {ReadWords} read @returns {Promise<Map<number, BlockStart>>} */
 async function walkChain(chain, read) {
   let place = await chainStart(chain, read);
@@ -157,7 +157,7 @@ async function walkChain(chain, read) {
   throw new BlockError("bad_chain", `${chain.name} has more than ${MOST_BLOCKS} blocks`);
 }
 
-/** The address behind the marker; a place that the device refuses holds none.
+/** The address after the marker; a place that the device refuses has none.
  * @param {ModbusChain} chain @param {ReadWords} read @returns {Promise<number>} */
 async function chainStart({ name, marker, places }, read) {
   for (const place of places) {

@@ -1,12 +1,12 @@
 /** A data frame on the bus. @typedef {{ id: number, data: Uint8Array, extended?: boolean }} CanFrame */
 /**
- * What one byte of a message carries: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: how far
- * the byte lies above bit 0), `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor`
+ * The content of one byte of a message: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: the
+ * position of its lowest bit), `multiplexer`, `word` (number: 2 * word of the frame, plus 1 for its low byte), `xor`
  * (number: a mask of the bytes of the message that are combined).
  * @typedef {{ kind: string, number: number }} CanRole
  */
 /**
- * Where a signal lies: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
+ * The place of a signal: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
  * value if the low byte comes first, else that of the highest. `when` has places of other signals with the raw numbers
  * that select this one: all must fit.
  * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number,
@@ -29,14 +29,14 @@
  */
 /** @typedef {import("./uss-frames.js").Telegram} Telegram */
 /**
- * What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams.
+ * The facts of a device: unit numbers, the bits of identifiers, messages and telegrams.
  * @typedef {object} CanProfile
  * @property {readonly [number, number]} units
  * @property {number} identifierBits
  * @property {readonly CanMessage[]} messages
  * @property {readonly Telegram[]} telegrams
  */
-/** The profile of a device; what is left out is usual.
+/** The profile of a device; facts that are left out have the usual value.
  * @param {Omit<CanProfile, "telegrams"> & Partial<CanProfile>} facts @returns {CanProfile} */
 export function canProfile(facts: Omit<CanProfile, "telegrams"> & Partial<CanProfile>): CanProfile;
 /** @param {string} name @param {string} direction @param {number} canId @param {Partial<CanMessage>} facts
@@ -74,22 +74,22 @@ export function buildCanFrame(message: CanMessage, profile: CanProfile, unit: nu
 /** @param {CanMessage} message @param {CanProfile} profile @param {number} unit @param {Uint8Array} data
  * @returns {CanFrame} */
 export function canFrameOf(message: CanMessage, profile: CanProfile, unit: number, data: Uint8Array): CanFrame;
-/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
+/** The first fault of a frame as this message of this unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
  * wrong_check.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {string | undefined} */
 export function canFrameFault(message: CanMessage, unit: number, frame: CanFrame): string | undefined;
 /**
- * Address and raw number in a message, 0 for what it does not carry. Raises FrameError with what `canFrameFault` says.
+ * Address and raw number in a message, 0 if it has none. Raises FrameError with the fault of `canFrameFault`.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {{ address: number, raw: number }}
  */
 export function parseCanFrame(message: CanMessage, unit: number, frame: CanFrame): {
     address: number;
     raw: number;
 };
-/** Where the high and the low byte of each word of a frame are. @param {CanMessage} message
+/** The positions of the high and the low byte of each word of a frame. @param {CanMessage} message
  * @returns {(readonly [number, number])[]} */
 export function wordPlaces(message: CanMessage): (readonly [number, number])[];
-/** How many words a signal takes in the telegram of its message. @param {CanSignal} signal */
+/** The number of words of a signal in the telegram of its message. @param {CanSignal} signal */
 export function signalWords(signal: CanSignal): number;
 /** Takes the signals of a message out of its bytes, and puts them in. */
 export class SignalPacking {
@@ -109,7 +109,7 @@ export class SignalPacking {
     firsts(): number[];
     /** The raw number of a signal without its sign. @param {Uint8Array} data @param {number} number @returns {bigint} */
     raw(data: Uint8Array, number: number): bigint;
-    /** The numbers of the parts that come in these bytes, with their words. @param {Uint8Array} data
+    /** The numbers of the parts that these bytes have, with their words. @param {Uint8Array} data
      * @returns {Map<number, number[]>} */
     coming(data: Uint8Array): Map<number, number[]>;
     /** The bytes with these raw numbers, by the place of the signal; all other bits are 0.
@@ -125,8 +125,8 @@ export type CanFrame = {
     extended?: boolean;
 };
 /**
- * What one byte of a message carries: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: how far
- * the byte lies above bit 0), `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor`
+ * The content of one byte of a message: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: the
+ * position of its lowest bit), `multiplexer`, `word` (number: 2 * word of the frame, plus 1 for its low byte), `xor`
  * (number: a mask of the bytes of the message that are combined).
  */
 export type CanRole = {
@@ -134,7 +134,7 @@ export type CanRole = {
     number: number;
 };
 /**
- * Where a signal lies: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
+ * The place of a signal: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
  * value if the low byte comes first, else that of the highest. `when` has places of other signals with the raw numbers
  * that select this one: all must fit.
  */
@@ -162,7 +162,7 @@ export type CanMessage = {
 };
 export type Telegram = import("./uss-frames.js").Telegram;
 /**
- * What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams.
+ * The facts of a device: unit numbers, the bits of identifiers, messages and telegrams.
  */
 export type CanProfile = {
     units: readonly [number, number];

@@ -3,20 +3,20 @@
 import { AccessError, FrameError } from "./errors.js";
 import { checkNumber, hex2 } from "./receiving.js";
 
-/** How many bytes every message without signals has. */
+/** The number of bytes of every message without signals. */
 const CAN_LENGTH = 8;
 
 /** A data frame on the bus. @typedef {{ id: number, data: Uint8Array, extended?: boolean }} CanFrame */
 
 /**
- * What one byte of a message carries: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: how far
- * the byte lies above bit 0), `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor`
+ * The content of one byte of a message: `constant` (number: the byte itself), `unit`, `address`, `raw` (number: the
+ * position of its lowest bit), `multiplexer`, `word` (number: 2 * word of the frame, plus 1 for its low byte), `xor`
  * (number: a mask of the bytes of the message that are combined).
  * @typedef {{ kind: string, number: number }} CanRole
  */
 
 /**
- * Where a signal lies: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
+ * The place of a signal: `start` is its first bit as CAN databases count (bit 7 of byte 1 is 15): the bit of the lowest
  * value if the low byte comes first, else that of the highest. `when` has places of other signals with the raw numbers
  * that select this one: all must fit.
  * @typedef {{ start: number, width: number, lowFirst: boolean, when: readonly (readonly [number,
@@ -42,7 +42,7 @@ const CAN_LENGTH = 8;
 /** @typedef {import("./uss-frames.js").Telegram} Telegram */
 
 /**
- * What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams.
+ * The facts of a device: unit numbers, the bits of identifiers, messages and telegrams.
  * @typedef {object} CanProfile
  * @property {readonly [number, number]} units
  * @property {number} identifierBits
@@ -50,7 +50,7 @@ const CAN_LENGTH = 8;
  * @property {readonly Telegram[]} telegrams
  */
 
-/** The profile of a device; what is left out is usual.
+/** The profile of a device; facts that are left out have the usual value.
  * @param {Omit<CanProfile, "telegrams"> & Partial<CanProfile>} facts @returns {CanProfile} */
 export function canProfile(facts) {
   return Object.freeze({ telegrams: [], ...facts });
@@ -149,14 +149,14 @@ export function canFrameOf(message, profile, unit, data) {
   return { id: identifierOf(message, unit), extended: (message.bits ?? profile.identifierBits) > 11, data };
 }
 
-/** The kinds of bytes that are known beforehand, in the order in which they are looked at. */
+/** The kinds of bytes with a known value, in the order of the checks. */
 const FIXED_ROLES = [
   ["constant", "constant"],
   ["unit", "unit"],
   ["xor", "check"],
 ];
 
-/** What is wrong with a frame as that message of that unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
+/** The first fault of a frame as this message of this unit: wrong_id, wrong_length, wrong_constant, wrong_unit,
  * wrong_check.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {string | undefined} */
 export function canFrameFault(message, unit, frame) {
@@ -178,7 +178,7 @@ function expectedByte({ kind, number }, unit, data) {
 }
 
 /**
- * Address and raw number in a message, 0 for what it does not carry. Raises FrameError with what `canFrameFault` says.
+ * Address and raw number in a message, 0 if it has none. Raises FrameError with the fault of `canFrameFault`.
  * @param {CanMessage} message @param {number} unit @param {CanFrame} frame @returns {{ address: number, raw: number }}
  */
 export function parseCanFrame(message, unit, frame) {
@@ -194,7 +194,7 @@ export function parseCanFrame(message, unit, frame) {
   return carried;
 }
 
-/** Where the high and the low byte of each word of a frame are. @param {CanMessage} message
+/** The positions of the high and the low byte of each word of a frame. @param {CanMessage} message
  * @returns {(readonly [number, number])[]} */
 export function wordPlaces(message) {
   const places = new Map(message.roles.map((role, place) => [role.kind === "word" ? role.number : -1, place]));
@@ -238,7 +238,7 @@ export class SignalPacking {
     return (bigOf(data, lowFirst) >> BigInt(shift)) & ((1n << BigInt(width)) - 1n);
   }
 
-  /** The numbers of the parts that come in these bytes, with their words. @param {Uint8Array} data
+  /** The numbers of the parts that these bytes have, with their words. @param {Uint8Array} data
    * @returns {Map<number, number[]>} */
   coming(data) {
     /** @type {Map<number, number[]>} */
@@ -267,7 +267,7 @@ export class SignalPacking {
   }
 }
 
-/** How many words a signal takes in the telegram of its message. @param {CanSignal} signal */
+/** The number of words of a signal in the telegram of its message. @param {CanSignal} signal */
 export function signalWords(signal) {
   return (signal.width + 15) >> 4;
 }

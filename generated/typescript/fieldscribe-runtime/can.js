@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-/** CAN devices on a bus: parameters asked for by messages, and cyclic telegrams that are heard. */
+/** CAN devices on a bus: parameters that are requested by messages, and cyclic telegrams. */
 import {
   buildCanFrame,
   canFrameFault,
@@ -26,19 +26,19 @@ import { camelName } from "./words.js";
 /** @typedef {import("./can-frames.js").CanProfile} CanProfile */
 
 /**
- * What a line must know of the frames that a device waits for. The line offers every frame that comes to `accepts`, and
- * resolves with the first one that is accepted; where none is within `patience` seconds it rejects with NoReplyError.
+ * What a line must know of the frames that a device waits for. The line passes every received frame to `accepts`, and
+ * resolves with the first one accepted; if none is within `patience` seconds, it rejects with NoReplyError.
  * Nobody answers a `broadcast`: the line resolves at once.
  * @typedef {{ framing: string, broadcast: boolean, patience: number,
  *   accepts: (frame: CanFrame) => boolean }} CanReplyShape
  */
 
 /**
- * Carries frames to the bus and from it: sends the request, if there is one, and waits as `reply` says.
+ * Carries frames to the bus and from it: sends the request, if there is one, and waits for `reply`.
  * @typedef {{ exchange: (request: CanFrame | null, reply: CanReplyShape) => Promise<CanFrame | undefined> }} CanLine
  */
 
-/** After so many seconds what is received was not asked for before. */
+/** After this many seconds, a received frame answers no earlier request. */
 const SETTLED = 0.2;
 
 /** @returns {number} seconds of a clock that only goes forward */
@@ -46,10 +46,10 @@ function seconds() {
   return performance.now() / 1000;
 }
 
-/** The last frame of one multiplexer number, and that before; of signals, the words that come together.
+/** The last two frames of one multiplexer number; for signals, the words that come together.
  * @typedef {{ words: number[], number: number, wordsBefore: number[], numberBefore: number, moment: number }} Slot */
 
-/** Takes the frames of a telegram from one unit, and gives its words once they came. */
+/** Takes the frames of a telegram from one unit, and returns its words once they have arrived. */
 export class TelegramReceiver {
   /** @param {CanProfile} profile @param {string} telegram @param {number} unit */
   constructor(profile, telegram, unit) {
@@ -63,7 +63,7 @@ export class TelegramReceiver {
       : undefined;
     this.places = wordPlaces(this.message);
     this.multiplexer = this.message.roles.findIndex((role) => role.kind === "multiplexer");
-    /** In which part each word of the telegram comes, and at which place in it. @type {[number, number][]} */
+    /** The part of each word of the telegram, and its place in the part. @type {[number, number][]} */
     this.partOf = [];
     if (this.packing) {
       this.packing.parts.forEach(({ words }, part) => {
@@ -85,7 +85,7 @@ export class TelegramReceiver {
     this.count = 0;
   }
 
-  /** Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came, in seconds.
+  /** Take a frame at the time `moment` (in seconds) if it belongs to the telegram; returns whether it does.
    * @param {CanFrame} frame @param {number} [moment] @returns {boolean} */
   take(frame, moment = 0) {
     if (typeof frame?.id !== "number" || !(frame.data instanceof Uint8Array)) {
@@ -113,13 +113,13 @@ export class TelegramReceiver {
     return new Map([[part, this.places.map(([high, low]) => (data[high] << 8) | data[low])]]);
   }
 
-  /** Whether all frames with these words came at `moment` or later. @param {readonly number[]} positions
+  /** Whether all frames with these words arrived at `moment` or later. @param {readonly number[]} positions
    * @param {number} moment */
   isNewer(positions, moment) {
     return positions.every((position) => this.slot(position).number && this.slot(position).moment >= moment);
   }
 
-  /** Whether any frame of the telegram came at `moment` or later. @param {number} moment */
+  /** Whether any frame of the telegram arrived at `moment` or later. @param {number} moment */
   isSent(moment) {
     return this.slots.some((slot) => slot.number && slot.moment >= moment);
   }
@@ -127,8 +127,8 @@ export class TelegramReceiver {
   /**
    * The words at these positions, the high one first; raises TelegramError, `missing` or `torn`.
    *
-   * Two words of two frames are believed only when the same high word came before and after the low one: a counter may
-   * have moved on in between. Longer runs of words, such as texts, are given as they came last.
+   * Two words of two frames are accepted only if the same high word arrived before and after the low one: a counter may
+   * have changed in between. More words, such as texts, are returned as they arrived last.
    * @param {readonly number[]} positions @returns {number[]}
    */
   words(positions) {
@@ -196,8 +196,8 @@ export function packMessage(device, message, values, { unit = 0, raws } = {}) {
 /**
  * A device on a CAN bus.
  *
- * While other frames keep coming, what is waited for may take `patience` seconds. Words of a telegram that came up to
- * `freshFor` seconds ago need not come again to be read.
+ * While other frames keep arriving, an answer may take `patience` seconds. Words of a telegram that arrived up to
+ * `freshFor` seconds ago are read without waiting for new ones.
  */
 export class CanDevice extends Session {
   /** @param {CanLine} line @param {import("./session.js").DeviceOptions} options */
@@ -216,13 +216,13 @@ export class CanDevice extends Session {
     this._isUnanswered = false;
   }
 
-  /** Feed a frame that came by another way; whether it is of a telegram of this device. @param {CanFrame} frame */
+  /** Take a frame received elsewhere; returns whether it is of a telegram of this device. @param {CanFrame} frame */
   take(frame) {
     const moment = seconds();
     return [...this._receivers.values()].map((receiver) => receiver.take(frame, moment)).includes(true);
   }
 
-  /** Read parameters by address, or words of the telegram that `space` names, without any meaning.
+  /** Read parameters by address, or words of the telegram that `space` names, as plain numbers.
    * @param {string} space @param {number} address @param {number} [count] @returns {Promise<number[]>} */
   readAt(space, address, count = 1) {
     return this._run(async () => {
@@ -282,12 +282,12 @@ export class CanDevice extends Session {
     }
   }
 
-  /** What answers a request, where anything does. @param {CanMessage} request @returns {CanMessage | undefined} */
+  /** The message that answers a request, if any. @param {CanMessage} request @returns {CanMessage | undefined} */
   _answer(request) {
     return /** @type {CanProfile} */ (this._profile).messages.find((one) => one.answers === request.name);
   }
 
-  /** One request, and the raw number of its answer; all other frames are offered to the receivers.
+  /** One request, and the raw number of its answer; the receivers take all other frames.
    * @param {CanMessage} request @param {number} address @param {number} raw @returns {Promise<number>} */
   async _ask(request, address, raw) {
     const answer = this._answer(request);
@@ -316,7 +316,7 @@ export class CanDevice extends Session {
     return word;
   }
 
-  /** Wait until a late answer has come, so that it does not pass for the one to come. */
+  /** Wait for a late answer, so that it is not taken for the next one. */
   async _settle() {
     const accepts = (/** @type {CanFrame} */ heard) => {
       this.take(heard);
@@ -339,7 +339,7 @@ export class CanDevice extends Session {
     }
   }
 
-  /** Words of a telegram, as soon as all of them are there, fresh, and belong together.
+  /** Words of a telegram, as soon as all have arrived, are fresh, and belong together.
    * @param {Place} at @returns {Promise<number[]>} */
   async _listen(at) {
     const receiver = this._receivers.get(telegramNamed(this._profile, at.telegram).name);
@@ -379,7 +379,7 @@ export class CanDevice extends Session {
     }
   }
 
-  /** Read some points; where refusals are noted, words that do not come in a telegram that comes are, too.
+  /** Read some points; if refusals are collected, also words that are missing in a telegram that is sent.
    * @param {readonly AnyPoint[]} points @param {import("./session.js").Refusals | undefined} refusals
    * @param {() => Promise<import("./session.js").PointRaws>} ask
    * @returns {Promise<import("./session.js").PointRaws>} */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-/** Forms of dates and times whose parts are numbers of their own in some bits of the words. */
+/** Forms of dates and times whose parts are numbers in some bits of the words. */
 import { MalformedError, shown, WrongTypeError } from "./errors.js";
 import { Form } from "./forms.js";
 import { wholeNumber } from "./numbers.js";
@@ -12,7 +12,7 @@ const DATE = ["year", "month", "day"];
 const TIME = ["hour", "minute", "second", "millisecond"];
 const MINUTE = 60000;
 
-/** Parts of a date, a time, or both, as `Temporal` names them; `base` is the year of a 0, or the number of Sunday. */
+/** Parts of a date, a time, or both, as `Temporal` names them; `base` is the year that 0 means, or the number of Sunday. */
 class DatedForm extends Form {
   /** @param {number} words @param {readonly DatePart[]} parts @param {DateFacts} facts @param {string[]} fields @param {string} what */
   constructor(words, parts, { bcd = false, lowFirst = false }, fields, what) {
@@ -31,7 +31,7 @@ class DatedForm extends Form {
     });
   }
 
-  /** Words with their high byte first, or as they travel. @param {number[]} words */
+  /** Words with their high byte first, or as on the wire. @param {number[]} words */
   ordered(words) {
     return this.lowFirst ? words.map((word) => ((word & 0xff) << 8) | (word >> 8)) : words;
   }

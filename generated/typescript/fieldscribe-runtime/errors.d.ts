@@ -1,12 +1,12 @@
 /** A value as text for messages. @param {unknown} value @returns {string} */
 export function shown(value: unknown): string;
-/** Everything that can go wrong, as errors: one base class, and `status` names the case. */
+/** The errors of generated devices: one base class; `status` names the case. */
 /**
  * Base of all errors of generated devices; `status` is a stable name for programs.
  *
- * `point` says which point was asked for; of several that one request reads, which they are; else the command or the
+ * `point` names the point, the points of one request, the command, or the
  * place. `group` is the group that was read, `needs` another point that had to be read first. `existsWhen` says when a
- * refused point exists, where other points decide that.
+ * refused point exists, if other points decide it.
  */
 export class FieldscribeError extends Error {
     /** @param {string} message @param {string} [status] */
@@ -25,10 +25,10 @@ export class FieldscribeError extends Error {
     value: unknown;
     /** @type {readonly unknown[] | undefined} */
     limits: readonly unknown[] | undefined;
-    /** Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake. */
+    /** True if a frame was lost or damaged on the line, so that trying again may help. */
     get lost(): boolean;
     /**
-     * Say what the error is about; what is known already stays. Returns the error.
+     * Add the subject of the error, unless it has one. Returns the error.
      * @param {{ point?: string, group?: string, needs?: string, existsWhen?: string, value?: unknown, limits?: readonly unknown[] }} about
      */
     about(about: {
@@ -40,11 +40,11 @@ export class FieldscribeError extends Error {
         limits?: readonly unknown[];
     }): this;
     /**
-     * Say that the error came while another point was read which that one needs. Returns the error.
+     * Add that the error came from reading another point that the requested one needs. Returns the error.
      * @param {string} point
      */
     needing(point: string): this;
-    /** The same error, to be raised once more. @returns {FieldscribeError} */
+    /** A copy of the error, to be raised again. @returns {FieldscribeError} */
     copied(): FieldscribeError;
     /** @private */
     private reworded;
@@ -62,12 +62,12 @@ export class NotANumberError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The value is of a type that the point does not take. */
+/** The point does not take a value of this type. */
 export class WrongTypeError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The number is none of the named ones, and only those may be written. */
+/** The number has no name, and only named ones may be written. */
 export class UnknownValueError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
@@ -77,23 +77,23 @@ export class ZeroFactorError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** No scale fits the numbers of the points that choose it. */
+/** The scale has no case for the numbers of the points that choose it. */
 export class NoCaseError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The result is too large to be represented. */
+/** The result is too large. */
 export class ResultOverflowError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** A special code stands where a quantity belongs, or is to be written and only read; `special` is its name. */
+/** A special code instead of a quantity, or a write of a read-only one; `special` is its name. */
 export class SpecialCodeError extends CodecError {
     /** @param {string} special @param {string} message */
     constructor(special: string, message: string);
     special: string;
 }
-/** The words do not hold what they should: a text that is no UTF-8 or UTF-16. */
+/** The words are no valid text (UTF-8 or UTF-16), or no date. */
 export class MalformedError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
@@ -103,25 +103,25 @@ export class WrongLengthError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The conversion needs the raw number of another point, and `raws` does not hold it. */
+/** The conversion needs the raw number of another point, but `raws` does not hold it. */
 export class MissingRawError extends CodecError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The device has the point or the group, but not this: it is only written, belongs to another device, ... */
+/** The device has the point or the group but not this access: it is write-only, of another device, ... */
 export class AccessError extends FieldscribeError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The device has no such point: the name is unknown, the point is documented only, or another variant has it. */
+/** The device has no such point: the name is unknown, the point is only documented, or another variant has it. */
 export class AbsentError extends AccessError {
 }
-/** What answers is another device: a point holds something else than the description says. */
+/** Another device answers: a point holds something else than the description says. */
 export class OtherDeviceError extends FieldscribeError {
     /** @param {string} message */
     constructor(message: string);
 }
-/** The device did not come to what a step of a command waits for; `held` are the words that it had last. */
+/** The device did not reach what a step of a command waits for; `held` are the last words read. */
 export class WaitError extends FieldscribeError {
     /** @param {string} message @param {readonly number[]} held */
     constructor(message: string, held: readonly number[]);
@@ -137,14 +137,14 @@ export class RequestError extends FieldscribeError {
     /** @param {string} status @param {string} message */
     constructor(status: string, message: string);
 }
-/** The reply is no good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...). */
+/** The reply is not a valid answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...). */
 export class FrameError extends FieldscribeError {
     /** @param {string} status @param {string} message */
     constructor(status: string, message: string);
-    /** Process data that came in the same telegram, where the rest of it was good. @type {readonly number[]} */
+    /** Process data of the same telegram, if that part was valid. @type {readonly number[]} */
     words: readonly number[];
 }
-/** The device took a write and confirmed another value than the one `written`: `answered` is what it has now. */
+/** The device confirmed a write with another value than the one `written`: `answered` is what it has now. */
 export class EchoError extends FrameError {
     /** @param {string} message @param {readonly number[]} written @param {readonly number[]} answered */
     constructor(message: string, written: readonly number[], answered: readonly number[]);
@@ -152,8 +152,8 @@ export class EchoError extends FrameError {
     answered: readonly number[];
 }
 /**
- * The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. Where
- * the manual has none, the message has that of the standard.
+ * The device refused the request with an exception `code`; `codeName` is the manual's name for it, if known. If not,
+ * the message has the standard's name.
  */
 export class ExceptionReplyError extends FrameError {
     /** @param {number} code @param {string} [codeName] */
@@ -161,19 +161,19 @@ export class ExceptionReplyError extends FrameError {
     code: number;
     codeName: string | undefined;
 }
-/** The device refused the task with an error number `code`; `codeName` is the manual's name for it, where known. */
+/** The device refused the task with an error number `code`; `codeName` is the manual's name for it, if known. */
 export class RefusedError extends FrameError {
     /** @param {number} code @param {string} [codeName] */
     constructor(code: number, codeName?: string);
     code: number;
     codeName: string | undefined;
 }
-/** Words of a telegram cannot be told; `status` is `missing` (not all came yet) or `torn` (they do not agree). */
+/** Words of a telegram are not available: `status` is `missing` (not all arrived yet) or `torn` (inconsistent). */
 export class TelegramError extends FieldscribeError {
     /** @param {string} status @param {string} message */
     constructor(status: string, message: string);
 }
-/** Nothing came that answers, in time; `received` is what came in its place. */
+/** No answer arrived in time; `received` is what arrived instead. */
 export class NoReplyError extends FieldscribeError {
     /** @param {string} message @param {Uint8Array} [received] */
     constructor(message: string, received?: Uint8Array);

@@ -25,33 +25,33 @@ import { BIT, WireType } from "./wire-types.js";
 /** @typedef {import("./rules.js").Raws} Raws */
 /** @typedef {import("./rules.js").Allowed} Allowed */
 /** @typedef {Readonly<Record<string, number>>} Names */
-/** Converts quickly, and leaves what is unusual to the slow way. @typedef {(number: any, raws?: Raws) => any} Way */
+/** Converts the usual cases, and others by a slower function. @typedef {(number: any, raws?: Raws) => any} Way */
 
-/** What raw numbers mean. Raw numbers of a form are bigint where its type has more than 32 bits. */
+/** The meaning of raw numbers. They are bigint if the type has more than 32 bits. */
 export class Form {
   /** @param {WireType} wire */
   constructor(wire) {
     this.wire = wire;
     /** The points whose raw numbers the scale needs. @type {readonly string[]} */
     this.needs = [];
-    /** Counts are in units of 10^-decimals; undefined where there are none. @type {number | undefined} */
+    /** Counts are in units of 10^-decimals; undefined if there are none. @type {number | undefined} */
     this.decimals = 0;
     this.codes = NO_CODES;
     /** @type {Names | import("./words.js").WordLayout | undefined} */
     this.names = undefined;
     /** The error for what may not be written. @type {new (message: string) => Error} */
     this.refused = OutOfRangeError;
-    /** Whether values are encoded; numbers of too many bits are only decoded. */
+    /** Whether values can be encoded; numbers with too many bits can only be decoded. */
     this.encodes = true;
   }
 
-  /** The value that a raw number means. @param {any} raw @param {Raws} raws @returns {any} */
+  /** The value of a raw number. @param {any} raw @param {Raws} raws @returns {any} */
   decode(raw, raws) {
     void raws;
     return raw;
   }
 
-  /** The raw number for a value, whether it may be written or not; undefined where there is none.
+  /** The raw number for a value, even if it may not be written; undefined if there is none.
    * @param {any} value @param {Raws} raws @returns {any} */
   converted(value, raws) {
     void raws;
@@ -65,7 +65,7 @@ export class Form {
     return slow;
   }
 
-  /** A function that computes the value of an unsigned word, or undefined where there is none. @returns {((word: number) => any) | undefined} */
+  /** A function that computes the value of an unsigned word, or undefined if there is none. @returns {((word: number) => any) | undefined} */
   quickWord() {
     return undefined;
   }
@@ -76,33 +76,33 @@ export class Form {
     return BigInt(raw);
   }
 
-  /** The raw number for a count, whether it may be written or not. @param {unknown} count @param {Raws} raws @returns {any} */
+  /** The raw number for a count, even if it may not be written. @param {unknown} count @param {Raws} raws @returns {any} */
   convertedCount(count, raws) {
     void raws;
     return this.wire.raw(wholeNumber(count));
   }
 
-  /** The same number; undefined if it may not be written. @param {any} raw @param {Allowed} allowed @param {Raws} raws
+  /** The number; undefined if it may not be written. @param {any} raw @param {Allowed} allowed @param {Raws} raws
    * @returns {any} */
   checked(raw, allowed, raws) {
     const ends = allowed.map(([low, high]) => [lowEnd(low, raws), highEnd(high, raws)]); // all, whichever holds
     return ends.some(([low, high]) => low <= raw && raw <= high) ? raw : undefined;
   }
 
-  /** The least and greatest number of `width` bits that the form knows, if nothing else bounds them.
+  /** The least and greatest number of the form in `width` bits.
    * @param {number} width @returns {[any, any]} */
   limits(width) {
     return this.wire.limits(width);
   }
 
-  /** The least and greatest quantity for raw numbers of a range; undefined where there are none.
+  /** The least and greatest quantity for raw numbers of a range; undefined if there are none.
    * @param {any} low @param {any} high @returns {[number, number] | undefined} */
   bounds(low, high) {
     void low, high;
     return undefined;
   }
 
-  /** The raw number as people read it, in the unit; a quantity with `display` decimals, if given.
+  /** The value of a raw number as text without the unit; a quantity with `display` decimals, if given.
    * @param {any} raw @param {Raws} raws @param {number} [display] @returns {string} */
   shown(raw, raws, display) {
     void raws;
@@ -114,7 +114,7 @@ export class Form {
     return raw === other;
   }
 
-  /** Why a value is refused, if it is not for the range of raw numbers. @param {string} unit @returns {string | undefined} */
+  /** Why a value is refused, if not for the range of raw numbers. @param {string} unit @returns {string | undefined} */
   choices(unit) {
     void unit;
     return undefined;
@@ -432,7 +432,7 @@ class FloatingForm extends Form {
   }
 }
 
-/** Another form as it is, but for what a subclass defines. */
+/** A form that delegates to another one, except for what a subclass overrides. */
 export class AroundForm extends Form {
   /** @param {Form} form */
   constructor(form) {
@@ -589,7 +589,7 @@ class FixedBitsForm extends AroundForm {
   }
 }
 
-/** The form with bits that are always written as a constant; special codes stay outermost.
+/** The form with constant bits; special codes stay outermost.
  * @param {Form} form @param {readonly [number, number]} fixed @returns {Form} */
 export function withFixed(form, [mask, bits]) {
   if (!(form instanceof CodedForm)) return new FixedBitsForm(form, mask, bits);
@@ -628,13 +628,13 @@ export function floating(wire, { units = [] } = {}) {
   return new FloatingForm(wire, units);
 }
 
-/** Another form beside special codes, to which no value is encoded. @param {Form} form
+/** A form with special codes, to which no value is encoded. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
 export function withCodes(form, codes) {
   return new CodedForm(form, codes, false);
 }
 
-/** The same with special codes of which some may be written. @param {Form} form
+/** The same with special codes that may be written. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
 export function withWritableCodes(form, codes) {
   return new CodedForm(form, codes, true);

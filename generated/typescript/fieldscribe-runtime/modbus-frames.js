@@ -21,9 +21,9 @@ export const MODBUS_WRITES = [WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REG
 const MODBUS_ECHOES = [WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS];
 
 /**
- * What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
+ * What a device supports: functions with the most items of one request, unit numbers, and its peculiarities.
  *
- * `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it.
+ * `broadcast` is the unit number of all units, `broadcasts` the functions that may be sent to it.
  * @typedef {object} ModbusProfile
  * @property {Readonly<Record<number, number>>} functions
  * @property {readonly [number, number]} units
@@ -40,10 +40,10 @@ const MODBUS_ECHOES = [WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS];
  *   values?: readonly number[] }} ModbusRequest
  */
 
-/** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and what follows it, nothing around that. */
+/** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and the request, without the rest of the frame. */
 
 /**
- * The profile of a device; what is left out is usual.
+ * The profile of a device; facts that are left out have the usual value.
  * @param {Partial<ModbusProfile> & Pick<ModbusProfile, "functions">} facts
  * @returns {ModbusProfile}
  */
@@ -60,7 +60,7 @@ for (let byte = 0; byte < 256; byte++) {
   CRC_TABLE.push(value);
 }
 
-/** The CRC-16 of RTU frames; it travels low byte first. @param {Uint8Array} data @returns {number} */
+/** The CRC-16 of RTU frames; its low byte is sent first. @param {Uint8Array} data @returns {number} */
 export function modbusCrc(data) {
   let value = 0xffff;
   for (const byte of data) value = (value >> 8) ^ CRC_TABLE[(value ^ byte) & 0xff];
@@ -72,7 +72,7 @@ function itemsOf(request) {
   return MODBUS_READS.includes(request.function) ? (request.count ?? 0) : (request.values?.length ?? 0);
 }
 
-/** Raises RequestError (bad_framing) if the device does not frame its telegrams so.
+/** Raises RequestError (bad_framing) if the device does not support the framing.
  * @param {string} framing @param {ModbusProfile} profile */
 export function checkFraming(framing, profile) {
   if (framing !== "pdu" && !profile.framings.includes(framing)) {
@@ -187,9 +187,9 @@ export function modbusReplyShape(request, framing, broadcast) {
 }
 
 /**
- * What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
+ * The content of a reply to `request`: words, bits as 0 or 1, the echoed value, or nothing for a block write.
  *
- * Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
+ * Raises FrameError unless this is a valid answer; its subclass ExceptionReplyError has the device's code.
  * @param {ModbusRequest} request @param {Uint8Array} reply @param {ModbusProfile} profile
  * @param {string} [framing] @param {number} [transaction]
  * @returns {number[]}
@@ -278,8 +278,8 @@ function otherEcho(request, head, pdu) {
     const text = `${written} was written to ${hex4(to)}h, but the device answered ${answered}`;
     return new EchoError(text, [written], [answered]);
   }
-  const repeats = `${hex4(answered)}h at ${hex4(at)}h`;
-  return new FrameError("echo_mismatch", `${hex4(written)}h was written to ${hex4(to)}h, but the reply repeats ${repeats}`);
+  const repeats = `but the reply repeats ${hex4(answered)}h at ${hex4(at)}h`;
+  return new FrameError("echo_mismatch", `${hex4(written)}h was written to ${hex4(to)}h, ${repeats}`);
 }
 
 /** A word as four hexadecimal digits. @param {number} word */

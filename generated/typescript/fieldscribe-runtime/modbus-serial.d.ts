@@ -1,4 +1,4 @@
-/** A line over a client that is connected; it keeps the client's timeout. Loop-back tests and padding are not there. */
+/** A line over a client that is connected; it keeps the client's timeout. It has no loop-back test and no padding. */
 export class ModbusSerialLine {
     /** @param {ModbusSerialClient} client */
     constructor(client: ModbusSerialClient);

@@ -4,10 +4,10 @@ export function modbusBlock(space: string, code: number, address: number, count:
 /** The function that reads a place; raises RequestError for an unknown space. @param {Place} at @returns {number} */
 export function readFunction(at: Place): number;
 /**
- * The fewest reads, from the lowest address on, that bring all places.
+ * The fewest reads of all places, from the lowest address on.
  *
  * A read never splits a place, has no more items than the function allows (unless a text alone has more), and touches
- * no address that was not asked for, except those that are known to be readable, by `isBridge`.
+ * no other addresses, except those that are known to be readable, by `isBridge`.
  * @param {readonly Place[]} places @param {import("./modbus-frames.js").ModbusProfile} profile
  * @param {(spot: string) => boolean} isBridge @returns {ModbusBlock[]}
  */
@@ -19,11 +19,11 @@ export class ModbusDevice extends Session {
     _framing: string;
     _transaction: number;
     _bases: ModbusBases | undefined;
-    /** What lies between points, and no read may pass over. @type {Set<string>} */
+    /** Addresses between points that no read may span. @type {Set<string>} */
     _gaps: Set<string>;
     /** @type {Set<string> | undefined} */
     _readableSpots: Set<string> | undefined;
-    /** Say where a base is that is known from elsewhere, and the last address that counts from it.
+    /** Set a base that is known from elsewhere, and the last address that counts from it.
      * @param {string} name @param {number} address @param {number} [last] */
     setBase(name: string, address: number, last?: number): void;
     /** The address of each block that the addresses of points may count from, and its last word, by id. They are found
@@ -33,7 +33,7 @@ export class ModbusDevice extends Session {
         address: number;
         last: number;
     }>>;
-    /** Read words or bits by address, without any meaning.
+    /** Read words or bits by address, as plain numbers.
      * @param {string} space @param {number} address @param {number} [count] @returns {Promise<number[]>} */
     readAt(space: string, address: number, count?: number): Promise<number[]>;
     /** Write words or bits by address. Nothing is checked: this can set what no point allows.
@@ -42,10 +42,10 @@ export class ModbusDevice extends Session {
     /** One request and its reply. @param {number} code @param {number} address @param {number} count
      * @param {readonly number[]} [values] @returns {Promise<number[]>} */
     _ask(code: number, address: number, count: number, values?: readonly number[]): Promise<number[]>;
-    /** The address of a base from which addresses up to the last count. @param {string | undefined} base
+    /** The address of a base, if addresses up to `last` are within it. @param {string | undefined} base
      * @param {number} last @returns {Promise<number>} */
     _start(base: string | undefined, last: number): Promise<number>;
-    /** Read words or bits; a text that is longer than a request by several.
+    /** Read words or bits; a text that is longer than a request needs several.
      * @param {number} code @param {number} address @param {number} count @returns {Promise<number[]>} */
     _words(code: number, address: number, count: number): Promise<number[]>;
     /** @param {Place} at @param {number} count @returns {number} */
@@ -55,9 +55,9 @@ export class ModbusDevice extends Session {
     _readBlock(block: ModbusBlock, points: readonly AnyPoint[]): Promise<import("./session.js").PointRaws>;
     /** @param {readonly AnyPoint[]} points @param {ModbusBlock} block */
     _noteGaps(points: readonly AnyPoint[], block: ModbusBlock): void;
-    /** The addresses that the device has refused: of points, and between them. @returns {Set<string>} */
+    /** The addresses of points, and between them, that the device has refused. @returns {Set<string>} */
     _holes(): Set<string>;
-    /** Tells the addresses of all points that are known to be there, and readable.
+    /** Returns a test for addresses of points that are known to exist and to be readable.
      * @returns {(spot: string) => boolean} */
     _bridges(): (spot: string) => boolean;
 }

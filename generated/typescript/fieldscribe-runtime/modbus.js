@@ -72,10 +72,10 @@ export function readFunction(at) {
 }
 
 /**
- * The fewest reads, from the lowest address on, that bring all places.
+ * The fewest reads of all places, from the lowest address on.
  *
  * A read never splits a place, has no more items than the function allows (unless a text alone has more), and touches
- * no address that was not asked for, except those that are known to be readable, by `isBridge`.
+ * no other addresses, except those that are known to be readable, by `isBridge`.
  * @param {readonly Place[]} places @param {import("./modbus-frames.js").ModbusProfile} profile
  * @param {(spot: string) => boolean} isBridge @returns {ModbusBlock[]}
  */
@@ -129,13 +129,13 @@ export class ModbusDevice extends Session {
       return this._ask(facts.chain.function, address, count);
     };
     this._bases = facts.bases ? new ModbusBases(facts, readChain, options) : undefined;
-    /** What lies between points, and no read may pass over. @type {Set<string>} */
+    /** Addresses between points that no read may span. @type {Set<string>} */
     this._gaps = new Set();
     /** @type {Set<string> | undefined} */
     this._readableSpots = undefined;
   }
 
-  /** Say where a base is that is known from elsewhere, and the last address that counts from it.
+  /** Set a base that is known from elsewhere, and the last address that counts from it.
    * @param {string} name @param {number} address @param {number} [last] */
   setBase(name, address, last) {
     if (!this._bases) throw new RequestError("bad_base", "the addresses of this device count from 0");
@@ -159,7 +159,7 @@ export class ModbusDevice extends Session {
     });
   }
 
-  /** Read words or bits by address, without any meaning.
+  /** Read words or bits by address, as plain numbers.
    * @param {string} space @param {number} address @param {number} [count] @returns {Promise<number[]>} */
   readAt(space, address, count = 1) {
     return this._run(async () => {
@@ -208,7 +208,7 @@ export class ModbusDevice extends Session {
     });
   }
 
-  /** The address of a base from which addresses up to the last count. @param {string | undefined} base
+  /** The address of a base, if addresses up to `last` are within it. @param {string | undefined} base
    * @param {number} last @returns {Promise<number>} */
   async _start(base, last) {
     if (base === undefined || !this._bases) return 0;
@@ -250,7 +250,7 @@ export class ModbusDevice extends Session {
     return this._words(readFunction(at), start + lowestOf(at), highestOf(at) - lowestOf(at) + 1);
   }
 
-  /** Read words or bits; a text that is longer than a request by several.
+  /** Read words or bits; a text that is longer than a request needs several.
    * @param {number} code @param {number} address @param {number} count @returns {Promise<number[]>} */
   async _words(code, address, count) {
     const most = this._profile.functions[code] ?? count;
@@ -324,7 +324,7 @@ export class ModbusDevice extends Session {
     for (const one of spotsOf(block)) if (!taken.has(one)) this._gaps.add(one);
   }
 
-  /** The addresses that the device has refused: of points, and between them. @returns {Set<string>} */
+  /** The addresses of points, and between them, that the device has refused. @returns {Set<string>} */
   _holes() {
     const refused = [...this._refused.keys()].flatMap(({ at }) =>
       at.addresses.map((/** @type {number} */ address) => spot(areaOf(at), address)),
@@ -332,7 +332,7 @@ export class ModbusDevice extends Session {
     return new Set([...this._gaps, ...refused]);
   }
 
-  /** Tells the addresses of all points that are known to be there, and readable.
+  /** Returns a test for addresses of points that are known to exist and to be readable.
    * @returns {(spot: string) => boolean} */
   _bridges() {
     if (!this._readableSpots) {

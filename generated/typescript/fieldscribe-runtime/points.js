@@ -18,7 +18,7 @@ import { SpecialCode } from "./special.js";
 /** @typedef {import("./forms.js").Form} Form */
 /** @typedef {import("./places.js").Place} Place */
 /**
- * What a description says of a point. `name` is the description's, `item` tells it from those of other variants;
+ * The facts of a point. `name` is the description's, `item` differs from that of other variants;
  * `allowed` are the raw numbers that may be written, `fixed` a mask and the bits that are always written there.
  * @typedef {{ name: string, item?: string, at: Place, writeAt?: Place, bits?: readonly [number, number], group?: string,
  *   code?: string, references?: Readonly<Record<string, number | string>>, unit?: string, display?: number,
@@ -30,7 +30,7 @@ import { SpecialCode } from "./special.js";
  *   writeWith?: readonly string[], keeps?: string }} FactsOfPoint
  */
 
-/** One addressable datum. Its methods need no device; which there are follows from what can be read or written. */
+/** One data point. Its methods need no device; they depend on its access. */
 class Codec {
   /** @param {Form} form @param {FactsOfPoint} facts */
   constructor(form, facts) {
@@ -38,7 +38,7 @@ class Codec {
     this.facts = facts;
     this.form = facts.fixed && !bits ? withFixed(form, facts.fixed) : form;
     this.name = name;
-    /** The name, with the variant where only one has the point. */
+    /** The name, with the variant if only one has the point. */
     this.item = item;
     this.at = at;
     this.code = code;
@@ -46,9 +46,9 @@ class Codec {
     this.unit = unit;
     this.references = references;
     this.lowestBit = bits ? bits[1] : 0;
-    /** How many bits the raw number has. */
+    /** The number of bits of the raw number. */
     this.width = bits ? bits[0] - bits[1] + 1 : form.wire.bits;
-    /** How many words (or single bits) it takes. */
+    /** The number of its words (or single bits). */
     this.size = bits ? 1 : Math.ceil(form.wire.bits / 16);
     const [least, greatest] = form.wire.limits(this.width);
     this.least = least;
@@ -64,12 +64,12 @@ class Codec {
     return this.code ? `${this.code} ${this.item}` : this.item;
   }
 
-  /** Counts are in units of 10^-decimals; undefined where there are none. */
+  /** Counts are in units of 10^-decimals; undefined if there are none. */
   get decimals() {
     return this.form.decimals;
   }
 
-  /** What names its numbers or its flags, where they have names. */
+  /** The names of its numbers or flags, if they have names. */
   get names() {
     return this.form.names;
   }
@@ -95,7 +95,7 @@ class Codec {
     return [...new Set(bounds.flatMap((bound) => (bound instanceof MovingLimit ? bound.needs : [])))];
   }
 
-  /** The raw numbers that the description allows. @returns {import("./rules.js").Allowed} */
+  /** The raw numbers that may be written. @returns {import("./rules.js").Allowed} */
   get allowed() {
     return this.facts.allowed ?? [[this.least, this.greatest]];
   }
@@ -110,7 +110,7 @@ class Codec {
     return [raw(lows.reduce((one, other) => (other < one ? other : one))), raw(highs.reduce((one, other) => (other > one ? other : one)))];
   }
 
-  /** The least value that is ever allowed; undefined where there is none, or other points decide. */
+  /** The least value that is ever allowed; undefined if there is none, or other points decide. */
   get minimum() {
     return this._bounds()?.[0];
   }
@@ -189,8 +189,8 @@ class Codec {
   }
 
   /**
-   * A value as people read it, with the unit: `50 Hz`. It has as many decimals as the description says, else as many as
-   * it takes. Raises as `encode` does, but whether the value may be written does not matter.
+   * A value as text with its unit: `50 Hz`. It has the decimals of the description, or else as many as
+   * needed. Raises as `encode` does, but also takes values that may not be written.
    * @param {any} value @param {Raws} [raws] @returns {string}
    */
   text(value, raws = NO_RAWS) {
@@ -203,7 +203,7 @@ class Codec {
     return this.told(this._within(raw, this.least, this.greatest), raws);
   }
 
-  /** A raw number as `text` says its value; as `raw ...` where `raws` do not say what it means.
+  /** The value of a raw number as `text` does, or `raw ...` if `raws` lacks what the scale needs.
    * @param {any} raw @param {Raws} [raws] @returns {string} */
   told(raw, raws = NO_RAWS) {
     const number = this._number(raw);

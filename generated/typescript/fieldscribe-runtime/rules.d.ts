@@ -21,7 +21,7 @@ export function limit(from: LinearRule, facts: ConstructorParameters<typeof Movi
 export function lowEnd(bound: Bound, raws: Raws): number | bigint;
 /** The upper end. @param {Bound} bound @param {Raws} raws @returns {number | bigint} */
 export function highEnd(bound: Bound, raws: Raws): number | bigint;
-/** What a refused number is, by the limits as people read them. @param {readonly (readonly [string, string])[]} intervals
+/** Why a number is refused, with the limits as texts. @param {readonly (readonly [string, string])[]} intervals
  * @param {string} unit @returns {string} */
 export function outsideText(intervals: readonly (readonly [string, string])[], unit: string): string;
 /** Raw numbers of other points by name. @typedef {Readonly<Record<string, number | bigint>>} Raws */
@@ -38,13 +38,13 @@ export class Factor {
     /** @type {number | bigint} */
     intercept: number | bigint;
     power: number;
-    /** Between which raw numbers ten to that number holds. @type {Band | undefined} */
+    /** The raw numbers where ten to that number applies. @type {Band | undefined} */
     tenTo: Band | undefined;
     /** Whether the raw number is the pattern of a binary32 number. */
     f32: boolean;
     /** Bands of raw numbers that are no quantity. @type {readonly Band[]} */
     codes: readonly Band[];
-    /** Between which raw numbers the scale is exact. @type {Band | undefined} */
+    /** The raw numbers where the scale is exact. @type {Band | undefined} */
     within: Band | undefined;
     /** The factor or exponent before `power`, exactly. @param {Raws} raws @returns {[bigint, bigint]} */
     number(raws: Raws): [bigint, bigint];

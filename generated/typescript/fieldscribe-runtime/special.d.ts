@@ -1,12 +1,12 @@
 /** Special codes. @param {ConstructorParameters<typeof Codes>[0]} raws @param {ConstructorParameters<typeof Codes>[1]} [facts] */
 export function codes(raws: ConstructorParameters<typeof Codes>[0], facts?: ConstructorParameters<typeof Codes>[1]): Codes;
-/** A special code, which a point holds in place of a quantity. @template {string} [Name=string] */
+/** A special code, which a point holds instead of a quantity. @template {string} [Name=string] */
 export class SpecialCode<Name extends string = string> {
     /** @param {Name} name @param {number | bigint} raw @param {boolean} noValue @param {boolean} writable */
     constructor(name: Name, raw: number | bigint, noValue: boolean, writable: boolean);
     name: Name;
     raw: number | bigint;
-    /** Whether it says that there is no value. */
+    /** Whether it means that there is no value. */
     noValue: boolean;
     writable: boolean;
     toString(): Name;

@@ -3,13 +3,13 @@
 import { inBands } from "./rules.js";
 import { camelName } from "./words.js";
 
-/** A special code, which a point holds in place of a quantity. @template {string} [Name=string] */
+/** A special code, which a point holds instead of a quantity. @template {string} [Name=string] */
 export class SpecialCode {
   /** @param {Name} name @param {number | bigint} raw @param {boolean} noValue @param {boolean} writable */
   constructor(name, raw, noValue, writable) {
     this.name = name;
     this.raw = raw;
-    /** Whether it says that there is no value. */
+    /** Whether it means that there is no value. */
     this.noValue = noValue;
     this.writable = writable;
     Object.freeze(this);

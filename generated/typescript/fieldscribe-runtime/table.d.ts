@@ -1,7 +1,7 @@
 /** A point of any kind, as far as devices need to know. @typedef {any} AnyPoint */
 /**
- * What generated code says of a device. `points` and `commands` are by attribute; `oldNames` says what attributes were
- * called before, `documented` why points have none.
+ * The facts of a device in generated code. `points` and `commands` are by attribute; `oldNames` are former names of
+ * attributes, `documented` the reasons why points have none.
  * @typedef {object} DeviceFacts
  * @property {any} profile
  * @property {Readonly<Record<string, AnyPoint>>} points
@@ -24,12 +24,12 @@
  * @returns {Identification} */
 export function identification(point: string, values: readonly (number | string)[], variant?: readonly [string, string]): Identification;
 /** The values of variants that are known, by axis. @typedef {Record<string, string | undefined>} Variants */
-/** Whether the known variants have a point; a point of a variant needs that variant to be known.
+/** Whether the known variants have a point; false if its variant is not known.
  * @param {AnyPoint} point @param {Variants} variants @returns {boolean} */
 export function pointExists(point: AnyPoint, variants: Variants): boolean;
 /** The label of a point for messages: code and name. @param {AnyPoint} point @returns {string} */
 export function labelOf(point: AnyPoint): string;
-/** What an object itself holds under a name that a user gave, nothing that all objects have.
+/** The own property of an object with a name from a user, not an inherited one.
  * @template T @param {Readonly<Record<string, T>> | undefined} held @param {string} name @returns {T | undefined} */
 export function ownOf<T>(held: Readonly<Record<string, T>> | undefined, name: string): T | undefined;
 /** Raises RequestError for a unit number that the device cannot have. @param {number} unit
@@ -49,7 +49,7 @@ export class PointTable {
     /** The given variants by axis; raises RequestError (bad_variant). @param {Record<string, unknown>} options
      * @returns {Variants} */
     variants(options: Record<string, unknown>): Variants;
-    /** A point by name, that of the known variant. @param {string} name @param {Variants} variants
+    /** The point of the known variant by name. @param {string} name @param {Variants} variants
      * @returns {AnyPoint | undefined} */
     found(name: string, variants: Variants): AnyPoint | undefined;
     /** A point by name, old name or code (`P0731[1]` is an element of an array); raises AccessError.
@@ -67,8 +67,8 @@ export class PointTable {
  */
 export type AnyPoint = any;
 /**
- * What generated code says of a device. `points` and `commands` are by attribute; `oldNames` says what attributes were
- * called before, `documented` why points have none.
+ * The facts of a device in generated code. `points` and `commands` are by attribute; `oldNames` are former names of
+ * attributes, `documented` the reasons why points have none.
  */
 export type DeviceFacts = {
     profile: any;

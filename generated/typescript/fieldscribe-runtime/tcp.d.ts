@@ -1,6 +1,6 @@
 /**
- * Connects when it is used first, and anew after a failure. `framing: "rtu"` is for RTU frames over TCP, `"uss"` for
- * USS behind a serial server.
+ * Connects on first use, and again after a failure. `framing: "rtu"` is for RTU frames over TCP, `"uss"` for
+ * USS over a serial server.
  */
 export class TcpLine extends StreamLine {
     /** @param {string} host @param {{ port?: number, framing?: "tcp" | "rtu" | "uss", timeout?: number }} [options] */
@@ -13,7 +13,7 @@ export class TcpLine extends StreamLine {
     port: number;
     /** @type {any} */
     _socket: any;
-    /** An answer that comes too late comes to nobody. */
+    /** Close the connection, so that a late answer is lost. */
     _failed(): void;
 }
 import { StreamLine } from "./stream-line.js";

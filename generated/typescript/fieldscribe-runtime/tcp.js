@@ -9,8 +9,8 @@ import { connect } from "node:net";
 import { StreamLine, withinSeconds } from "./stream-line.js";
 
 /**
- * Connects when it is used first, and anew after a failure. `framing: "rtu"` is for RTU frames over TCP, `"uss"` for
- * USS behind a serial server.
+ * Connects on first use, and again after a failure. `framing: "rtu"` is for RTU frames over TCP, `"uss"` for
+ * USS over a serial server.
  */
 export class TcpLine extends StreamLine {
   /** @param {string} host @param {{ port?: number, framing?: "tcp" | "rtu" | "uss", timeout?: number }} [options] */
@@ -57,7 +57,7 @@ export class TcpLine extends StreamLine {
     });
   }
 
-  /** An answer that comes too late comes to nobody. */
+  /** Close the connection, so that a late answer is lost. */
   _failed() {
     this.close();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-/** The types of points: which methods there are, and what these take and give, follows from the description. */
+/** The types of points: their methods, and the types of these, follow from the description. */
 import type { Place } from "./places.js";
 import type { Raws } from "./rules.js";
 import type { SpecialCode } from "./special.js";
@@ -29,7 +29,7 @@ export interface TimeParts {
 /** What is written as a time: what is left out is 0. */
 export type GivenTime = Pick<TimeParts, "hour"> & Partial<TimeParts>;
 
-/** What a type says of a point beside its values; what is left out is usual. */
+/** What a type says of a point beside its values; facts that are left out have the usual value. */
 export interface PointFacts {
   /** Raw numbers, where they are no `number`. */
   raw?: number | bigint;
@@ -62,7 +62,7 @@ export interface Point<Facts extends PointFacts = any, Device extends string = s
   readonly device?: Device;
   /** The description's name. */
   readonly name: string;
-  /** The name, with the variant where only one has the point. */
+  /** The name, with the variant if only one has the point. */
   readonly item: string;
   /** The manual's code. */
   readonly code: string | undefined;
@@ -76,13 +76,13 @@ export interface Point<Facts extends PointFacts = any, Device extends string = s
   readonly at: Place;
   /** The manual's other numberings. */
   readonly references: Readonly<Record<string, number | string>>;
-  /** How many words (or single bits) it takes. */
+  /** The number of its words (or single bits). */
   readonly size: number;
-  /** How many bits the raw number has. */
+  /** The number of bits of the raw number. */
   readonly width: number;
-  /** Counts are in units of 10^-decimals; undefined where there are none. */
+  /** Counts are in units of 10^-decimals; undefined if there are none. */
   readonly decimals: number | undefined;
-  /** The least value that is ever allowed; undefined where there is none, or other points decide. */
+  /** The least value that is ever allowed; undefined if there is none, or other points decide. */
   readonly minimum: number | undefined;
   readonly maximum: number | undefined;
   /** The least and the greatest raw number that is ever allowed, whatever other points hold. */

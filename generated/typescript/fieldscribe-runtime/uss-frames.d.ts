@@ -36,7 +36,7 @@
  * @typedef {{ response: number, width: number, value: number, words: number[] }} UssReply
  */
 /**
- * The profile of a device; what is left out is usual.
+ * The profile of a device; facts that are left out have the usual value.
  * @param {Partial<UssProfile> & Pick<UssProfile, "units" | "pkw" | "pzd" | "tasks">} facts
  * @returns {UssProfile}
  */

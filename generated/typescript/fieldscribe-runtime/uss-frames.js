@@ -55,7 +55,7 @@ const USS_PAGE_BITS = [15, 12, 13, 14];
  */
 
 /**
- * The profile of a device; what is left out is usual.
+ * The profile of a device; facts that are left out have the usual value.
  * @param {Partial<UssProfile> & Pick<UssProfile, "units" | "pkw" | "pzd" | "tasks">} facts
  * @returns {UssProfile}
  */

@@ -30,7 +30,7 @@ export class WireType {
     /** The bits of a number, those above `width` its sign, in `size` words. @param {any} raw @param {number} width
      * @param {number} size @returns {any} */
     pattern(raw: any, width: number, size: number): any;
-    /** Words with their high byte first, or as they travel. @param {readonly number[]} words @returns {readonly number[]} */
+    /** Words with their high byte first, or as on the wire. @param {readonly number[]} words @returns {readonly number[]} */
     ordered(words: readonly number[]): readonly number[];
     /** Words, the high one first, as one number. @param {readonly number[]} words @returns {any} */
     joined(words: readonly number[]): any;

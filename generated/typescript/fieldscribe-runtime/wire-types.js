@@ -58,7 +58,7 @@ export class WireType {
     return this.coding ? this.power(width - 1) + (-raw % this.power(width - 1)) : raw + this.power(16 * size);
   }
 
-  /** Words with their high byte first, or as they travel. @param {readonly number[]} words @returns {readonly number[]} */
+  /** Words with their high byte first, or as on the wire. @param {readonly number[]} words @returns {readonly number[]} */
   ordered(words) {
     return this.lowByteFirst ? words.map((word) => ((word & 0xff) << 8) | (word >> 8)) : words;
   }

@@ -181,7 +181,7 @@ class SimulatedDevice:
         for point in points:
             self._remember(point, keep)
         changed = [point for point in points if numbers[point.name] != self.memory.raw(point.name)]
-        writers = self.layout.writers.get(area, {})  # steps of commands also write where no point lies
+        writers = self.layout.writers.get(area, {})  # steps of commands also write where no point is
         self.memory.areas[area].update((at, word) for at, word in cells.items() if at not in writers)
         for point in changed:
             self.memory.put(point.name, numbers[point.name])

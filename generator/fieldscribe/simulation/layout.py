@@ -55,9 +55,9 @@ class Layout:
     """The points of one kind of device, each with its cells.
 
     `device` has the points of one value of each variant axis (the first, unless `variants` chooses another), at the
-    addresses that `given` numbers lead to (the least, unless given); found chains begin at the first of their places.
-    `fixed` are words that belong to no point, such as the ids of found blocks. `counts` has what the points hold that
-    say how many elements a block has before other points; 0 unless given.
+    addresses for the `given` numbers (the least by default); found chains start at the first of their places.
+    `fixed` are words that belong to no point, such as the ids of found blocks. `counts` are the numbers of points
+    that count the elements of a block before other points; 0 by default.
     """
 
     def __init__(
@@ -200,7 +200,7 @@ class Layout:
         return base.offset + sum(self.counts[name] * factor for name, _, factor in base.counts)
 
     def _length(self, device: Device, base: Base) -> int:
-        """Return how many words a found block has: up to the last of its points."""
+        """Return the number of words of a found block: up to its last point."""
         last = 0
         for each in device.bases:
             if each.block == base.block:

@@ -135,7 +135,7 @@ class Memory:
 
     @classmethod
     def started(cls, layout: Layout, seed: int = 0) -> Memory:
-        """Return the memory of a device as delivered; what no manual says follows from the seed."""
+        """Return the memory of a device as delivered; numbers that no manual gives come from the seed."""
         return cls(*_start(layout, seed))
 
     def raw(self, name: str) -> int:

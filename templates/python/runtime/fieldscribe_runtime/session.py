@@ -111,9 +111,9 @@ class Session(NamedPoints, ABC):
         """Write words or bits at a place, in ascending order of address."""
 
     def _retried_steps(self, left: int, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
-        """Carry out one request, again while the line loses it, as often as is left; failures are counted.
+        """Carry out one request; repeat it up to `left` times while it or its reply is lost, and count failures.
 
-        What was selected is selected again first: the device may have restarted meanwhile.
+        A repetition first writes the selection again: the device may have restarted.
         """
         selected = self._selected
         while True:
@@ -403,7 +403,7 @@ class Session(NamedPoints, ABC):
         self._selected = {}
 
     def _select_steps(self, selects: tuple[tuple[str, int], ...]) -> Steps[None]:
-        """Write what points must hold before the address of another one means it, unless they hold it."""
+        """Write what points must hold before the address means another point, except what they hold already."""
         before = self._selected
         for count, (name, raw) in enumerate(selects):
             if before.get(name) != raw:

@@ -13,24 +13,24 @@ export function step(says: string, at: Place, words: readonly (number | StepWord
 }): Step;
 /** @param {...(Step | Partial<SteppedCommand>)} parts the steps, and the facts behind them @returns {SteppedCommand} */
 export function steppedCommand(...parts: (Step | Partial<SteppedCommand>)[]): SteppedCommand;
-/** The words of a step in place of those that the device held; one that waits is done when these are the same.
+/** The words to write, given those that the device holds; a step that waits is done if they are equal.
  * @param {Step} one @param {Readonly<Record<string, number>>} numbers @param {readonly number[]} held */
 export function mergedWords(one: Step, numbers: Readonly<Record<string, number>>, held: readonly number[]): number[];
-/** Whether the words of a step have to be read: to wait for them, or for the bits that stay. @param {Step} one */
+/** Whether the words of a step must be read: to wait for them, or to preserve bits. @param {Step} one */
 export function stepReads(one: Step): boolean;
 /**
- * Give a command, with the number of a constant write, or the arguments of steps by name.
+ * Send a command, with the number of a constant write, or the arguments of steps by name.
  * @param {import("./session.js").Session} session @param {string} name @param {AnyCommand} given
  * @param {number | Readonly<Record<string, number>>} [value]
  */
 export function giveCommand(session: import("./session.js").Session, name: string, given: AnyCommand, value?: number | Readonly<Record<string, number>>): Promise<void>;
 /** @param {number | string} value @param {string} test @param {readonly (number | string)[]} than */
 export function stepTestHolds(value: number | string, test: string, than: readonly (number | string)[]): boolean;
-/** Wait so many seconds. @param {number} seconds @returns {Promise<void>} */
+/** Wait. @param {number} seconds @returns {Promise<void>} */
 export function paused(seconds: number): Promise<void>;
 export type Place = import("./places.js").Place;
 /**
- * A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` stay as the device has them.
+ * A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` are preserved.
  */
 export type StepWord = {
     constant: number;
@@ -39,12 +39,12 @@ export type StepWord = {
     mask: number;
 };
 /**
- * Compares a variant axis, or a point by its raw number: what, how, and with which constants.
+ * Compares a variant axis, or a point by its raw number: its name, the operator, and the constants.
  */
 export type StepTest = readonly [string, string, readonly (number | string)[]];
 /**
- * One request: it writes words, or waits, at most `within` seconds, until the device has them. `when` has alternatives
- * of tests that hold together; without any the step is always taken.
+ * One request: it writes words, or waits at most `within` seconds until the device has them. `when` is a condition:
+ * groups of tests, one of which must hold; without any, the step is always taken.
  */
 export type Step = {
     says: string;
@@ -61,7 +61,7 @@ export type Command = {
     value?: number;
 };
 /**
- * Requests in order. `run` says when a device gives it: `first`, `before write`, or `by caller`.
+ * Requests in order. `run` says when a device sends them: `first`, `before write`, or `by caller`.
  */
 export type SteppedCommand = {
     requests: readonly Step[];

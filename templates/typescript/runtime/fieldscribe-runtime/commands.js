@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: 0BSD
-/** Commands: named constant writes, and several requests in order, such as set-up, keys and mailboxes. */
+/** Commands: named constant writes, and several requests in order, such as set-up sequences, keys and mailboxes. */
 import { AccessError, FieldscribeError, OutOfRangeError, RequestError, shown, WaitError } from "./errors.js";
 import { placeLabel } from "./places.js";
 
 /** @typedef {import("./places.js").Place} Place */
-/** A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` stay as the device has them.
+/** A word of a step: constant + factor * argument, modulo 65536. Bits outside `mask` are preserved.
  * @typedef {{ constant: number, factor: number, argument: string, mask: number }} StepWord */
-/** Compares a variant axis, or a point by its raw number: what, how, and with which constants.
+/** Compares a variant axis, or a point by its raw number: its name, the operator, and the constants.
  * @typedef {readonly [string, string, readonly (number | string)[]]} StepTest */
-/** One request: it writes words, or waits, at most `within` seconds, until the device has them. `when` has alternatives
- * of tests that hold together; without any the step is always taken.
+/** One request: it writes words, or waits at most `within` seconds until the device has them. `when` is a condition:
+ * groups of tests, one of which must hold; without any, the step is always taken.
  * @typedef {{ says: string, at: Place, words: readonly (number | StepWord)[], within?: number,
  *   when?: readonly (readonly StepTest[])[] }} Step */
 /** A write that makes the device do something; without a `value` any number does (1 if none is given).
  * @typedef {{ at: Place, value?: number }} Command */
-/** Requests in order. `run` says when a device gives it: `first`, `before write`, or `by caller`.
+/** Requests in order. `run` says when a device sends them: `first`, `before write`, or `by caller`.
  * @typedef {{ requests: readonly Step[], arguments: Readonly<Record<string, readonly [number, number]>>, run: string,
  *   every?: number }} SteppedCommand */
 /** @typedef {Command | SteppedCommand} AnyCommand */
@@ -50,7 +50,7 @@ export function steppedCommand(...parts) {
   return Object.freeze({ requests, arguments: {}, run: "by caller", ...facts });
 }
 
-/** The words of a step in place of those that the device held; one that waits is done when these are the same.
+/** The words to write, given those that the device holds; a step that waits is done if they are equal.
  * @param {Step} one @param {Readonly<Record<string, number>>} numbers @param {readonly number[]} held */
 export function mergedWords(one, numbers, held) {
   return one.words.map((word, at) => {
@@ -60,13 +60,13 @@ export function mergedWords(one, numbers, held) {
   });
 }
 
-/** Whether the words of a step have to be read: to wait for them, or for the bits that stay. @param {Step} one */
+/** Whether the words of a step must be read: to wait for them, or to preserve bits. @param {Step} one */
 export function stepReads(one) {
   return one.within !== undefined || one.words.some((word) => typeof word === "object" && word.mask !== WHOLE_WORD);
 }
 
 /**
- * Give a command, with the number of a constant write, or the arguments of steps by name.
+ * Send a command, with the number of a constant write, or the arguments of steps by name.
  * @param {import("./session.js").Session} session @param {string} name @param {AnyCommand} given
  * @param {number | Readonly<Record<string, number>>} [value]
  */
@@ -114,7 +114,7 @@ function checkedArguments(name, given, values) {
   return values;
 }
 
-/** Whether the condition of a step holds; points that it compares are read.
+/** Whether the condition of a step is true; reads the points that it compares.
  * @param {import("./session.js").Session} session @param {Step} one @returns {Promise<boolean>} */
 async function isTaken(session, one) {
   /** @type {Record<string, number | string>} */
@@ -141,7 +141,7 @@ export function stepTestHolds(value, test, than) {
   return than.includes(value) === (test !== "!=");
 }
 
-/** Write the words of a step, or wait for them; raises WaitError if they do not come during the pauses.
+/** Write the words of a step, or wait for them; raises WaitError if they do not appear in time.
  * @param {import("./session.js").Session} session @param {Step} one
  * @param {Readonly<Record<string, number>>} numbers */
 async function request(session, one, numbers) {
@@ -156,7 +156,7 @@ async function request(session, one, numbers) {
   }
 }
 
-/** Wait so many seconds. @param {number} seconds @returns {Promise<void>} */
+/** Wait. @param {number} seconds @returns {Promise<void>} */
 export function paused(seconds) {
   return new Promise((resolve) => setTimeout(resolve, seconds * 1000));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: 0BSD
-/** Everything that can go wrong, as errors: one base class, and `status` names the case. */
+/** The errors of generated devices: one base class; `status` names the case. */
 
 /**
  * Base of all errors of generated devices; `status` is a stable name for programs.
  *
- * `point` says which point was asked for; of several that one request reads, which they are; else the command or the
+ * `point` names the point, the points of one request, the command, or the
  * place. `group` is the group that was read, `needs` another point that had to be read first. `existsWhen` says when a
- * refused point exists, where other points decide that.
+ * refused point exists, if other points decide it.
  */
 export class FieldscribeError extends Error {
   /** @param {string} message @param {string} [status] */
@@ -29,13 +29,13 @@ export class FieldscribeError extends Error {
     this.limits = undefined;
   }
 
-  /** Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake. */
+  /** True if a frame was lost or damaged on the line, so that trying again may help. */
   get lost() {
     return false;
   }
 
   /**
-   * Say what the error is about; what is known already stays. Returns the error.
+   * Add the subject of the error, unless it has one. Returns the error.
    * @param {{ point?: string, group?: string, needs?: string, existsWhen?: string, value?: unknown, limits?: readonly unknown[] }} about
    */
   about(about) {
@@ -49,7 +49,7 @@ export class FieldscribeError extends Error {
   }
 
   /**
-   * Say that the error came while another point was read which that one needs. Returns the error.
+   * Add that the error came from reading another point that the requested one needs. Returns the error.
    * @param {string} point
    */
   needing(point) {
@@ -58,7 +58,7 @@ export class FieldscribeError extends Error {
     return this.reworded();
   }
 
-  /** The same error, to be raised once more. @returns {FieldscribeError} */
+  /** A copy of the error, to be raised again. @returns {FieldscribeError} */
   copied() {
     return Object.create(Object.getPrototypeOf(this), Object.getOwnPropertyDescriptors(this));
   }
@@ -92,7 +92,7 @@ export class NotANumberError extends CodecError {
   }
 }
 
-/** The value is of a type that the point does not take. */
+/** The point does not take a value of this type. */
 export class WrongTypeError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -100,7 +100,7 @@ export class WrongTypeError extends CodecError {
   }
 }
 
-/** The number is none of the named ones, and only those may be written. */
+/** The number has no name, and only named ones may be written. */
 export class UnknownValueError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -116,7 +116,7 @@ export class ZeroFactorError extends CodecError {
   }
 }
 
-/** No scale fits the numbers of the points that choose it. */
+/** The scale has no case for the numbers of the points that choose it. */
 export class NoCaseError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -124,7 +124,7 @@ export class NoCaseError extends CodecError {
   }
 }
 
-/** The result is too large to be represented. */
+/** The result is too large. */
 export class ResultOverflowError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -132,7 +132,7 @@ export class ResultOverflowError extends CodecError {
   }
 }
 
-/** A special code stands where a quantity belongs, or is to be written and only read; `special` is its name. */
+/** A special code instead of a quantity, or a write of a read-only one; `special` is its name. */
 export class SpecialCodeError extends CodecError {
   /** @param {string} special @param {string} message */
   constructor(special, message) {
@@ -141,7 +141,7 @@ export class SpecialCodeError extends CodecError {
   }
 }
 
-/** The words do not hold what they should: a text that is no UTF-8 or UTF-16. */
+/** The words are no valid text (UTF-8 or UTF-16), or no date. */
 export class MalformedError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -157,7 +157,7 @@ export class WrongLengthError extends CodecError {
   }
 }
 
-/** The conversion needs the raw number of another point, and `raws` does not hold it. */
+/** The conversion needs the raw number of another point, but `raws` does not hold it. */
 export class MissingRawError extends CodecError {
   /** @param {string} message */
   constructor(message) {
@@ -165,7 +165,7 @@ export class MissingRawError extends CodecError {
   }
 }
 
-/** The device has the point or the group, but not this: it is only written, belongs to another device, ... */
+/** The device has the point or the group but not this access: it is write-only, of another device, ... */
 export class AccessError extends FieldscribeError {
   /** @param {string} message */
   constructor(message) {
@@ -173,10 +173,10 @@ export class AccessError extends FieldscribeError {
   }
 }
 
-/** The device has no such point: the name is unknown, the point is documented only, or another variant has it. */
+/** The device has no such point: the name is unknown, the point is only documented, or another variant has it. */
 export class AbsentError extends AccessError {}
 
-/** What answers is another device: a point holds something else than the description says. */
+/** Another device answers: a point holds something else than the description says. */
 export class OtherDeviceError extends FieldscribeError {
   /** @param {string} message */
   constructor(message) {
@@ -184,7 +184,7 @@ export class OtherDeviceError extends FieldscribeError {
   }
 }
 
-/** The device did not come to what a step of a command waits for; `held` are the words that it had last. */
+/** The device did not reach what a step of a command waits for; `held` are the last words read. */
 export class WaitError extends FieldscribeError {
   /** @param {string} message @param {readonly number[]} held */
   constructor(message, held) {
@@ -211,12 +211,12 @@ export class RequestError extends FieldscribeError {
 
 const FINAL_STATUS = ["exception", "refused", "no_rights", "echo_mismatch", "wrong_type"];
 
-/** The reply is no good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...). */
+/** The reply is not a valid answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...). */
 export class FrameError extends FieldscribeError {
   /** @param {string} status @param {string} message */
   constructor(status, message) {
     super(message, status);
-    /** Process data that came in the same telegram, where the rest of it was good. @type {readonly number[]} */
+    /** Process data of the same telegram, if that part was valid. @type {readonly number[]} */
     this.words = [];
   }
 
@@ -225,7 +225,7 @@ export class FrameError extends FieldscribeError {
   }
 }
 
-/** The device took a write and confirmed another value than the one `written`: `answered` is what it has now. */
+/** The device confirmed a write with another value than the one `written`: `answered` is what it has now. */
 export class EchoError extends FrameError {
   /** @param {string} message @param {readonly number[]} written @param {readonly number[]} answered */
   constructor(message, written, answered) {
@@ -235,7 +235,7 @@ export class EchoError extends FrameError {
   }
 }
 
-/** What Modbus calls exceptions. @type {Readonly<Record<number, string>>} */
+/** The standard's names of Modbus exceptions. @type {Readonly<Record<number, string>>} */
 const STANDARD_NAMES = {
   0x01: "illegal_function",
   0x02: "illegal_data_address",
@@ -249,8 +249,8 @@ const STANDARD_NAMES = {
 };
 
 /**
- * The device refused the request with an exception `code`; `codeName` is the manual's name for it, where known. Where
- * the manual has none, the message has that of the standard.
+ * The device refused the request with an exception `code`; `codeName` is the manual's name for it, if known. If not,
+ * the message has the standard's name.
  */
 export class ExceptionReplyError extends FrameError {
   /** @param {number} code @param {string} [codeName] */
@@ -268,7 +268,7 @@ export class ExceptionReplyError extends FrameError {
   }
 }
 
-/** The device refused the task with an error number `code`; `codeName` is the manual's name for it, where known. */
+/** The device refused the task with an error number `code`; `codeName` is the manual's name for it, if known. */
 export class RefusedError extends FrameError {
   /** @param {number} code @param {string} [codeName] */
   constructor(code, codeName) {
@@ -278,7 +278,7 @@ export class RefusedError extends FrameError {
   }
 }
 
-/** Words of a telegram cannot be told; `status` is `missing` (not all came yet) or `torn` (they do not agree). */
+/** Words of a telegram are not available: `status` is `missing` (not all arrived yet) or `torn` (inconsistent). */
 export class TelegramError extends FieldscribeError {
   /** @param {string} status @param {string} message */
   constructor(status, message) {
@@ -286,7 +286,7 @@ export class TelegramError extends FieldscribeError {
   }
 }
 
-/** Nothing came that answers, in time; `received` is what came in its place. */
+/** No answer arrived in time; `received` is what arrived instead. */
 export class NoReplyError extends FieldscribeError {
   /** @param {string} message @param {Uint8Array} [received] */
   constructor(message, received) {

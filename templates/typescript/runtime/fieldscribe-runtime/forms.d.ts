@@ -1,6 +1,6 @@
 /** @param {Names} names @returns {string} */
 export function namedList(names: Names): string;
-/** The form with bits that are always written as a constant; special codes stay outermost.
+/** The form with constant bits; special codes stay outermost.
  * @param {Form} form @param {readonly [number, number]} fixed @returns {Form} */
 export function withFixed(form: Form, [mask, bits]: readonly [number, number]): Form;
 /** The raw number is the value. @param {WireType} wire @returns {Form} */
@@ -25,66 +25,66 @@ export function scaled(wire: WireType, scale: LinearRule | readonly import("./ru
 export function floating(wire: WireType, { units }?: {
     units?: readonly (readonly [number, number])[];
 }): Form;
-/** Another form beside special codes, to which no value is encoded. @param {Form} form
+/** A form with special codes, to which no value is encoded. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
 export function withCodes(form: Form, codes: import("./special.js").Codes): Form;
-/** The same with special codes of which some may be written. @param {Form} form
+/** The same with special codes that may be written. @param {Form} form
  * @param {import("./special.js").Codes} codes @returns {Form} */
 export function withWritableCodes(form: Form, codes: import("./special.js").Codes): Form;
 /** @typedef {import("./rules.js").Raws} Raws */
 /** @typedef {import("./rules.js").Allowed} Allowed */
 /** @typedef {Readonly<Record<string, number>>} Names */
-/** Converts quickly, and leaves what is unusual to the slow way. @typedef {(number: any, raws?: Raws) => any} Way */
-/** What raw numbers mean. Raw numbers of a form are bigint where its type has more than 32 bits. */
+/** Converts the usual cases, and others by a slower function. @typedef {(number: any, raws?: Raws) => any} Way */
+/** The meaning of raw numbers. They are bigint if the type has more than 32 bits. */
 export class Form {
     /** @param {WireType} wire */
     constructor(wire: WireType);
     wire: WireType;
     /** The points whose raw numbers the scale needs. @type {readonly string[]} */
     needs: readonly string[];
-    /** Counts are in units of 10^-decimals; undefined where there are none. @type {number | undefined} */
+    /** Counts are in units of 10^-decimals; undefined if there are none. @type {number | undefined} */
     decimals: number | undefined;
     codes: import("./special.js").Codes;
     /** @type {Names | import("./words.js").WordLayout | undefined} */
     names: Names | import("./words.js").WordLayout | undefined;
     /** The error for what may not be written. @type {new (message: string) => Error} */
     refused: new (message: string) => Error;
-    /** Whether values are encoded; numbers of too many bits are only decoded. */
+    /** Whether values can be encoded; numbers with too many bits can only be decoded. */
     encodes: boolean;
-    /** The value that a raw number means. @param {any} raw @param {Raws} raws @returns {any} */
+    /** The value of a raw number. @param {any} raw @param {Raws} raws @returns {any} */
     decode(raw: any, raws: Raws): any;
-    /** The raw number for a value, whether it may be written or not; undefined where there is none.
+    /** The raw number for a value, even if it may not be written; undefined if there is none.
      * @param {any} value @param {Raws} raws @returns {any} */
     converted(value: any, raws: Raws): any;
     /** A function that decodes raw numbers from `low` to `high` quickly. @param {any} low @param {any} high @param {Way} slow
      * @returns {Way} */
     quickDecode(low: any, high: any, slow: Way): Way;
-    /** A function that computes the value of an unsigned word, or undefined where there is none. @returns {((word: number) => any) | undefined} */
+    /** A function that computes the value of an unsigned word, or undefined if there is none. @returns {((word: number) => any) | undefined} */
     quickWord(): ((word: number) => any) | undefined;
     /** The value as a count of 10^-decimals units. @param {any} raw @param {Raws} raws @returns {bigint} */
     decodeCount(raw: any, raws: Raws): bigint;
-    /** The raw number for a count, whether it may be written or not. @param {unknown} count @param {Raws} raws @returns {any} */
+    /** The raw number for a count, even if it may not be written. @param {unknown} count @param {Raws} raws @returns {any} */
     convertedCount(count: unknown, raws: Raws): any;
-    /** The same number; undefined if it may not be written. @param {any} raw @param {Allowed} allowed @param {Raws} raws
+    /** The number; undefined if it may not be written. @param {any} raw @param {Allowed} allowed @param {Raws} raws
      * @returns {any} */
     checked(raw: any, allowed: Allowed, raws: Raws): any;
-    /** The least and greatest number of `width` bits that the form knows, if nothing else bounds them.
+    /** The least and greatest number of the form in `width` bits.
      * @param {number} width @returns {[any, any]} */
     limits(width: number): [any, any];
-    /** The least and greatest quantity for raw numbers of a range; undefined where there are none.
+    /** The least and greatest quantity for raw numbers of a range; undefined if there are none.
      * @param {any} low @param {any} high @returns {[number, number] | undefined} */
     bounds(low: any, high: any): [number, number] | undefined;
-    /** The raw number as people read it, in the unit; a quantity with `display` decimals, if given.
+    /** The value of a raw number as text without the unit; a quantity with `display` decimals, if given.
      * @param {any} raw @param {Raws} raws @param {number} [display] @returns {string} */
     shown(raw: any, raws: Raws, display?: number): string;
     /** Whether two raw numbers mean the same. @param {any} raw @param {any} other */
     same(raw: any, other: any): boolean;
-    /** Why a value is refused, if it is not for the range of raw numbers. @param {string} unit @returns {string | undefined} */
+    /** Why a value is refused, if not for the range of raw numbers. @param {string} unit @returns {string | undefined} */
     choices(unit: string): string | undefined;
     /** The name of a raw number. @param {any} raw @returns {string | undefined} */
     nameOf(raw: any): string | undefined;
 }
-/** Another form as it is, but for what a subclass defines. */
+/** A form that delegates to another one, except for what a subclass overrides. */
 export class AroundForm extends Form {
     /** @param {Form} form */
     constructor(form: Form);
@@ -94,7 +94,7 @@ export type Raws = import("./rules.js").Raws;
 export type Allowed = import("./rules.js").Allowed;
 export type Names = Readonly<Record<string, number>>;
 /**
- * Converts quickly, and leaves what is unusual to the slow way.
+ * Converts the usual cases, and others by a slower function.
  */
 export type Way = (number: any, raws?: Raws) => any;
 import { WireType } from "./wire-types.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-/** What generated packages share: points with their codecs, places, commands and errors. */
+/** The common part of generated packages: points with their codecs, places, commands and errors. */
 export * from "./commands.js";
 export * from "./dates.js";
 export * from "./errors.js";

@@ -1,7 +1,7 @@
 /**
- * What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
+ * What a device supports: functions with the most items of one request, unit numbers, and its peculiarities.
  *
- * `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it.
+ * `broadcast` is the unit number of all units, `broadcasts` the functions that may be sent to it.
  * @typedef {object} ModbusProfile
  * @property {Readonly<Record<number, number>>} functions
  * @property {readonly [number, number]} units
@@ -16,16 +16,16 @@
  * @typedef {{ unit: number, function: number, address: number, count?: number,
  *   values?: readonly number[] }} ModbusRequest
  */
-/** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and what follows it, nothing around that. */
+/** @typedef {"rtu" | "tcp" | "pdu"} ModbusFraming  `pdu` is the unit and the request, without the rest of the frame. */
 /**
- * The profile of a device; what is left out is usual.
+ * The profile of a device; facts that are left out have the usual value.
  * @param {Partial<ModbusProfile> & Pick<ModbusProfile, "functions">} facts
  * @returns {ModbusProfile}
  */
 export function modbusProfile(facts: Partial<ModbusProfile> & Pick<ModbusProfile, "functions">): ModbusProfile;
-/** The CRC-16 of RTU frames; it travels low byte first. @param {Uint8Array} data @returns {number} */
+/** The CRC-16 of RTU frames; its low byte is sent first. @param {Uint8Array} data @returns {number} */
 export function modbusCrc(data: Uint8Array): number;
-/** Raises RequestError (bad_framing) if the device does not frame its telegrams so.
+/** Raises RequestError (bad_framing) if the device does not support the framing.
  * @param {string} framing @param {ModbusProfile} profile */
 export function checkFraming(framing: string, profile: ModbusProfile): void;
 /** Raises RequestError if the device does not take such a request.
@@ -50,9 +50,9 @@ export function tcpReplySize(received: Uint8Array): number | null;
  */
 export function modbusReplyShape(request: Uint8Array, framing: string, broadcast: boolean): import("./receiving.js").ReplyShape;
 /**
- * What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
+ * The content of a reply to `request`: words, bits as 0 or 1, the echoed value, or nothing for a block write.
  *
- * Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
+ * Raises FrameError unless this is a valid answer; its subclass ExceptionReplyError has the device's code.
  * @param {ModbusRequest} request @param {Uint8Array} reply @param {ModbusProfile} profile
  * @param {string} [framing] @param {number} [transaction]
  * @returns {number[]}
@@ -72,9 +72,9 @@ export const MODBUS_READS: readonly number[];
 /** @type {readonly number[]} */
 export const MODBUS_WRITES: readonly number[];
 /**
- * What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
+ * What a device supports: functions with the most items of one request, unit numbers, and its peculiarities.
  *
- * `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it.
+ * `broadcast` is the unit number of all units, `broadcasts` the functions that may be sent to it.
  */
 export type ModbusProfile = {
     functions: Readonly<Record<number, number>>;
@@ -96,6 +96,6 @@ export type ModbusRequest = {
     values?: readonly number[];
 };
 /**
- * `pdu` is the unit and what follows it, nothing around that.
+ * `pdu` is the unit and the request, without the rest of the frame.
  */
 export type ModbusFraming = "rtu" | "tcp" | "pdu";

@@ -42,7 +42,7 @@ const CLIENT_FAULTS = [
   ["wrong_function", /code/i],
 ];
 
-/** A line over a client that is connected; it keeps the client's timeout. Loop-back tests and padding are not there. */
+/** A line over a client that is connected; it keeps the client's timeout. It has no loop-back test and no padding. */
 export class ModbusSerialLine {
   /** @param {ModbusSerialClient} client */
   constructor(client) {

@@ -7,21 +7,21 @@ export function roundRatio(num: bigint, den: bigint): bigint;
 export function nearestQuotient(num: bigint, den: bigint): number;
 /** A finite binary64 as an exact quotient. @param {number} value @returns {[bigint, bigint]} */
 export function exactRatio(value: number): [bigint, bigint];
-/** A finite number to the nearest integer, halves away from zero; no zero has a sign. @param {number} value */
+/** The integer nearest to a finite number, halves away from zero; never -0. @param {number} value */
 export function roundNumber(value: number): number;
 /** @param {bigint} one @param {bigint} other @returns {bigint} */
 export function greatestDivisor(one: bigint, other: bigint): bigint;
-/** A quotient with so many decimals: to nearest, halves away from zero; what rounds to zero has no sign.
+/** A quotient with some decimals, to nearest, halves away from zero; never `-0`.
  * @param {bigint} num @param {bigint} den @param {number} decimals @returns {string} */
 export function decimalText(num: bigint, den: bigint, decimals: number): string;
-/** A number with at most so many significant digits, ties to even: `50`, `0.1`, `1.5e+20`.
+/** A number with a limited number of significant digits, ties to even: `50`, `0.1`, `1.5e+20`.
  * @param {number} value @param {number} [digits] @returns {string} */
 export function significant(value: number, digits?: number): string;
 /** A value for messages. @param {unknown} value @returns {string} */
 export function valueText(value: unknown): string;
 /**
- * A number that has to be an integer, as it is. Raises OutOfRangeError for a number that is none, and WrongTypeError
- * for what is no number: a boolean too, since that is a mistake more often than a 1.
+ * The number, if it is an integer. Raises OutOfRangeError for any other number, and WrongTypeError
+ * for anything else, such as a boolean, which is usually a mistake.
  * @param {unknown} number @returns {Raw}
  */
 export function wholeNumber(number: unknown): Raw;
@@ -31,6 +31,6 @@ export function rawNumber(number: unknown, width: number): Raw;
 /** A value that was computed; raises ResultOverflowError for one beyond binary64. @param {number} value @param {Raw} raw */
 export function finite(value: number, raw: Raw): number;
 /**
- * A raw number: a bigint where the type has more than 32 bits.
+ * A raw number: a bigint if the type has more than 32 bits.
  */
 export type Raw = number | bigint;

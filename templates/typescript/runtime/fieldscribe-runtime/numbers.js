@@ -2,7 +2,7 @@
 /** Exact numbers: rounding, quotients to the nearest binary64, and numbers as text; all of it by integers. */
 import { OutOfRangeError, ResultOverflowError, shown, WrongTypeError } from "./errors.js";
 
-/** A raw number: a bigint where the type has more than 32 bits. @typedef {number | bigint} Raw */
+/** A raw number: a bigint if the type has more than 32 bits. @typedef {number | bigint} Raw */
 
 const VIEW = new DataView(new ArrayBuffer(8));
 const SIGNIFICAND_BITS = 53;
@@ -54,7 +54,7 @@ export function exactRatio(value) {
   return shift < 0 ? [num, 1n << BigInt(-shift)] : [num << BigInt(shift), 1n];
 }
 
-/** A finite number to the nearest integer, halves away from zero; no zero has a sign. @param {number} value */
+/** The integer nearest to a finite number, halves away from zero; never -0. @param {number} value */
 export function roundNumber(value) {
   const whole = Math.trunc(value);
   const rest = value - whole;
@@ -68,7 +68,7 @@ export function greatestDivisor(one, other) {
   return large;
 }
 
-/** A quotient with so many decimals: to nearest, halves away from zero; what rounds to zero has no sign.
+/** A quotient with some decimals, to nearest, halves away from zero; never `-0`.
  * @param {bigint} num @param {bigint} den @param {number} decimals @returns {string} */
 export function decimalText(num, den, decimals) {
   const count = roundRatio(num * 10n ** BigInt(decimals), den);
@@ -78,7 +78,7 @@ export function decimalText(num, den, decimals) {
   return decimals ? `${sign}${digits.slice(0, split)}.${digits.slice(split)}` : sign + digits;
 }
 
-/** A number with at most so many significant digits, ties to even: `50`, `0.1`, `1.5e+20`.
+/** A number with a limited number of significant digits, ties to even: `50`, `0.1`, `1.5e+20`.
  * @param {number} value @param {number} [digits] @returns {string} */
 export function significant(value, digits = 12) {
   if (Number.isNaN(value)) return "nan";
@@ -108,8 +108,8 @@ export function valueText(value) {
 }
 
 /**
- * A number that has to be an integer, as it is. Raises OutOfRangeError for a number that is none, and WrongTypeError
- * for what is no number: a boolean too, since that is a mistake more often than a 1.
+ * The number, if it is an integer. Raises OutOfRangeError for any other number, and WrongTypeError
+ * for anything else, such as a boolean, which is usually a mistake.
  * @param {unknown} number @returns {Raw}
  */
 export function wholeNumber(number) {

@@ -29,7 +29,7 @@ export function parameter(...where: (number | PlaceFacts)[]): Place;
 /** Words of a telegram, counted from 0. @param {string} name @param {...(number | PlaceFacts)} where
  * @returns {Place} */
 export function telegram(name: string, ...where: (number | PlaceFacts)[]): Place;
-/** The space, and what addresses in it count from: addresses of one area name the same words. @param {Place} at */
+/** The space and its base: equal addresses in one area are the same words. @param {Place} at */
 export function areaOf(at: Place): string;
 /** The lowest address, which a request names. @param {Place} at @returns {number} */
 export function lowestOf(at: Place): number;
@@ -37,10 +37,10 @@ export function lowestOf(at: Place): number;
 export function highestOf(at: Place): number;
 /** The addresses from the lowest on. @param {Place} at @returns {number[]} */
 export function ascending(at: Place): number[];
-/** The words of a place as places that have no others between them, from the lowest address on.
+/** The words of a place as places without gaps, from the lowest address on.
  * @param {Place} at @returns {Place[]} */
 export function runsOf(at: Place): Place[];
-/** Whether some word or bit belongs to both places. @param {Place} one @param {Place} other @returns {boolean} */
+/** Whether both places have a word or bit in common. @param {Place} one @param {Place} other @returns {boolean} */
 export function placesOverlap(one: Place, other: Place): boolean;
 /** The place for messages: the first of several words. @param {Place} at @returns {string} */
 export function placeLabel(at: Place): string;

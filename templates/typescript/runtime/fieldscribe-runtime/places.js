@@ -61,7 +61,7 @@ export function telegram(name, ...where) {
   return { ...placeIn("telegram", where), telegram: name };
 }
 
-/** The space, and what addresses in it count from: addresses of one area name the same words. @param {Place} at */
+/** The space and its base: equal addresses in one area are the same words. @param {Place} at */
 export function areaOf(at) {
   return at.base === undefined ? at.space : `${at.space} from ${at.base}`;
 }
@@ -81,7 +81,7 @@ export function ascending(at) {
   return [...at.addresses].sort((one, other) => one - other);
 }
 
-/** The words of a place as places that have no others between them, from the lowest address on.
+/** The words of a place as places without gaps, from the lowest address on.
  * @param {Place} at @returns {Place[]} */
 export function runsOf(at) {
   /** @type {number[][]} */
@@ -94,7 +94,7 @@ export function runsOf(at) {
   return runs.map((addresses) => ({ ...at, addresses }));
 }
 
-/** Whether some word or bit belongs to both places. @param {Place} one @param {Place} other @returns {boolean} */
+/** Whether both places have a word or bit in common. @param {Place} one @param {Place} other @returns {boolean} */
 export function placesOverlap(one, other) {
   if (areaOf(one) !== areaOf(other) || one.telegram !== other.telegram) return false;
   if (one.index !== undefined && other.index !== undefined && one.index !== other.index) return false;

@@ -28,7 +28,7 @@ export type Raws = import("./rules.js").Raws;
 export type Form = import("./forms.js").Form;
 export type Place = import("./places.js").Place;
 /**
- * What a description says of a point. `name` is the description's, `item` tells it from those of other variants;
+ * The facts of a point. `name` is the description's, `item` differs from that of other variants;
  * `allowed` are the raw numbers that may be written, `fixed` a mask and the bits that are always written there.
  */
 export type FactsOfPoint = {
@@ -67,7 +67,7 @@ declare class ReadWriteCodec extends ReadOnlyCodec {
 /** @typedef {import("./forms.js").Form} Form */
 /** @typedef {import("./places.js").Place} Place */
 /**
- * What a description says of a point. `name` is the description's, `item` tells it from those of other variants;
+ * The facts of a point. `name` is the description's, `item` differs from that of other variants;
  * `allowed` are the raw numbers that may be written, `fixed` a mask and the bits that are always written there.
  * @typedef {{ name: string, item?: string, at: Place, writeAt?: Place, bits?: readonly [number, number], group?: string,
  *   code?: string, references?: Readonly<Record<string, number | string>>, unit?: string, display?: number,
@@ -78,14 +78,14 @@ declare class ReadWriteCodec extends ReadOnlyCodec {
  *   selects?: readonly (readonly [string, number])[],
  *   writeWith?: readonly string[], keeps?: string }} FactsOfPoint
  */
-/** One addressable datum. Its methods need no device; which there are follows from what can be read or written. */
+/** One data point. Its methods need no device; they depend on its access. */
 declare class Codec {
     /** @param {Form} form @param {FactsOfPoint} facts */
     constructor(form: Form, facts: FactsOfPoint);
     facts: FactsOfPoint;
     form: import("./forms.js").Form;
     name: string;
-    /** The name, with the variant where only one has the point. */
+    /** The name, with the variant if only one has the point. */
     item: string;
     at: import("./places.js").Place;
     code: string | undefined;
@@ -93,18 +93,18 @@ declare class Codec {
     unit: string;
     references: Readonly<Record<string, string | number>>;
     lowestBit: number;
-    /** How many bits the raw number has. */
+    /** The number of bits of the raw number. */
     width: number;
-    /** How many words (or single bits) it takes. */
+    /** The number of its words (or single bits). */
     size: number;
     least: any;
     greatest: any;
     get access(): string;
     /** Code and name, for messages. */
     get label(): string;
-    /** Counts are in units of 10^-decimals; undefined where there are none. */
+    /** Counts are in units of 10^-decimals; undefined if there are none. */
     get decimals(): number | undefined;
-    /** What names its numbers or its flags, where they have names. */
+    /** The names of its numbers or flags, if they have names. */
     get names(): import("./words.js").WordLayout | Readonly<Record<string, number>> | undefined;
     /** The special codes by name. */
     get special(): Readonly<Record<string, SpecialCode<string>>>;
@@ -114,11 +114,11 @@ declare class Codec {
     get scaleNeeds(): readonly string[];
     /** The points whose raw numbers checking needs. @returns {readonly string[]} */
     get limitNeeds(): readonly string[];
-    /** The raw numbers that the description allows. @returns {import("./rules.js").Allowed} */
+    /** The raw numbers that may be written. @returns {import("./rules.js").Allowed} */
     get allowed(): import("./rules.js").Allowed;
     /** The least and the greatest raw number that is ever allowed, whatever other points hold. @returns {[any, any]} */
     get rawLimits(): [any, any];
-    /** The least value that is ever allowed; undefined where there is none, or other points decide. */
+    /** The least value that is ever allowed; undefined if there is none, or other points decide. */
     get minimum(): number | undefined;
     /** The greatest value that is ever allowed. */
     get maximum(): number | undefined;
@@ -139,12 +139,12 @@ declare class Codec {
     /** Whether two raw numbers mean the same. @param {any} raw @param {any} other */
     same(raw: any, other: any): boolean;
     /**
-     * A value as people read it, with the unit: `50 Hz`. It has as many decimals as the description says, else as many as
-     * it takes. Raises as `encode` does, but whether the value may be written does not matter.
+     * A value as text with its unit: `50 Hz`. It has the decimals of the description, or else as many as
+     * needed. Raises as `encode` does, but also takes values that may not be written.
      * @param {any} value @param {Raws} [raws] @returns {string}
      */
     text(value: any, raws?: Raws): string;
-    /** A raw number as `text` says its value; as `raw ...` where `raws` do not say what it means.
+    /** The value of a raw number as `text` does, or `raw ...` if `raws` lacks what the scale needs.
      * @param {any} raw @param {Raws} [raws] @returns {string} */
     told(raw: any, raws?: Raws): string;
     get _unit(): string;

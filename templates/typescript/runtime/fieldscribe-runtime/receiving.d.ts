@@ -12,10 +12,10 @@ export function checkInteger(status: string, what: string, number: unknown): voi
  * @param {string} status @param {string} what @param {number} number @param {readonly [number, number]} ends */
 export function checkNumber(status: string, what: string, number: number, [low, high]: readonly [number, number]): void;
 /**
- * What a line must know of the reply to a request. Nobody answers a `broadcast`: a line resolves at once with no bytes.
+ * What a line must know of the reply to a request. After a `broadcast`, a line resolves at once with no bytes.
  *
- * `size` tells the length of the frame that begins with these bytes, null while they are too few; `isOwn` whether a
- * whole frame belongs to the request: it has its unit, or transaction.
+ * `size` returns the length of the frame that starts with these bytes, null while they are too few; `isOwn` whether a
+ * frame belongs to the request: it has its unit, or transaction.
  * @typedef {object} ReplyShape
  * @property {string} framing
  * @property {boolean} broadcast
@@ -25,13 +25,13 @@ export function checkNumber(status: string, what: string, number: number, [low, 
  * @property {(frame: Uint8Array) => boolean} isOwn
  */
 /**
- * Carries one request to the bus and one reply back; rejects with NoReplyError when none comes in time, and with
- * LineError where the line itself failed. Lines take one exchange after the other.
+ * Sends one request and receives one reply; rejects with NoReplyError if none comes in time, and with
+ * LineError if the line itself failed. Lines do one exchange at a time.
  * @typedef {object} Line
  * @property {string} [framing] what the frames look like: `rtu`, `tcp`, `pdu` or `uss`
  * @property {(request: Uint8Array, reply: ReplyShape) => Promise<Uint8Array>} exchange
  */
-/** Collects the reply to one request out of bytes as they come. Whole frames of others are dropped. */
+/** Collects the reply to one request from received bytes. Frames of other units are dropped. */
 export class ReplyReader {
     /** @param {ReplyShape} shape */
     constructor(shape: ReplyShape);
@@ -41,19 +41,19 @@ export class ReplyReader {
     /** @type {Uint8Array | undefined} */
     foreign: Uint8Array | undefined;
     /**
-     * Add bytes that came; returns the reply once it is whole. Raises FrameError (long_frame) when there are more bytes
-     * than any frame has, and no frame among them.
+     * Add received bytes; returns the reply once it is complete. Raises FrameError (long_frame) if there are more bytes
+     * than any frame has, but no frame.
      * @param {Uint8Array} data @returns {Uint8Array | undefined}
      */
     take(data: Uint8Array): Uint8Array | undefined;
-    /** The last frame of another address, for the error that names it; raises NoReplyError without one. */
+    /** The last frame with another address, for the error message; raises NoReplyError if there is none. */
     giveUp(): Uint8Array<ArrayBufferLike>;
 }
 /**
- * What a line must know of the reply to a request. Nobody answers a `broadcast`: a line resolves at once with no bytes.
+ * What a line must know of the reply to a request. After a `broadcast`, a line resolves at once with no bytes.
  *
- * `size` tells the length of the frame that begins with these bytes, null while they are too few; `isOwn` whether a
- * whole frame belongs to the request: it has its unit, or transaction.
+ * `size` returns the length of the frame that starts with these bytes, null while they are too few; `isOwn` whether a
+ * frame belongs to the request: it has its unit, or transaction.
  */
 export type ReplyShape = {
     framing: string;
@@ -64,8 +64,8 @@ export type ReplyShape = {
     isOwn: (frame: Uint8Array) => boolean;
 };
 /**
- * Carries one request to the bus and one reply back; rejects with NoReplyError when none comes in time, and with
- * LineError where the line itself failed. Lines take one exchange after the other.
+ * Sends one request and receives one reply; rejects with NoReplyError if none comes in time, and with
+ * LineError if the line itself failed. Lines do one exchange at a time.
  */
 export type Line = {
     /**

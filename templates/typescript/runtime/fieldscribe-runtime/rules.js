@@ -54,13 +54,13 @@ export class Factor {
     /** @type {number | bigint} */
     this.intercept = 0;
     this.power = 1;
-    /** Between which raw numbers ten to that number holds. @type {Band | undefined} */
+    /** The raw numbers where ten to that number applies. @type {Band | undefined} */
     this.tenTo = undefined;
     /** Whether the raw number is the pattern of a binary32 number. */
     this.f32 = false;
     /** Bands of raw numbers that are no quantity. @type {readonly Band[]} */
     this.codes = [];
-    /** Between which raw numbers the scale is exact. @type {Band | undefined} */
+    /** The raw numbers where the scale is exact. @type {Band | undefined} */
     this.within = undefined;
     Object.assign(this, facts);
   }
@@ -235,7 +235,7 @@ export function highEnd(bound, raws) {
   return raw === undefined || raw > bound.greatest ? bound.greatest : raw;
 }
 
-/** What a refused number is, by the limits as people read them. @param {readonly (readonly [string, string])[]} intervals
+/** Why a number is refused, with the limits as texts. @param {readonly (readonly [string, string])[]} intervals
  * @param {string} unit @returns {string} */
 export function outsideText(intervals, unit) {
   const texts = intervals.map(([low, high]) => (low === high ? low : `${low}..${high}`));

@@ -45,7 +45,7 @@ function conditionOf(point) {
   return point.facts.when ?? [];
 }
 
-/** A device on a bus: its unit number, its variants, and what is remembered of it. One operation at a time. */
+/** A device on a bus: its unit number, its variants, and what was read before. One operation at a time. */
 export class Session {
   /** The points of the device; `defineDevice` sets it. @type {PointTable} */
   get table() {
@@ -63,19 +63,19 @@ export class Session {
     this.line = line;
     this.unit = options.unit;
     this.variants = this.table.variants(options);
-    /** So often a request is sent again after the line lost it or its reply; a command is sent once. */
+    /** How often a request is repeated after it or its reply was lost; a command is never repeated. */
     this.retries = 0;
-    /** Seconds between a failure and the next try. */
+    /** Seconds between a failure and the repetition. */
     this.retryPause = 0;
-    /** Requests, good replies, and failures by status. */
+    /** Requests, valid replies, and failures by status. */
     this.traffic = { requests: 0, replies: 0, errors: /** @type {Record<string, number>} */ ({}) };
     this._profile = this.table.facts.profile;
     /** @type {PointRaws} */
     this._kept = new Map();
-    /** What was selected last, by point; forgotten when an exchange fails, or something else is written.
+    /** The current selection, by point; forgotten when an exchange fails or something else is written.
      * @type {Map<string, number>} */
     this._selected = new Map();
-    /** What `readMany` does not request again. @type {Refusals} */
+    /** Refusals that last: `readMany` does not request these points again. @type {Refusals} */
     this._refused = new Map();
     this._isFirstDue = true;
     this._isOnce = false;
@@ -97,7 +97,7 @@ export class Session {
     throw new RequestError("bad_space", `${placeLabel(at)} cannot take ${words.length} words`);
   }
 
-  /** Carry out an operation once those before it are done, before it the commands that come first.
+  /** After earlier operations, send the commands that must come first, then carry out this one.
    * @template T @param {() => Promise<T>} work @param {boolean} [prepares] @returns {Promise<T>} */
   _run(work, prepares = true) {
     const turn = this._turn.then(async () => {
@@ -118,7 +118,7 @@ export class Session {
     }
   }
 
-  /** Send nothing again meanwhile: what a device did already must not be done twice.
+  /** Turn off repetitions inside, so that no command is carried out twice.
    * @template T @param {() => Promise<T>} work @returns {Promise<T>} */
   async _once(work) {
     this._isOnce = true;
@@ -129,7 +129,7 @@ export class Session {
     }
   }
 
-  /** Add to errors raised meanwhile what was requested. @template T
+  /** Add to errors raised inside what was requested. @template T
    * @param {AnyPoint | readonly AnyPoint[] | string} what @param {() => Promise<T>} work @returns {Promise<T>} */
   async _about(what, work) {
     try {
@@ -143,7 +143,7 @@ export class Session {
     }
   }
 
-  /** Carry out one request, again while the line loses it, as often as is left; failures are counted. What was selected
+  /** Carry out one request; repeat it while it or its reply is lost, and count failures. What was selected
    * is selected again first: the device may have restarted meanwhile.
    * @template T @param {number} left @param {() => Promise<T>} ask @returns {Promise<T>} */
   async _retried(left, ask) {
@@ -164,7 +164,7 @@ export class Session {
     }
   }
 
-  /** One exchange over the line; `awaited` is said where no reply comes. @param {any} request @param {any} reply
+  /** One exchange over the line; `awaited` is the text for a missing reply. @param {any} request @param {any} reply
    * @param {string} awaited @returns {Promise<any>} */
   async _exchange(request, reply, awaited) {
     this.traffic.requests++;
@@ -178,7 +178,7 @@ export class Session {
     }
   }
 
-  /** What a test of a step compares: the value of an axis, or the raw number of a point. @param {string} of
+  /** The operand of a test: the value of an axis, or the raw number of a point. @param {string} of
    * @returns {Promise<number | string>} */
   async _compared(of) {
     if (!(of in (this.table.facts.variants ?? {}))) {
@@ -197,7 +197,7 @@ export class Session {
     );
   }
 
-  /** The raw number in words that came; it is remembered if the description says when it changes.
+  /** The raw number in received words; remembered if the description says how often it changes.
    * @param {AnyPoint} point @param {readonly number[]} words @returns {number | bigint} */
   _taken(point, words) {
     const raw = point.fromWords(words);
@@ -207,10 +207,10 @@ export class Session {
     return raw;
   }
 
-  /** The raw numbers that a point needs of others, by name: those known, those remembered, the rest read.
+  /** The raw numbers of others that a point needs, by name: known ones, remembered ones, or read now.
    *
-   * What is written must not follow from a number that has changed meanwhile, by another master or by hand: then only
-   * what never changes is taken from memory.
+   * Before a write, only numbers that never change are taken from memory: another master, or a person, may have
+   * changed the others since.
    * @param {AnyPoint} point @param {Iterable<string>} names
    * @param {{ known?: PointRaws, refusals?: Refusals, writes?: boolean }} [how]
    * @returns {Promise<Record<string, number | bigint>>}
@@ -237,7 +237,7 @@ export class Session {
     return raws;
   }
 
-  /** The point that another one needs; raises AccessError that says so. @param {AnyPoint} point @param {string} name
+  /** A point that another one needs; the AccessError names both. @param {AnyPoint} point @param {string} name
    * @returns {AnyPoint} */
   _needed(point, name) {
     const found = this.table.found(name, this.variants);
@@ -251,7 +251,7 @@ export class Session {
     return point.decode(await this._readRaw(point), raws);
   }
 
-  /** Write a value, to another place than the usual one where one is named.
+  /** Write a value, to the point's own place or a given one.
    * @param {AnyPoint} point @param {unknown} value @param {Place} [at] */
   async _write(point, value, at) {
     point.require?.(value);
@@ -269,7 +269,7 @@ export class Session {
     await this._putRaw(point, raw, raws, at);
   }
 
-  /** Write a raw number that was checked; raises EchoError if the device confirms another one.
+  /** Write a checked raw number; raises EchoError if the device confirms another one.
    * @param {AnyPoint} point @param {number | bigint} raw @param {Record<string, number | bigint>} raws
    * @param {Place} [at] */
   async _putRaw(point, raw, raws, at) {
@@ -390,7 +390,7 @@ export class Session {
     this._selected = selects.length ? new Map(selects) : before;
   }
 
-  /** Read the raw numbers of several points, those together whose addresses mean them at the same time.
+  /** Read the raw numbers of several points, together where they need the same selection.
    * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
    * @returns {Promise<PointRaws>} */
   async _gatherSelected(points, group, refusals) {
@@ -409,7 +409,7 @@ export class Session {
     return raws;
   }
 
-  /** Read the raw numbers of several points (of a whole group, where one is named): place by place.
+  /** Read the raw numbers of several points (or of a whole group), place by place.
    * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
    * @returns {Promise<PointRaws>} */
   async _gather(points, group, refusals) {
@@ -437,7 +437,7 @@ export class Session {
     return raws;
   }
 
-  /** Read some points by one request; where `refusals` are noted, by one each if the device refuses that.
+  /** Read some points in one request; if the device refuses it and `refusals` are collected, one request each.
    * @param {readonly AnyPoint[]} points @param {Refusals | undefined} refusals @param {() => Promise<PointRaws>} ask
    * @param {any} [block] @returns {Promise<PointRaws>} */
   async _part(points, refusals, ask, block) {
@@ -464,25 +464,25 @@ export class Session {
     return raws;
   }
 
-  /** Note that the device refuses a part for what lies between its points: each of them comes by itself.
+  /** Record that the device refuses addresses between points; each point is read by itself from then on.
    * @param {readonly AnyPoint[]} points @param {any} block */
   _noteGaps(points, block) {
     void [points, block];
   }
 
-  /** The points of a group that are in this device; families with blocks look there. @param {AnyPoint[]} points
+  /** The points of a group that this device has; families with blocks look there. @param {AnyPoint[]} points
    * @returns {Promise<AnyPoint[]>} */
   async _there(points) {
     return points;
   }
 
-  /** Whether the words of a point travel the way the link is set; families say where that differs.
+  /** Whether the link, as it is set, carries the words of a point; families override it.
    * @param {AnyPoint} point @returns {boolean} */
   _isCarried(point) {
     return point !== undefined;
   }
 
-  /** The points whose conditions may hold by what the device has now; what they compare is read.
+  /** The points whose conditions may be true now; reads the points that conditions compare.
    * @param {AnyPoint[]} points @returns {Promise<AnyPoint[]>} */
   async _existingOf(points) {
     const names = points.flatMap((point) => {
@@ -507,7 +507,7 @@ export class Session {
     });
   }
 
-  /** Ask for a point, and add to a refusal what other points must hold for it to exist.
+  /** Read a point, and add to a refusal the condition under which it exists.
    * @template T @param {AnyPoint} point @param {() => Promise<T>} ask @returns {Promise<T>} */
   async _existing(point, ask) {
     try {
@@ -529,7 +529,7 @@ export class Session {
     error.about({ existsWhen: clauses.join(" or ") });
   }
 
-  /** The values of points, by name, and before them what their scales need.
+  /** Read what the scales of points need, then return the values by name.
    * @param {readonly AnyPoint[]} points @param {string | undefined} group @param {Refusals} [refusals]
    * @returns {Promise<Record<string, any>>} */
   async _values(points, group, refusals) {
@@ -581,7 +581,7 @@ export class Session {
     return members.filter((point) => point.decode && travels(point));
   }
 
-  /** Raises AccessError if the point belongs to another variant than the one given for this device, or is not one.
+  /** Raises AccessError if the point belongs to another variant than this device, or is no point.
    * @param {AnyPoint} point @returns {AnyPoint} */
   _required(point) {
     const { variant, onlyFor } = point.facts;
@@ -627,7 +627,7 @@ export class Session {
     return handle;
   }
 
-  /** Where a point is written; families with several memories choose. @param {AnyPoint} point @param {boolean} keep
+  /** The place to write a point; families with several memories choose. @param {AnyPoint} point @param {boolean} keep
    * @returns {Place | undefined} */
   _writePlace(point, keep) {
     if (keep) throw new AccessError(`${labelOf(point)} has no choice of keeping its value`);
@@ -646,9 +646,9 @@ export class Session {
   /**
    * Read a group by its name, or several points, with few requests; values by attribute.
    *
-   * With `errors: "return"` a point that is absent, refused or without a value has its error as value, and only a lost
-   * line raises. A point that the device refused by exception 01h to 03h is then not requested again, but has the same
-   * error, until it was read in another way or `forget()` is called.
+   * With `errors: "return"`, a point that is absent, refused or without a value has its error as its value; only a lost
+   * line raises. A point that the device refused with exception 01h to 03h is not requested again but has the same
+   * error, until it is read in another way or `forget()` is called.
    * @param {string | Iterable<string | object>} what @param {{ errors?: "raise" | "return" }} [how]
    * @returns {Promise<Record<string, any>>}
    */
@@ -715,7 +715,7 @@ export class Session {
     }, false);
   }
 
-  /** What a point holds in place of what is wanted. @param {import("./table.js").Identification[]} rows
+  /** The first difference from what the points should hold. @param {import("./table.js").Identification[]} rows
    * @param {Map<string, unknown>} held @returns {Promise<string | undefined>} */
   async _misfit(rows, held) {
     for (const { point: name, values } of rows) {
@@ -735,7 +735,7 @@ export class Session {
     return undefined;
   }
 
-  /** Read everything anew: what changes rarely or never, and what the device has refused; first commands come again. */
+  /** Forget what was read and what the device has refused; first commands are sent again. */
   forget() {
     this._isFirstDue = true;
     this._kept.clear();
@@ -766,7 +766,7 @@ function boundPoint(session, point) {
 }
 
 /**
- * Give a class its facts, and the points and commands of a device as attributes of its objects.
+ * Set the facts of a class, and make points and commands attributes of its objects.
  * @template {typeof Session} T @param {T} kind @param {import("./table.js").DeviceFacts} facts @returns {T}
  */
 export function defineDevice(kind, facts) {

@@ -12,7 +12,7 @@ export class StreamLine {
     timeout: number;
     /** @type {Promise<unknown>} */
     _turn: Promise<unknown>;
-    /** Takes what comes, while a reply is awaited. @type {((data: Uint8Array) => void) | undefined} */
+    /** Takes received bytes while a reply is awaited. @type {((data: Uint8Array) => void) | undefined} */
     _onData: ((data: Uint8Array) => void) | undefined;
     /** Takes the error that ends the line. @type {((error: Error) => void) | undefined} */
     _onEnd: ((error: Error) => void) | undefined;
@@ -24,7 +24,7 @@ export class StreamLine {
     _send(request: Uint8Array): Promise<void>;
     /** Make sure that a reply which comes too late is not taken for the next one. @param {ReplyShape} reply */
     _failed(reply: ReplyShape): void;
-    /** Wait behind a broadcast. @returns {Promise<void>} */
+    /** Wait after a broadcast. @returns {Promise<void>} */
     _afterBroadcast(): Promise<void>;
     /** So many seconds longer a reply of these many bytes may take once its first byte is there. @param {number} bytes */
     _frameSeconds(bytes: number): number;

@@ -18,7 +18,7 @@ export class StreamLine {
     this.timeout = timeout;
     /** @type {Promise<unknown>} */
     this._turn = Promise.resolve();
-    /** Takes what comes, while a reply is awaited. @type {((data: Uint8Array) => void) | undefined} */
+    /** Takes received bytes while a reply is awaited. @type {((data: Uint8Array) => void) | undefined} */
     this._onData = undefined;
     /** Takes the error that ends the line. @type {((error: Error) => void) | undefined} */
     this._onEnd = undefined;
@@ -42,7 +42,7 @@ export class StreamLine {
     void reply;
   }
 
-  /** Wait behind a broadcast. @returns {Promise<void>} */
+  /** Wait after a broadcast. @returns {Promise<void>} */
   async _afterBroadcast() {}
 
   /** So many seconds longer a reply of these many bytes may take once its first byte is there. @param {number} bytes */

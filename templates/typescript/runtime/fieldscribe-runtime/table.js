@@ -7,8 +7,8 @@ import { camelName } from "./words.js";
 /** A point of any kind, as far as devices need to know. @typedef {any} AnyPoint */
 
 /**
- * What generated code says of a device. `points` and `commands` are by attribute; `oldNames` says what attributes were
- * called before, `documented` why points have none.
+ * The facts of a device in generated code. `points` and `commands` are by attribute; `oldNames` are former names of
+ * attributes, `documented` the reasons why points have none.
  * @typedef {object} DeviceFacts
  * @property {any} profile
  * @property {Readonly<Record<string, AnyPoint>>} points
@@ -37,7 +37,7 @@ export function identification(point, values, variant) {
 
 /** The values of variants that are known, by axis. @typedef {Record<string, string | undefined>} Variants */
 
-/** Whether the known variants have a point; a point of a variant needs that variant to be known.
+/** Whether the known variants have a point; false if its variant is not known.
  * @param {AnyPoint} point @param {Variants} variants @returns {boolean} */
 export function pointExists(point, variants) {
   const { onlyFor, variant } = point.facts;
@@ -84,7 +84,7 @@ export class PointTable {
     return chosen;
   }
 
-  /** A point by name, that of the known variant. @param {string} name @param {Variants} variants
+  /** The point of the known variant by name. @param {string} name @param {Variants} variants
    * @returns {AnyPoint | undefined} */
   found(name, variants) {
     const named = this.byName.get(ownOf(this.facts.oldNames, name) ?? name) ?? [];
@@ -142,7 +142,7 @@ export class PointTable {
   }
 }
 
-/** What an object itself holds under a name that a user gave, nothing that all objects have.
+/** The own property of an object with a name from a user, not an inherited one.
  * @template T @param {Readonly<Record<string, T>> | undefined} held @param {string} name @returns {T | undefined} */
 export function ownOf(held, name) {
   return held && Object.prototype.hasOwnProperty.call(held, name) ? held[name] : undefined;
