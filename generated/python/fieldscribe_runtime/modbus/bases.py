@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What addresses count from: numbers that are given when a device is opened, and blocks that are found in it."""
+"""Bases of addresses: from numbers that are given when a device is made, or blocks that are found in it."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 _LAST = 0xFFFF
 _MOST_BLOCKS = 256
-"""So many blocks are walked at most: no device has so many, and a broken one must not keep the line busy."""
+"""The most blocks that a search reads, so that a broken device cannot keep the line busy."""
 
 
 class Base(Record):
-    """What addresses count from: `offset` plus multiples of given numbers, or a place in the found block of that id.
+    """A base of addresses: `offset` plus multiples of given numbers, or a place in the found block with this id.
 
-    This lies `offset` words behind the start of the block, plus multiples of what the words of `counts` hold: by
-    their addresses in the block.
+    That place is `offset` words after the start of the block, plus multiples of the words at the addresses of `counts`
+    in the block.
     """
 
     offset: int = 0
@@ -40,7 +40,7 @@ class Base(Record):
 
 
 class Chain(Record):
-    """Blocks behind a `marker` at one of `places`: each starts with its id and how many words follow these two."""
+    """Blocks after a `marker` at one of `places`: each starts with its id and the number of words after these two."""
 
     name: str
     function: int
@@ -49,7 +49,7 @@ class Chain(Record):
     end: int
 
     def walk_steps(self, read: Read) -> Generator[bytes, bytes, dict[int, Start]]:
-        """Return where each block starts, by its id; of two with the same id the first. Raises BlockError."""
+        """Return the start of each block by its id (the first one of two with the same id). Raises BlockError."""
         place = yield from self._search_steps(read)
         found: dict[int, Start] = {}
         for _ in range(_MOST_BLOCKS):
@@ -70,7 +70,7 @@ class Chain(Record):
         raise BlockError("bad_chain", f"{self.name} has more than {_MOST_BLOCKS} blocks")
 
     def _search_steps(self, read: Read) -> Generator[bytes, bytes, int]:
-        """Return the address behind the marker; a place that the device refuses holds none."""
+        """Return the address after the marker; a place that the device refuses has none."""
         for place in self.places:
             try:
                 words = yield from read(place, len(self.marker))
@@ -85,7 +85,7 @@ class Chain(Record):
 
 
 class Start(Record):
-    """The address that others count from, and the last one that does, counted from it."""
+    """The address that others count from, and the last address relative to it."""
 
     address: int
     last: int
@@ -102,7 +102,7 @@ class Bases:
         self._blocks: dict[int, Start] | BlockError | None = None
 
     def give(self, numbers: Mapping[str, int | None]) -> None:
-        """Take the given numbers; None for one that is not known. Raises RequestError."""
+        """Set the given numbers; None for one that is not known. Raises RequestError."""
         for name, number in numbers.items():
             low, high = self._given[name]
             if number is None:
@@ -113,7 +113,7 @@ class Bases:
             self._numbers[name] = number
 
     def put(self, name: str, address: int, last: int | None = None) -> None:
-        """Take a base that is known from elsewhere; raises RequestError for what is none."""
+        """Set a base that is known from elsewhere; raises RequestError if it is invalid."""
         if name not in self._bases:
             raise RequestError("bad_base", f"there is no base {shown(name)}, only {', '.join(self._bases)}")
         check_integer("bad_base", "the base", address)
@@ -123,12 +123,12 @@ class Bases:
         self._starts[name] = Start(address, last)
 
     def forget(self) -> None:
-        """Search the blocks anew when they are needed."""
+        """Forget the blocks; they are searched again when needed."""
         self._blocks = None
         self._behind.clear()
 
     def blocks_steps(self, read: Read) -> Generator[bytes, bytes, dict[int, Start]]:
-        """Return the blocks of the device by their ids, found once."""
+        """Return the blocks of the device by their ids; they are searched once."""
         if self.chain is None:
             raise BlockError("no_marker", "the addresses of this device count from no found block")
         if self._blocks is None:
@@ -142,7 +142,7 @@ class Bases:
         return self._blocks
 
     def start_steps(self, name: str, read: Read) -> Generator[bytes, bytes, Start]:
-        """Return where a base is. Raises BlockError, or RequestError where a number was not given."""
+        """Return the start of a base. Raises BlockError, or RequestError if a number was not given."""
         if (known := self._starts.get(name) or self._behind.get(name)) is not None:
             return known
         base = self._bases[name]

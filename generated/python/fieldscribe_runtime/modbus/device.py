@@ -14,34 +14,34 @@ if TYPE_CHECKING:
 
 
 _PARTS = {"framing": "'rtu', 'tcp' or 'pdu'", "exchange": "a method that sends a request and returns the whole reply"}
-"""What a transport has."""
+"""The parts of a transport."""
 
 
 class Transport(Protocol):
-    """Carries one request to the bus and one reply back."""
+    """Sends one request to the bus and returns its reply."""
 
     @property
     def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like; `pdu`: the unit and what follows it, and nothing around that."""
+        """The form of frames: `rtu`, `tcp`, or `pdu` (the unit and the request, without the rest of the frame)."""
 
     def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
 
-        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        Nobody answers a broadcast: return no bytes for it (or wait and raise TimeoutError).
         """
 
 
 class AsyncTransport(Protocol):
-    """Carries one request to the bus and one reply back, asynchronously."""
+    """Sends one request to the bus and returns its reply, asynchronously."""
 
     @property
     def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like; `pdu`: the unit and what follows it, and nothing around that."""
+        """The form of frames: `rtu`, `tcp`, or `pdu` (the unit and the request, without the rest of the frame)."""
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
 
-        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        Nobody answers a broadcast: return no bytes for it (or wait and raise TimeoutError).
         """
 
 
@@ -59,13 +59,13 @@ class ModbusDevice(ModbusSession, AnyDevice):
         return self.transport.exchange(request)
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read words or bits by address, without any meaning."""
+        """Read words or bits by address, as plain numbers."""
         return self._run(self._read_at_steps(space, address, count))
 
     def find_blocks(self) -> dict[int, tuple[int, int]]:
         """Return the address of each block that the addresses of points may count from, and its last word, by id.
 
-        They are found when the first of them is needed, and anew after `forget()`. Raises BlockError.
+        They are searched when first needed, and again after `forget()`. Raises BlockError.
         """
         blocks = self._run(self._blocks_steps())
         return {block: (start.address, start.last) for block, start in blocks.items()}
@@ -89,13 +89,13 @@ class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
         return await awaited(self.transport, self.transport.exchange(request))
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read words or bits by address, without any meaning."""
+        """Read words or bits by address, as plain numbers."""
         return await self._run(self._read_at_steps(space, address, count))
 
     async def find_blocks(self) -> dict[int, tuple[int, int]]:
         """Return the address of each block that the addresses of points may count from, and its last word, by id.
 
-        They are found when the first of them is needed, and anew after `forget()`. Raises BlockError.
+        They are searched when first needed, and again after `forget()`. Raises BlockError.
         """
         blocks = await self._run(self._blocks_steps())
         return {block: (start.address, start.last) for block, start in blocks.items()}

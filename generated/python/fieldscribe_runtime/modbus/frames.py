@@ -36,16 +36,16 @@ _KNOWN = READS | WRITES | ECHOES
 
 RTU, TCP = "rtu", "tcp"
 _HEAD = struct.Struct(">HHHBB")
-"""Of TCP: transaction, protocol and size, then unit and function."""
+"""The header of TCP: transaction, protocol and size, then unit and function."""
 PDU = "pdu"
-"""Unit and request as they are, for transports that frame them as they like."""
+"""The unit and the request without a frame, for transports that add their own."""
 
 
 class Profile(Record):
-    """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
+    """What a device supports: functions with the most items of one request, unit numbers, and its peculiarities.
 
-    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings`
-    is what the device speaks: where a gateway translates, a subclass of the device may have a PROFILE with both.
+    `broadcast` is the unit number of all units, `broadcasts` the functions that may be sent to it. `framings` are those
+    of the device: for a translating gateway, a subclass of the device can have a PROFILE with others.
     """
 
     functions: Mapping[int, int]
@@ -68,7 +68,7 @@ class Request(Record):
 
     @property
     def items(self) -> int:
-        """How many registers or bits it is about."""
+        """The number of registers or bits."""
         return self.count if self.function in READS else len(self.values)
 
 
@@ -86,7 +86,7 @@ _CRC = _crc_table()
 
 
 def crc(data: bytes) -> int:
-    """The CRC-16 of RTU frames; it travels low byte first."""
+    """The CRC-16 of RTU frames; its low byte is sent first."""
     if not isinstance(data, (bytes, bytearray)):
         raise WrongTypeError(f"takes bytes, not {shown(data)}")
     value = 0xFFFF
@@ -96,7 +96,7 @@ def crc(data: bytes) -> int:
 
 
 def check_framing(framing: str, profile: Profile) -> None:
-    """Raises RequestError (bad_framing) if the device does not frame its telegrams so."""
+    """Raises RequestError (bad_framing) if the device does not support the framing."""
     if framing in (*profile.framings, PDU):
         return
     hint = "; for a serial line take a SerialLine" if framing == "uss" else ""
@@ -109,7 +109,7 @@ def check_framing(framing: str, profile: Profile) -> None:
 
 
 def _check_kinds(request: Request) -> None:
-    """Raises RequestError for numbers that are none; the unit and the address are checked where they count."""
+    """Raises RequestError unless the numbers are integers; unit and address are checked where they are used."""
     if not isinstance(request, Request):
         raise RequestError("bad_request", f"takes a Request, not {shown(request)}")
     check_integer("bad_function", "function", request.function)
@@ -150,7 +150,7 @@ def _words(*words: int) -> bytes:
 
 
 def _head(request: Request) -> bytes:
-    """Function, address, and count or value: what a device repeats of a write."""
+    """Function, address, and count or value: the part of a write that a device repeats."""
     if request.function in ECHOES:
         value = request.values[0]
         if request.function == WRITE_COIL:
@@ -185,7 +185,7 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
 
 
 def reply_size(received: bytes, framing: str = RTU) -> int | None:
-    """Return the length of the reply that begins with these bytes; None while they are too few to tell.
+    """Return the length of the reply that starts with these bytes; None while they are too few to tell.
 
     Raises FrameError if the reply would be longer than any frame can be, and RequestError for an unknown framing.
     """
@@ -232,9 +232,9 @@ _FRAMINGS = {
 def parse(
     request: Request, reply: bytes, profile: Profile, framing: str = RTU, transaction: int = 0
 ) -> tuple[int, ...]:
-    """What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
+    """Return words, bits as 0 or 1, the echoed value, or nothing for a block write, from a reply to `request`.
 
-    Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
+    Raises FrameError unless this is a valid answer; its subclass ExceptionReplyError has the device's code.
     """
     check_framing(framing, profile)
     check_bytes(reply)
@@ -242,9 +242,9 @@ def parse(
 
 
 def parse_checked(request: Request, reply: bytes, profile: Profile, framing: str, transaction: int) -> tuple[int, ...]:
-    """Do as `parse` does for what are bytes, and a framing that was checked."""
+    """As `parse`, for bytes and a framing that were checked."""
     if framing == PDU:
-        reply = bytes(reply) + crc(reply).to_bytes(2, "little")  # as if it had come with a CRC
+        reply = bytes(reply) + crc(reply).to_bytes(2, "little")  # as if it had a CRC
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
         raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))

@@ -7,10 +7,10 @@
     with CanLine(can.Bus("can0", interface="socketcan")) as line:
         genset = WoodwardMpu2s(line, unit=1)
 
-Messages of more than 8 bytes go as CAN FD, which the bus must be opened for, as with `fd=True`.
+Messages of more than 8 bytes are sent as CAN FD; open the bus for that, for example with `fd=True`.
 
-Several devices, in threads or tasks of their own, may share a line: each hears every frame of the bus, and so does a
-program that calls `receive` itself.
+Several devices, in threads or tasks of their own, can share a line: each receives every frame of the bus, and so does
+a program that calls `receive` itself.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
 
 _PLAIN_BITS, _PLAIN_LENGTH = 11, 8
 _LATE = 64
-"""So many messages are taken off the bus when time is over: a flood of such that are no frames ends, too."""
+"""The most messages taken off the bus after the deadline, so that a flood of non-frames ends too."""
 _KEPT = 4096
-"""So many frames are kept for who does not ask; the oldest are dropped."""
+"""The most frames kept for a listener that does not read; the oldest are dropped."""
 
 
 def _message(frame: Frame) -> can.Message:
@@ -50,7 +50,7 @@ def _message(frame: Frame) -> can.Message:
 
 
 def _frame(message: can.Message) -> Frame | None:
-    """Return a data frame; None for what is none."""
+    """Return a data frame; None for any other message."""
     if message.is_error_frame or message.is_remote_frame:
         return None
     return Frame(message.arbitration_id, bytes(message.data))
@@ -63,7 +63,7 @@ def _checked(bus: can.BusABC) -> can.BusABC:
 
 
 class Listener:
-    """Who hears all frames of a `CanLine`: what a device makes of it for its own use."""
+    """A view of a `CanLine` that receives all its frames; each device makes its own."""
 
     def __init__(self, line: CanLine) -> None:
         self._line = line
@@ -81,12 +81,12 @@ class Listener:
         return frame
 
     def receive_waiting(self) -> Frame | None:
-        """Return the next frame that has come already; None when there is none."""
+        """Return the next frame that has already arrived; None if there is none."""
         return self._line.next_of(self.frames, 0)
 
 
 class CanLine:
-    """A bus for devices; leaving the context shuts it down. A frame has `timeout` seconds to come."""
+    """A bus for devices; leaving the context shuts it down. `receive` waits `timeout` seconds for a frame."""
 
     def __init__(self, bus: can.BusABC, *, timeout: float = 1.0) -> None:
         self.bus, self.timeout = _checked(bus), checks.seconds(timeout)
@@ -99,7 +99,7 @@ class CanLine:
         return f"<{type(self).__name__} {self.bus}>"
 
     def listener(self) -> Listener:
-        """One more that hears every frame from now on, and sends."""
+        """Return a new listener that receives every frame from now on, and sends."""
         made = Listener(self)
         with self._turn:
             self._listeners.add(made)
@@ -117,7 +117,7 @@ class CanLine:
         return self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
-        """Return the next frame that has come already; None when there is none."""
+        """Return the next frame that has already arrived; None if there is none."""
         return self._listening().receive_waiting()
 
     def _listening(self) -> Listener:
@@ -144,7 +144,7 @@ class CanLine:
             return frames.popleft()
 
     def _hear(self, timeout: float) -> bool:
-        """Hear one message for all listeners, while other threads wait for it or send; whether one came."""
+        """Receive one message for all listeners, while other threads wait or send; return True if there was one."""
         self._is_heard = True
         self._turn.release()
         try:
@@ -172,14 +172,14 @@ class CanLine:
 
 
 class AsyncListener:
-    """Who hears all frames of an `AsyncCanLine`: what an async device makes of it for its own use."""
+    """A view of an `AsyncCanLine` that receives all its frames; each async device makes its own."""
 
     def __init__(self, line: AsyncCanLine) -> None:
         self._line = line
         self._frames: asyncio.Queue[Frame] = asyncio.Queue(_KEPT)
 
     def keep(self, frame: Frame) -> None:
-        """A frame came."""
+        """Keep a received frame."""
         if self._frames.full():
             self._frames.get_nowait()
         self._frames.put_nowait(frame)
@@ -189,7 +189,7 @@ class AsyncListener:
         await self._line.send(frame)
 
     async def receive(self) -> Frame:
-        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        """Return the next data frame, whoever sent it; raises TimeoutError and LineError."""
         self._line.check()
         try:
             async with asyncio.timeout(self._line.timeout):
@@ -199,7 +199,7 @@ class AsyncListener:
             raise
 
     def receive_waiting(self) -> Frame | None:
-        """Return the next frame that has come already; None when there is none."""
+        """Return the next frame that has already arrived; None if there is none."""
         with suppress(asyncio.QueueEmpty):
             return self._frames.get_nowait()
         return None
@@ -232,14 +232,14 @@ class AsyncCanLine:
                 listener.keep(frame)
 
     def check(self) -> None:
-        """Raises LineError unless the bus is heard."""
+        """Raises LineError unless the line receives from the bus."""
         if self._notifier is None:
             raise LineError("nobody listens yet: use it as `async with AsyncCanLine(bus) as line`")
         if self._notifier.exception is not None:
             raise LineError(f"{self.bus}: {self._notifier.exception}") from self._notifier.exception
 
     def listener(self) -> AsyncListener:
-        """One more that hears every frame from now on, and sends."""
+        """Return a new listener that receives every frame from now on, and sends."""
         made = AsyncListener(self)
         self._listeners.add(made)
         return made
@@ -252,11 +252,11 @@ class AsyncCanLine:
             raise LineError(f"{self.bus}: {error}", unsent=True) from error
 
     async def receive(self) -> Frame:
-        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        """Return the next data frame, whoever sent it; raises TimeoutError and LineError."""
         return await self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
-        """Return the next frame that has come already; None when there is none."""
+        """Return the next frame that has already arrived; None if there is none."""
         return self._listening().receive_waiting()
 
     def _listening(self) -> AsyncListener:

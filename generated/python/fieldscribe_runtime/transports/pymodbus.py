@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""A client of pymodbus that a program has already, with its retries, its framer and its log.
+"""A line over a pymodbus client of your program, with its retries, its framer and its log.
 
     from pymodbus.client import ModbusSerialClient
     from fieldscribe_runtime.transports.pymodbus import PymodbusLine
@@ -7,7 +7,7 @@
     with PymodbusLine(ModbusSerialClient("/dev/ttyUSB0", baudrate=9600)) as line:
         drive = HitachiL200(line, unit=1)
 
-It suits every Modbus device: the client frames what it is handed.
+It works for every Modbus device: the client adds the framing itself.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 class Client(Protocol):
-    """What is needed of a client: any of `pymodbus.client` that blocks has it."""
+    """The methods that a client needs: every blocking client of `pymodbus.client` has them."""
 
     def connect(self) -> bool:
         """Connect, if it is not connected."""
@@ -47,7 +47,7 @@ class Client(Protocol):
 
 
 class AsyncClient(Protocol):
-    """The same of a client that is awaited."""
+    """The same for an async client."""
 
     @property
     def connected(self) -> bool:
@@ -64,7 +64,7 @@ class AsyncClient(Protocol):
 
 
 class _Request(ModbusPDU):
-    """A request whose bytes are known."""
+    """A request with given bytes."""
 
     def __init__(self, request: bytes) -> None:
         super().__init__(dev_id=request[0])
@@ -72,40 +72,40 @@ class _Request(ModbusPDU):
         self._data = request[2:]
 
     def encode(self) -> bytes:
-        """Return what stands behind the function."""
+        """Return the bytes after the function."""
         return self._data
 
     def decode(self, data: bytes) -> None:
-        """Requests are not read here."""
+        """Do nothing: requests are not parsed here."""
         raise NotImplementedError
 
     def get_response_pdu_size(self) -> int:
-        """Nobody knows."""
+        """Return the size as unknown."""
         return 0
 
 
 def _reply(answer: ModbusPDU) -> bytes:
-    """Return the unit that answered, and the answer."""
+    """Return the bytes of the unit that answered, and of the answer."""
     return bytes([answer.dev_id, answer.function_code]) + answer.encode()
 
 
 def _check(client: Any, takes: str, *, awaits: bool) -> None:
-    """Raises RequestError (bad_transport) for what is no client, or one of the other kind."""
+    """Raises RequestError (bad_transport) unless this is a client of the right kind."""
     checks.object_with("the client", takes, client, "connect", "execute", "close")
     if iscoroutinefunction(client.connect) is not awaits:
         checks.refuse("the client", takes, client)
 
 
 def _raised(error: Exception) -> Exception:
-    """Return what devices expect in place of pymodbus' own."""
+    """Return the error that devices expect for an error of pymodbus."""
     return LineError(str(error)) if isinstance(error, ConnectionException) else TimeoutError(str(error))
 
 
 class PymodbusLine:
-    """A client for devices, whatever it is connected by. Leaving the context closes it."""
+    """A line for devices over any blocking client. Leaving the context closes it."""
 
     framing = PDU
-    """How requests are handed over; what travels is the client's own framing."""
+    """The form of requests for the client, which adds its own framing."""
 
     def __init__(self, client: Client) -> None:
         _check(client, "one of pymodbus that blocks, as in ModbusTcpClient('192.168.0.20')", awaits=False)
@@ -136,7 +136,7 @@ class PymodbusLine:
 
 
 class AsyncPymodbusLine:
-    """An async client for async devices. Leaving the context closes it."""
+    """A line for async devices over an async client. Leaving the context closes it."""
 
     framing = PDU
 

@@ -13,7 +13,7 @@ _MOST_SECONDS = 86400
 
 
 def refuse(what: str, takes: str, given: object) -> NoReturn:
-    """Raises RequestError (bad_transport) that says what is taken."""
+    """Raises RequestError (bad_transport) that says what is expected."""
     raise RequestError("bad_transport", f"{what} is {takes}, not {shown(given)}")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What lines of bytes have in common: one exchange at a time, and no byte of an old reply in a new one."""
+"""The common part of lines of bytes: one exchange at a time, and no byte of an old reply in a new one."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 def framing_of(name: str) -> Framing:
     """Return what a receiver must know of `rtu`, `tcp` or `uss`; raises RequestError for any other framing."""
     if name == "uss":
-        from ..uss.frames import FRAMING  # programs for Modbus start without it
+        from ..uss.frames import FRAMING  # imported late: Modbus programs do not need it
 
         return FRAMING
     return modbus.framing_of(name)
 
 
 class Line(ABC):
-    """A line of bytes. `framing` is `rtu`, `tcp` or `uss`. A reply has `timeout` seconds to begin."""
+    """A line of bytes. `framing` is `rtu`, `tcp` or `uss`. A reply must start within `timeout` seconds."""
 
     FRAME_SECONDS = 0.0
-    """So much longer a reply may take once its first byte is there."""
+    """The additional seconds for a reply after its first byte."""
 
     def __init__(self, framing: str, timeout: float) -> None:
         self.framing, self.timeout = framing, timeout
@@ -40,15 +40,15 @@ class Line(ABC):
 
     @abstractmethod
     def _send(self, request: bytes) -> None:
-        """Drop what came before, and send; raises OSError."""
+        """Drop bytes received before, and send; raises OSError."""
 
     @abstractmethod
     def _read(self, most: int, until: float) -> bytes:
-        """Return at least one byte; none when none comes before that time of the monotonic clock. Raises OSError."""
+        """Return at least one byte, or none if none arrives before `until` on the monotonic clock. Raises OSError."""
 
     @abstractmethod
     def close(self) -> None:
-        """Give the line back; the next exchange opens it again."""
+        """Close the line; the next exchange opens it again."""
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self}, {self.framing}>"
@@ -71,7 +71,7 @@ class Line(ABC):
                 self.close()
                 raise LineError(f"{self}: {error.strerror or error}", unsent=not is_sent) from error
             except BaseException:
-                self.close()  # also where a program is interrupted: the answer must not come to the next request
+                self.close()  # also on an interrupt: the answer must not reach the next request
                 raise
 
     def _received(self, request: bytes) -> bytes:
@@ -88,12 +88,12 @@ class Line(ABC):
         return Reply.timed(reply, since)
 
     def _after_broadcast(self) -> bytes:
-        """Return what a broadcast brings: no bytes."""
+        """Return no bytes, after a broadcast."""
         return b""
 
     @abstractmethod
     def _failed(self, request: bytes) -> None:
-        """Make sure that a reply which comes too late is not taken for the next one."""
+        """Make sure that a late reply is not taken for the next one."""
 
     def __enter__(self) -> Self:
         return self

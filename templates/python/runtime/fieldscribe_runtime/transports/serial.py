@@ -6,9 +6,9 @@
     with SerialLine("/dev/ttyUSB0", 9600) as line:
         drive = HitachiL200(line, unit=1)
 
-What came before a request is dropped, and so are frames of other units. A reply that comes late is not taken for the
-next one: after a failure the same unit is asked again only when `timeout` has passed once more, other units are asked
-at once, and a port that leads through a network is opened anew.
+Bytes received before a request are dropped, and so are frames of other units. A late reply is not taken for the next
+one: after a failure, the next request to the same unit waits until `timeout` has passed once more, requests to other
+units do not wait, and a port that leads through a network is reopened.
 """
 
 from __future__ import annotations
@@ -37,21 +37,21 @@ if TYPE_CHECKING:
     from typing import Self
 
 _BITS = 11
-"""Of a character with start, parity and stop bit."""
+"""The bits of a character with start, parity and stop bit."""
 _MODE = re.compile("[78][NEO][12]")
 _SLICE = 0.02
-"""Seconds for which one call of pyserial waits, so that deadlines hold."""
+"""The seconds that one call of pyserial waits, so that deadlines are kept."""
 _SILENCE = 3.5
-"""Characters of silence that part two frames."""
+"""Characters of silence between two frames."""
 _PORT = "a device such as '/dev/ttyUSB0' or 'COM3', or a URL such as 'socket://192.168.0.20:4001'"
 _OF_NETWORK = re.compile("socket://|rfc2217://")
 _WITH_PORT = re.compile(r":\d+(?=[/?]|$)")
 _SOCKET = re.compile(r"socket://\[?([^/?\]]+)\]?:(\d+)/?")
 _CONNECT = 5.0
-"""Seconds for a connection to open."""
+"""The most seconds to open a connection."""
 _FASTEST = 10_000_000
 _OF_PSEUDO_TERMINALS = {"bytesize": 8, "parity": "N"}
-"""A pseudo terminal carries bytes, and refuses to be set for others."""
+"""A pseudo terminal carries whole bytes, and refuses other settings."""
 
 
 class _Port:
@@ -68,7 +68,7 @@ class _Port:
             raise OSError(f"{url} cannot be set as the line needs it: {error}") from error
 
     def drop_old(self) -> None:
-        """Drop what has come already; raises OSError."""
+        """Drop received bytes; raises OSError."""
         try:
             self._serial.reset_input_buffer()
         except Exception as error:  # of an adapter that is gone, pyserial lets termios.error through: no OSError
@@ -80,7 +80,7 @@ class _Port:
         self._serial.flush()
 
     def read(self, most: int, until: float) -> bytes:
-        """Return what has come, up to so many bytes; none when none comes in time."""
+        """Return up to `most` received bytes; none if none arrives in time."""
         while time.monotonic() < until:
             received: bytes = self._serial.read(most)
             if received:
@@ -93,19 +93,19 @@ class _Port:
 
 
 class SerialLine(Line):
-    """A serial line with Modbus RTU: opened when it is used first, and anew after a failure of the port.
+    """A serial line with Modbus RTU: opened on first use, and again after a failure of the port.
 
-    `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
-    is data bits, parity (N, E, O) and stop bits. A reply has `timeout` seconds to begin, and then the time that the
-    longest frame takes at the baud rate. With `echo` what is sent comes back first, as on many RS-485 adapters with
-    two wires.
+    `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU over a serial server. `mode`
+    is data bits, parity (N, E, O) and stop bits. A reply must start within `timeout` seconds, and then has the time of
+    the longest frame at the baud rate. With `echo`, the line first receives what it sends, as on many RS-485 adapters
+    with two wires.
     """
 
     FRAMING = RTU
     MODE = "8N1"
 
     turnaround = 0.1
-    """Seconds for which the line rests after a broadcast, so that the units can work. Set it to what they need."""
+    """The seconds of rest after a broadcast, so that the units can carry it out. Set it to what they need."""
 
     def __init__(
         self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
@@ -130,7 +130,7 @@ class SerialLine(Line):
         self.FRAME_SECONDS = self._framing.longest * _BITS / baudrate
         self._rests_until = 0.0
         self._late: tuple[int | bytes, float] | None = None
-        """The unit whose reply may still come, and until when."""
+        """The unit whose reply may still arrive, and until when."""
         self._open: _Port | Connection | None = None
 
     def __str__(self) -> str:
@@ -146,7 +146,7 @@ class SerialLine(Line):
             raise TimeoutError("what was sent was not heard: another speaks, or the adapter gives no echo")
 
     def _rest(self, request: bytes) -> None:
-        """Wait until the line is free: silent, after a broadcast, and after a reply of this unit that is late."""
+        """Wait until the line is free: silent, after a broadcast, and after a late reply of this unit."""
         now = time.monotonic()
         free = max(self._rests_until, now + self._silence)
         if self._late is not None and self._late[0] == self._framing.address(request):
@@ -167,7 +167,7 @@ class SerialLine(Line):
             return Connection(self._socket[1], int(self._socket[2]), _CONNECT)
         try:
             return _Port(self.port, self._settings)
-        except (ValueError, TypeError) as error:  # a URL that pyserial does not know, or a half one
+        except (ValueError, TypeError) as error:  # an unknown or incomplete URL
             raise RequestError("bad_transport", f"{error}; a port is {_PORT}") from error
 
     def _read(self, most: int, until: float) -> bytes:
@@ -180,7 +180,7 @@ class SerialLine(Line):
 
     def _failed(self, request: bytes) -> None:
         if self._is_network:
-            self.close()  # an answer that a network delays comes to nobody
+            self.close()  # an answer that a network delays is lost
         elif not isinstance(request, Broadcast):
             self._late = self._framing.address(request), time.monotonic() + self.timeout
 
@@ -192,14 +192,14 @@ class SerialLine(Line):
 
 
 class UssLine(SerialLine):
-    """The same with USS, which has even parity."""
+    """The same for USS, with even parity by default."""
 
     FRAMING = USS
     MODE = "8E1"
 
 
 class AsyncSerialLine:
-    """A serial line for async devices, whose waiting is done in a thread: `AsyncSerialLine(SerialLine(...))`."""
+    """A serial line for async devices, which waits in a thread: `AsyncSerialLine(SerialLine(...))`."""
 
     def __init__(self, line: SerialLine) -> None:
         if not isinstance(line, SerialLine):
@@ -211,7 +211,7 @@ class AsyncSerialLine:
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
-        import asyncio  # blocking programs start without it
+        import asyncio  # imported late: blocking programs do not need it
 
         return await asyncio.to_thread(self.line.exchange, request)
 

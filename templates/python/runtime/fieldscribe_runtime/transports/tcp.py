@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: 0BSD
-"""A Modbus device, or a gateway to several, in a network: a plain socket, nothing to install.
+"""A Modbus device or gateway in a network, through a plain socket: nothing to install.
 
     from fieldscribe_runtime.transports.tcp import TcpLine
 
     with TcpLine("192.168.0.20") as line:
         drive = HitachiL200(line, unit=1)
 
-What came before a request is dropped, and after a failure the line connects anew: a reply that comes late or twice is
-not taken for the next one.
+Bytes received before a request are dropped, and the line reconnects after a failure: a late or repeated reply is not
+taken for the next one.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 
 MODBUS_PORT = 502
 _OLD = 16
-"""So many pieces of old bytes are read before a connection is given up."""
+"""The most pieces of old bytes to read before the connection is given up."""
 PIECE = 4096
-"""So many bytes are read at most at once."""
+"""The most bytes to read at once."""
 _CLOSED = "the other side closed the connection"
 
 
 def _poll(made: socket.socket) -> Callable[[float], object]:
-    """Return what waits for bytes of a socket: a result that is true says that they came."""
+    """Return a function that waits for bytes of a socket; its result is true if there are any."""
     if not hasattr(select, "poll"):  # Windows
         return lambda milliseconds: select.select([made], [], [], milliseconds / 1000)[0]
     poll = select.poll()
@@ -47,7 +47,7 @@ def _poll(made: socket.socket) -> Callable[[float], object]:
 
 
 class Connection:
-    """Where a line leads, and the socket while it is open. It has `timeout` seconds to open."""
+    """The address of a line, and its socket while it is open. It must open within `timeout` seconds."""
 
     def __init__(self, host: str, port: int, timeout: float) -> None:
         takes = "a name or an address such as '192.168.0.20'"
@@ -58,13 +58,13 @@ class Connection:
         self.timeout = checks.seconds(timeout)
         self.socket: socket.socket | None = None
         self._has_bytes: Callable[[float], object] = bool
-        """Waits until there is something to receive, if only the end, or for so many milliseconds."""
+        """Waits until there is something to receive, or the end, for at most this many milliseconds."""
 
     def __str__(self) -> str:
         return f"{self.host}:{self.port}"
 
     def drop_old(self) -> None:
-        """Drop what has come already; a connection that the other side has closed or floods is closed."""
+        """Drop received bytes; close a connection that the other side has closed or floods."""
         left = _OLD
         while self.socket is not None and self._has_bytes(0):
             left -= 1
@@ -86,11 +86,11 @@ class Connection:
         self.socket.sendall(request)
 
     def no_connection(self) -> ConnectionError:
-        """Return the error where nobody answers in time."""
+        """Return the error for a connection that does not open in time."""
         return ConnectionError(f"no connection within {self.timeout:g} s")
 
     def read(self, most: int, until: float) -> bytes:
-        """Return what has come, up to so many bytes; none when none comes in time. Raises OSError."""
+        """Return up to `most` received bytes; none if none arrives in time. Raises OSError."""
         assert self.socket is not None
         left = until - time.monotonic()
         if left <= 0 or not self._has_bytes(left * 1000):
@@ -115,9 +115,9 @@ class Connection:
 
 
 class TcpLine(Line):
-    """Connects when it is used first, and anew after a failure. `framing="rtu"` is for RTU frames over TCP.
+    """Connects on first use, and again after a failure. `framing="rtu"` is for RTU frames over TCP.
 
-    The whole exchange has `timeout` seconds.
+    A whole exchange may take `timeout` seconds.
     """
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
@@ -132,12 +132,12 @@ class TcpLine(Line):
         self._connection.send(request)
 
     def _read(self, most: int, until: float) -> bytes:
-        del most  # what comes behind a reply is dropped before the next request
+        del most  # bytes after a reply are dropped before the next request
         return self._connection.read(PIECE, until)
 
     def _failed(self, request: bytes) -> None:
         del request
-        self.close()  # an answer that comes too late comes to nobody
+        self.close()  # a late answer is lost
 
     def close(self) -> None:
         """Close the connection; the next exchange opens it again."""
@@ -145,7 +145,7 @@ class TcpLine(Line):
 
 
 class AsyncTcpLine:
-    """The same for async devices, in one event loop after the other; the whole exchange has `timeout` seconds."""
+    """The same for async devices, in one event loop at a time; a whole exchange may take `timeout` seconds."""
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
         self.framing = framing
@@ -161,14 +161,14 @@ class AsyncTcpLine:
 
         Raises TimeoutError, LineError and FrameError.
         """
-        import asyncio  # blocking programs start without it
+        import asyncio  # imported late: blocking programs do not need it
 
         async with self._turns.lock():
             loop = asyncio.get_running_loop()
             receiver, is_sent = Receiver(self._framing, request), False
             try:
                 async with asyncio.timeout(self._connection.timeout):
-                    await asyncio.sleep(0)  # other tasks, and timeouts, have their turn even if each byte is there
+                    await asyncio.sleep(0)  # other tasks, and timeouts, get their turn even if all bytes are there
                     line = await self._send(request, loop)
                     is_sent = True
                     return b"" if isinstance(request, Broadcast) else await self._received(line, receiver, loop)
@@ -183,7 +183,7 @@ class AsyncTcpLine:
                 self.close()
                 raise LineError(f"{self._connection}: {error.strerror or error}", unsent=not is_sent) from error
             except BaseException:
-                self.close()  # also when the task is cancelled: the answer must not come to the next one
+                self.close()  # also when the task is cancelled: the answer must not reach the next request
                 raise
 
     async def _send(self, request: bytes, loop: asyncio.AbstractEventLoop) -> socket.socket:
@@ -200,7 +200,7 @@ class AsyncTcpLine:
         raise ConnectionError(_CLOSED)
 
     async def _connected(self, loop: asyncio.AbstractEventLoop) -> socket.socket:
-        """A connection to the first address of the host that answers."""
+        """Return a connection to the first address of the host that answers."""
         to = self._connection
         failure = OSError("the host has no address")
         for family, kind, protocol, _, address in await loop.getaddrinfo(to.host, to.port, type=socket.SOCK_STREAM):
