@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def framing_of(name: str) -> Framing:
     """Return what a receiver must know of `rtu`, `tcp` or `uss`; raises RequestError for any other framing."""
     if name == "uss":
-        from ..uss.frames import FRAMING  # imported late: Modbus programs do not need it
+        from ..uss.frames import FRAMING  # Modbus needs no USS
 
         return FRAMING
     return modbus.framing_of(name)

@@ -211,7 +211,7 @@ class AsyncSerialLine:
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
-        import asyncio  # imported late: blocking programs do not need it
+        import asyncio  # only async programs need it
 
         return await asyncio.to_thread(self.line.exchange, request)
 

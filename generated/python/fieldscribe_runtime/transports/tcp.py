@@ -161,7 +161,7 @@ class AsyncTcpLine:
 
         Raises TimeoutError, LineError and FrameError.
         """
-        import asyncio  # imported late: blocking programs do not need it
+        import asyncio  # only async programs need it
 
         async with self._turns.lock():
             loop = asyncio.get_running_loop()

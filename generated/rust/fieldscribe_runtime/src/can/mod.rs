@@ -28,7 +28,7 @@ pub use signals::{Carried, Numbers, Signal, Signals};
 
 use crate::Point;
 
-/// How many bytes every message has.
+/// The number of bytes of every message.
 pub const LENGTH: usize = 8;
 
 /// A frame on the bus: its identifier and at most eight bytes of data.
@@ -40,8 +40,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame with that identifier and data. Of data that are too long for a frame, which is then of no message, the
-    /// first eight bytes are kept.
+    /// A frame with this identifier and data. If the data are too long for a frame, the first eight bytes are kept, and
+    /// it matches no message.
     #[must_use]
     pub fn new(id: u32, bytes: &[u8]) -> Self {
         let mut data = [0; LENGTH];

@@ -15,9 +15,9 @@ use crate::can::{Frame, Profile, Transport};
 pub enum BusError<E> {
     /// The controller failed.
     Bus(E),
-    /// The controller does not take such a frame.
+    /// The controller does not accept the frame.
     BadFrame,
-    /// Nothing came in time, or the bus stayed busy.
+    /// Nothing arrived in time, or the bus stayed busy.
     TimedOut,
 }
 
@@ -39,7 +39,7 @@ impl<E: Error> fmt::Display for BusError<E> {
 
 impl<E: Error> core::error::Error for BusError<E> {}
 
-/// A controller that blocks. How long it waits is its own affair, and it cannot tell what has come already.
+/// A blocking controller. It decides how long it waits, and cannot tell which frames have already arrived.
 #[derive(Debug)]
 pub struct Blocking<C> {
     controller: C,
@@ -47,7 +47,7 @@ pub struct Blocking<C> {
 }
 
 impl<C: blocking::Can> Blocking<C> {
-    /// The controller on the bus of a device with that profile.
+    /// A controller on the bus of a device with this profile.
     pub const fn new(controller: C, profile: &Profile) -> Self {
         Self {
             controller,
@@ -55,7 +55,7 @@ impl<C: blocking::Can> Blocking<C> {
         }
     }
 
-    /// The controller, as for its settings.
+    /// The controller, for example to change its settings.
     pub fn controller(&mut self) -> &mut C {
         &mut self.controller
     }
@@ -82,7 +82,7 @@ impl<C: blocking::Can> Transport for Blocking<C> {
     }
 }
 
-/// A controller of `nb`, and what is done while it has nothing.
+/// A non-blocking controller (`nb`), and a closure to call while it waits.
 ///
 /// `wait` is called with how often that was so in a row; it gives whether to go on waiting.
 #[derive(Debug)]
@@ -93,7 +93,7 @@ pub struct NonBlocking<C, W> {
 }
 
 impl<C: non_blocking::Can, W: FnMut(u32) -> bool> NonBlocking<C, W> {
-    /// The controller on the bus of a device with that profile.
+    /// A controller on the bus of a device with this profile.
     pub const fn new(controller: C, profile: &Profile, wait: W) -> Self {
         Self {
             controller,
@@ -102,12 +102,12 @@ impl<C: non_blocking::Can, W: FnMut(u32) -> bool> NonBlocking<C, W> {
         }
     }
 
-    /// The controller, as for its settings.
+    /// The controller, for example to change its settings.
     pub fn controller(&mut self) -> &mut C {
         &mut self.controller
     }
 
-    /// Tries until the controller does it.
+    /// Tries until the controller succeeds.
     fn until_done<R>(
         &mut self,
         mut step: impl FnMut(&mut C) -> nb::Result<R, C::Error>,

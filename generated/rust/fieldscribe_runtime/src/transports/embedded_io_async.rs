@@ -26,12 +26,12 @@ impl<P> Line<P> {
         Self::speaking(Protocol::Modbus, port)
     }
 
-    /// A line of that protocol.
+    /// A line with this protocol.
     pub const fn speaking(protocol: Protocol, port: P) -> Self {
         Self { port, protocol }
     }
 
-    /// The port, as for its settings.
+    /// The port, for example to change its settings.
     pub fn port(&mut self) -> &mut P {
         &mut self.port
     }
@@ -59,7 +59,7 @@ impl<P: Read + Write> LocalTransport for Line<P> {
     }
 }
 
-/// Throws away some of what has come already; whether there was anything.
+/// Discards some received bytes; returns whether there were any.
 async fn came<P: Read>(port: &mut P) -> Result<bool, P::Error> {
     let mut thrown_away = [0; 64];
     let mut read = pin!(port.read(&mut thrown_away));

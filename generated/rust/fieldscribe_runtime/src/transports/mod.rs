@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: 0BSD
-//! Transports that people have, each behind a feature of its own; none is on unless asked for.
+//! Ready transports, each with a feature of its own; none is on by default.
 //!
 //! | feature | module | over |
 //! |---|---|---|
-//! | `std` | `tcp`, `stream` | `std::net::TcpStream`, and whatever is `Read` and `Write`, as a serial port |
+//! | `std` | `tcp`, `stream` | `std::net::TcpStream`, and anything that is `Read` and `Write`, such as a serial port |
 //! | `tokio-modbus` | `tokio_modbus` | a client of tokio-modbus, for an `AsyncClient` |
-//! | `embedded-io` | `embedded_io` | a port that blocks and can tell whether bytes have come |
+//! | `embedded-io` | `embedded_io` | a blocking port that can tell whether bytes have arrived |
 //! | `embedded-io-async` | `embedded_io_async` | a port for a `LocalClient` |
 //! | `embedded-can` | `embedded_can` | a controller, blocking or with `nb` |
 //!
@@ -32,7 +32,7 @@ pub use error::LineError;
 use crate::modbus::{crc, framing_of, reply_length, Framing};
 use crate::uss::check_byte;
 
-/// After so many reads a line that does not fall silent is taken as it is.
+/// After this many reads, a line that does not become silent is used anyway.
 #[cfg(any(
     feature = "std",
     feature = "embedded-io",
@@ -46,20 +46,20 @@ const SHORTEST_RTU: usize = 5;
 /// The shortest reply over TCP, an exception, in bytes.
 const SHORTEST_TCP: usize = 9;
 
-/// What is spoken on a line: it tells where a reply ends.
+/// The protocol of a line: it defines where a reply ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Protocol {
-    /// Modbus of either framing; which one it is, the request shows.
+    /// Modbus in the framing of the request.
     #[default]
     Modbus,
     /// USS.
     Uss,
 }
 
-/// How the frames of an exchange are told apart: the framing of Modbus; none for USS.
+/// The framing of an exchange: that of Modbus; [`None`] for USS.
 type Frames = Option<Framing>;
 
-/// A reply as it comes: where its next bytes go, and when it is complete.
+/// A reply while it arrives: the place for its next bytes, and whether it is complete.
 ///
 /// ```
 /// use std::io::{Read, Write};
@@ -73,7 +73,7 @@ type Frames = Option<Framing>;
 ///     type Error = std::io::Error;
 ///
 ///     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
-///         self.0.write_all(request)?; // after throwing away what came before
+///         self.0.write_all(request)?; // after discarding what arrived before
 ///         let mut answer = Answer::new(Protocol::Modbus, request, reply);
 ///         while let Some(space) = answer.space() {
 ///             let count = self.0.read(space)?;
@@ -89,13 +89,13 @@ pub struct Answer<'a> {
     request: &'a [u8],
     reply: &'a mut [u8],
     length: usize,
-    /// How many bytes the frame of another has that was dropped last.
+    /// The length of the foreign frame that was dropped last.
     #[cfg(feature = "std")]
     foreign: usize,
 }
 
 impl<'a> Answer<'a> {
-    /// The answer to a request, for which there is this space: none if the request goes to all units.
+    /// The answer to a request, with the buffer for it: empty for a broadcast.
     pub fn new(protocol: Protocol, request: &'a [u8], reply: &'a mut [u8]) -> Self {
         Self {
             frames: (protocol == Protocol::Modbus).then(|| framing_of(request)),
@@ -107,8 +107,8 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Where the bytes go that are still missing; none if the reply is complete, or if what came is no reply. The late
-    /// reply to an earlier transaction is dropped.
+    /// The place for the missing bytes; [`None`] if the reply is complete, or if the bytes are no reply. Drops a late
+    /// reply to an earlier transaction.
     pub fn space(&mut self) -> Option<&mut [u8]> {
         let mut end = self.end();
         if self.length == end && self.is_late() {
@@ -119,25 +119,25 @@ impl<'a> Answer<'a> {
         (!space.is_empty()).then_some(space)
     }
 
-    /// Takes so many bytes that came into the space.
+    /// Adds this many bytes, which are in the space.
     pub fn took(&mut self, count: usize) {
         self.length = self.length.wrapping_add(count).min(self.reply.len());
     }
 
-    /// How many bytes have come.
+    /// The number of bytes received.
     #[must_use]
     pub const fn length(&self) -> usize {
         self.length
     }
 
-    /// Whether a complete reply to this request came, or none is to come. Otherwise more of what came may be on the
+    /// Whether a complete reply to this request arrived, or none is expected. Otherwise there may be more bytes on the
     /// line.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.reply.is_empty() || (self.length == self.end() && self.is_ours() && self.is_sound())
     }
 
-    /// Takes bytes that came, and drops whole frames of others among them; whether all bytes had room.
+    /// Adds received bytes, and drops complete foreign frames; returns whether all bytes had room.
     #[cfg(feature = "std")]
     fn take(&mut self, mut bytes: &[u8]) -> bool {
         while !bytes.is_empty() {
@@ -157,7 +157,7 @@ impl<'a> Answer<'a> {
         true
     }
 
-    /// Whether a complete frame has the unit of the request, or over TCP its transaction.
+    /// True if a complete frame has the unit of the request, or over TCP its transaction.
     fn is_ours(&self) -> bool {
         let [sent, came] = [self.request, self.came()];
         match self.frames {
@@ -167,7 +167,7 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Whether a complete frame came unharmed, as far as it tells.
+    /// True if a complete frame is valid, as far as it shows.
     fn is_sound(&self) -> bool {
         match self.frames {
             Some(Framing::Tcp) => matches!(self.came(), [_, _, 0, 0, ..]),
@@ -176,7 +176,7 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Where the reply ends, or where the bytes end that will tell; what is no reply ends where it is.
+    /// The end of the reply, or of the bytes that show it; bytes that are no reply end where they are.
     fn end(&self) -> usize {
         let came = self.came();
         let (length, needed) = match self.frames {
@@ -197,7 +197,7 @@ impl<'a> Answer<'a> {
         self.reply.get(..self.length).unwrap_or_default()
     }
 
-    /// Whether this is a reply over TCP to another transaction; what is no reply ends with its head.
+    /// True if this is a reply over TCP to another transaction; bytes that are no reply end with their header.
     fn is_late(&self) -> bool {
         self.frames == Some(Framing::Tcp) && self.is_sound() && !self.is_ours()
     }

@@ -19,10 +19,9 @@ type Connecting = Pin<Box<dyn Future<Output = Result<Context, Error>> + Send>>;
 
 /// A client of tokio-modbus, over TCP, a serial line or RTU over TCP.
 ///
-/// Our frames reach it as requests, its answers come back as frames; the framing on the wire is its own affair, and
-/// ours may be either. It connects when it is used first, and anew after a failure, since nobody knows then which
-/// request a later answer is for; a dropped future of an exchange is such a failure. The old connection is closed
-/// before, so that a serial port is free.
+/// Our frames become its requests, and its answers become our frames; it adds its own framing, and ours can be either
+/// one. It connects on first use, and again after a failure, because a later answer could be for any request; dropping
+/// the future of an exchange is such a failure. The old connection is closed first, so that a serial port is free.
 ///
 /// ```ignore
 /// // with the feature `tcp` of tokio-modbus
@@ -35,7 +34,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// A line that `connect` opens, with a second for that and for each answer.
+    /// A line that `connect` opens, with one second to connect and for each answer.
     #[must_use]
     pub fn new<F, E>(mut connect: impl FnMut() -> F + Send + 'static) -> Self
     where
@@ -52,20 +51,20 @@ impl Line {
         }
     }
 
-    /// The same with another time for connecting, and for each answer. As long all units have to do what goes to all
-    /// of them.
+    /// The same with another time to connect, and for each answer. It is also the time that units have to carry out a
+    /// broadcast.
     #[must_use]
     pub fn timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// The client of tokio-modbus, as for functions that are none of ours; none before the first exchange and after a
+    /// The client of tokio-modbus, for example for other functions; [`None`] before the first exchange and after a
     /// failure.
     pub fn context(&mut self) -> Option<&mut Context> {
         self.context.as_mut()
     }
 
-    /// The connection that there is, else a new one; it is the caller's until an answer proves it.
+    /// The present connection, or a new one; the caller holds it until an answer arrives.
     async fn connection(&mut self) -> Result<Context, Error> {
         if let Some(context) = self.context.take() {
             return Ok(context);
@@ -101,7 +100,7 @@ impl AsyncTransport for Line {
     }
 }
 
-/// The data of the answer, with the function before them; none if none came in time.
+/// The data of the answer, with the function before them; [`None`] if none arrived in time.
 async fn call(
     context: &mut Context,
     timeout: Duration,
@@ -132,7 +131,7 @@ async fn call(
     pdu(answer).map(Some)
 }
 
-/// The bytes of an answer, as they stood in its frame.
+/// The bytes of an answer, as in its frame.
 fn pdu(answer: Result<Response, ExceptionResponse>) -> Result<Vec<u8>, Error> {
     let answer = match answer {
         Ok(answer) => answer,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Reading and writing points of a CAN device over a transport that the caller brings.
+//! Reading and writing points of a CAN device over a transport of the caller.
 
 use core::future::Future;
 use core::marker::PhantomData;
@@ -27,22 +27,22 @@ pub trait Transport {
     /// Sends a frame.
     ///
     /// # Errors
-    /// Whatever went wrong on the bus.
+    /// Any failure of the bus.
     fn send(&mut self, frame: &Frame) -> Result<(), Self::Error>;
 
     /// Waits for the next frame.
     ///
     /// # Errors
-    /// Whatever went wrong on the bus, also that nothing came in time.
+    /// Any failure of the bus, also if nothing arrives in time.
     fn receive(&mut self) -> Result<Frame, Self::Error>;
 
-    /// A frame that has come already; none, without waiting, if there is none.
+    /// A frame that has already arrived; [`None`] at once if there is none.
     ///
-    /// A client empties the bus with this before it asks: the late answer to an earlier request, which was given up,
-    /// is not to be taken for the answer to this one. A transport that cannot tell gives none, and takes that risk.
+    /// A client empties the bus with this before a request, so that a late answer to an earlier request is not taken
+    /// for the answer to this one. A transport that cannot tell returns [`None`], and takes that risk.
     ///
     /// # Errors
-    /// Whatever went wrong on the bus.
+    /// Any failure of the bus.
     fn pending(&mut self) -> Result<Option<Frame>, Self::Error>;
 }
 
@@ -56,7 +56,7 @@ pub trait AsyncTransport: Send {
 
     /// As [`Transport::receive`].
     ///
-    /// A future that is dropped is to lose no frame.
+    /// Dropping the future must not lose a frame.
     fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> + Send;
 
     /// As [`Transport::pending`].
@@ -78,7 +78,7 @@ pub trait LocalTransport {
     fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>>;
 }
 
-/// Several clients share one bus: each borrows it for as long as it lives.
+/// Clients can share one bus: each borrows it while it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {
     type Error = T::Error;
 
@@ -129,7 +129,7 @@ impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
     }
 }
 
-/// Hears the frames that a client does not wait for: a [`Receiver`], a pair of listeners, or `()` for none.
+/// Takes the frames that a client does not wait for: a [`Receiver`], a pair of listeners, or `()` for none.
 ///
 /// `receive` waits for a point of a telegram whose receiver the listener has: [`Hears`]. Which one of a pair that would
 /// be, nobody can tell; a pair is asked by its parts, `client.listener().0`.
@@ -138,7 +138,7 @@ impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
     note = "listen with `Receiver::<telegrams::...>::new(unit)`, a pair of them, or your own `Listener`"
 )]
 pub trait Listener {
-    /// Takes a frame that may be none of its own.
+    /// Takes a frame, which may be for another listener.
     fn hear(&mut self, frame: &Frame);
 }
 
@@ -152,9 +152,9 @@ impl<T: Telegram> Listener for Receiver<T> {
     }
 }
 
-/// A listener that has the receiver of a telegram, for which a client can wait then.
+/// A listener with the receiver of a telegram, so that a client can wait for it.
 ///
-/// Who waits for points of several telegrams brings a type of their own:
+/// To wait for points of several telegrams, write a type of your own:
 ///
 /// ```
 /// use fieldscribe_runtime::can::{Frame, Hears, Listener, Receiver, Telegram};
@@ -209,7 +209,7 @@ impl<T: Telegram> Listener for Receiver<T> {
     note = "a pair of receivers is asked by its parts after `client.listen()`: `client.listener().0.value::<P>()`"
 )]
 pub trait Hears<T: Telegram>: Listener {
-    /// The receiver of that telegram.
+    /// The receiver of the telegram.
     fn receiver(&self) -> &Receiver<T>;
 }
 
@@ -238,12 +238,12 @@ impl<L: Listener + ?Sized> Listener for &mut L {
     }
 }
 
-/// What is said of a bus that fails; who asked for a point names it.
+/// The error for a failure of the bus; the caller adds the point.
 const fn lost<E>(error: E) -> ClientError<E> {
     ClientError::Transport(error, None)
 }
 
-/// How many other frames a client lets pass while it waits, where nothing else is said.
+/// The default number of other frames that a client lets pass while it waits.
 const PATIENCE: u32 = 10_000;
 
 /// One unit of a bus.
@@ -263,7 +263,7 @@ impl Unit {
         }
     }
 
-    /// The messages of a dialogue and the frame that asks.
+    /// The messages of a dialogue and the frame of the request.
     fn ask(
         &self,
         dialogue: Option<Dialogue>,
@@ -276,19 +276,19 @@ impl Unit {
         Ok((dialogue, frame))
     }
 
-    /// Tells of a frame on the bus.
+    /// Logs a frame on the bus.
     fn trace(&self, way: Way, frame: &Frame) {
         trace::frame(self.number, way, Some(frame.id()), frame.bytes());
     }
 
-    /// The raw number of a frame that answers about the address, if it answers.
+    /// The raw number in a frame, if it answers for this address.
     fn answer(&self, answer: &Message, address: u16, frame: &Frame) -> Option<u16> {
         let content = answer.parse(self.number, frame).ok()?;
         let fits = content.address == address || !answer.carries_address();
         fits.then_some(content.raw)
     }
 
-    /// Holds what the device answered to a write against what was written, if its answer carries that.
+    /// Compares the answer to a write with what was written, if the answer has a number.
     fn confirm(&self, written: u16, answered: u16) -> Result<(), ReplyError> {
         let answer = self.profile.write.and_then(|dialogue| dialogue.answer);
         if answered == written || !answer.is_some_and(Message::carries_raw) {
@@ -299,12 +299,12 @@ impl Unit {
     }
 }
 
-/// The same client twice: what differs is how it waits for the transport.
+/// The client, for each way to wait for the transport.
 macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
         #[doc = $about]
         ///
-        /// Frames that are no answer to what was asked are offered to a [`Listener`].
+        /// A [`Listener`] takes all frames that are no answer to the request.
         #[derive(Debug)]
         pub struct $client<T, L = (), D = AnyDevice> {
             transport: T,
@@ -314,49 +314,49 @@ macro_rules! client {
         }
 
         impl<T: $transport, D: Device<Profile = Profile>> $client<T, (), D> {
-            /// The unit of that number behind a transport.
+            /// A unit of a bus.
             pub const fn new(transport: T, unit: u8) -> Self {
                 Self { transport, listener: (), unit: Unit::new(D::PROFILE, unit), device: PhantomData }
             }
         }
 
         impl<T: $transport> $client<T> {
-            /// The unit of that number, of a device that is chosen at run time; its client takes every point.
+            /// A unit with a device that is chosen at run time; its client takes every point.
             pub const fn for_profile(transport: T, profile: &'static Profile, unit: u8) -> Self {
                 Self { transport, listener: (), unit: Unit::new(profile, unit), device: PhantomData }
             }
         }
 
         impl<T, L, D> $client<T, L, D> {
-            /// The same client with another listener, as a [`Receiver`] of a telegram.
+            /// The same client with another listener, such as a [`Receiver`] of a telegram.
             pub fn listening<M: Listener>(self, listener: M) -> $client<T, M, D> {
                 $client { transport: self.transport, listener, unit: self.unit, device: PhantomData }
             }
 
-            /// The same client that lets so many frames pass while it waits for one; else it waits for ten thousand.
+            /// The same client with another number of frames that may pass while it waits; the default is ten thousand.
             #[must_use]
             pub fn patient(self, frames: u32) -> Self {
                 Self { unit: Unit { patience: frames, ..self.unit }, ..self }
             }
 
-            /// The listener, with what it has heard: `client.listener().raw::<P>()` of a [`Receiver`].
+            /// The listener, with what it has received: `client.listener().raw::<P>()` of a [`Receiver`].
             pub const fn listener(&self) -> &L {
                 &self.listener
             }
 
-            /// The transport, as for its settings.
+            /// The transport, for example to change its settings.
             pub fn transport(&mut self) -> &mut T {
                 &mut self.transport
             }
 
-            /// The transport back.
+            /// Returns the transport.
             pub fn into_transport(self) -> T {
                 self.transport
             }
         }
 
         impl<T: $transport, L: Listener, D> $client<T, L, D> {
-            /// The raw number that the device answers with.
+            /// Sends a request and returns the raw number of the answer.
             $($async)? fn exchange(
                 &mut self,
                 dialogue: Option<Dialogue>,
@@ -381,7 +381,7 @@ macro_rules! client {
                 Err(ReplyError::NoAnswer.into())
             }
 
-            /// Gives the frames that have come already to the listener: they answer nothing that is asked from now on.
+            /// Passes frames that have already arrived to the listener: they answer no later request.
             $($async)? fn drain(&mut self) -> Result<(), ClientError<T::Error>> {
                 for _ in 0..self.unit.patience {
                     let frame = self.transport.pending()$($wait)*.map_err(lost)?;
@@ -416,7 +416,7 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Puts a parameter's raw number into place, word by word if it has several.
+            /// Reads a parameter's raw number into `raw`, word by word if it has several.
             $($async)? fn get_raw<P>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Parameter,
@@ -441,7 +441,7 @@ macro_rules! client {
                 write write_with write_count write_count_with write_raw write_raw_with
             }
 
-            /// Writes a raw number that was checked, word by word.
+            /// Writes a checked raw number, word by word.
             $($async)? fn put<P: Whole + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = split::<P>(raw);
                 for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
@@ -480,7 +480,7 @@ macro_rules! client {
                 Ok(words)
             }
 
-            /// Writes a raw number that was checked to a parameter as data, word by word.
+            /// Writes a checked raw number to a parameter as data, word by word.
             $($async)? fn put_data(&mut self, point: &PointFacts, raw: i128) -> Result<(), ClientError<T::Error>> {
                 point.outside_telegrams()?;
                 let mut word = 0;
@@ -494,7 +494,7 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Waits for a frame, and gives it to the listener.
+            /// Waits for a frame, and passes it to the listener.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -512,7 +512,7 @@ macro_rules! client {
                 receive receive_with receive_count receive_count_with receive_raw
             }
 
-            /// Puts the raw number of a point of a telegram into place.
+            /// Reads the raw number of a point of a telegram into `raw`.
             $($async)? fn get_received<P>(&mut self, raw: &mut P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Received,

@@ -4,7 +4,7 @@
 use super::{Frame, ParseError, LENGTH};
 use crate::BuildError;
 
-/// What one byte of a message carries.
+/// The content of one byte of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Always this byte.
@@ -17,7 +17,7 @@ pub enum Role {
     Raw(u8),
     /// Which part of a telegram the frame carries.
     Multiplexer,
-    /// A byte of the frame's words: twice the word's place, and 1 more for its low byte.
+    /// A byte of the frame's words: twice the word's index, plus 1 for its low byte.
     Word(u8),
     /// The bytes of this mask combined by exclusive or.
     Xor(u8),
@@ -32,7 +32,7 @@ pub struct Message {
     roles: [Role; LENGTH],
 }
 
-/// What a message carries; 0 where it carries none.
+/// The content of a message; 0 for what it does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Content {
     /// The address.
@@ -69,7 +69,7 @@ impl Message {
         }
     }
 
-    /// The frame of the message; what the message does not carry is not looked at.
+    /// The frame of the message; content that the message does not have is ignored.
     ///
     /// # Errors
     /// [`BuildError::BadUnit`].
@@ -101,7 +101,7 @@ impl Message {
         Ok(Frame::new(self.id(unit), &data))
     }
 
-    /// What a frame says as this message of that unit. Any bytes at any length are safe.
+    /// The content of a frame as this message of a unit. Any bytes of any length are safe.
     ///
     /// # Errors
     /// Why the frame is not this message.
@@ -130,13 +130,13 @@ impl Message {
         self.roles.iter().any(carries)
     }
 
-    /// How many words of a telegram a frame carries.
+    /// The number of words of a telegram in a frame.
     pub(super) fn words(&self) -> usize {
         let is_word = |role: &&Role| matches!(role, Role::Word(_));
         self.roles.iter().filter(is_word).count() / 2
     }
 
-    /// The multiplexer and the words of a frame; none if it is not this message of that unit.
+    /// The multiplexer and the words of a frame; [`None`] if it is not this message of the unit.
     pub(super) fn part(&self, unit: u8, frame: &Frame) -> Option<(u8, [u16; LENGTH / 2])> {
         let data = self.laid_out(unit, frame).ok()?;
         let mut multiplexer = 0;
@@ -155,7 +155,7 @@ impl Message {
         Some((multiplexer, words))
     }
 
-    /// The bytes of a frame that is this message of that unit; the one place that says so.
+    /// The bytes of a frame, if it is this message of the unit.
     fn laid_out(&self, unit: u8, frame: &Frame) -> Result<[u8; LENGTH], ParseError> {
         if frame.id() != self.id(unit) {
             return Err(ParseError::WrongId);
@@ -209,13 +209,13 @@ fn combined(data: [u8; LENGTH], mask: u8) -> u8 {
 /// A request and the answer to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dialogue {
-    /// What is asked.
+    /// The request.
     pub request: &'static Message,
-    /// What the device says to it, if it says anything.
+    /// The answer of the device, if it answers.
     pub answer: Option<&'static Message>,
 }
 
-/// What the messages need to know of a device.
+/// The facts of a device that messages need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Profile {
     units: (u8, u8),
@@ -225,7 +225,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The least and the greatest unit, how many bits an identifier has, the messages that read and write a parameter.
+    /// The least and the greatest unit, the bits of an identifier, the messages that read and write a parameter.
     #[must_use]
     pub const fn new(
         units: (u8, u8),
@@ -241,14 +241,14 @@ impl Profile {
         }
     }
 
-    /// Whether the device can have that unit number.
+    /// True if the device can have this unit number.
     #[must_use]
     pub fn has_unit(&self, unit: u8) -> bool {
         let (least, greatest) = self.units;
         (least..=greatest).contains(&unit)
     }
 
-    /// How many bits an identifier has: 11, or 29 in extended frames.
+    /// The number of bits of an identifier: 11, or 29 in extended frames.
     #[must_use]
     pub const fn identifier_bits(&self) -> u8 {
         self.identifier_bits

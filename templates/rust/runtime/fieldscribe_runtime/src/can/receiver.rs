@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Telegrams that come frame by frame.
+//! Telegrams that arrive in several frames.
 
 use core::fmt;
 
@@ -22,7 +22,7 @@ pub trait Telegram {
     const PROFILE: &'static Profile;
     /// A slot for each frame that the words fill.
     type Slots: Copy + AsRef<[Slot]> + AsMut<[Slot]> + fmt::Debug;
-    /// The slots before anything came.
+    /// The empty slots.
     const EMPTY: Self::Slots;
 }
 
@@ -37,7 +37,7 @@ pub trait Received: Readable {
     type Telegram: Telegram;
 }
 
-/// The words of the frames with one multiplexer: the last ones and those before them.
+/// The words of the last two frames with one multiplexer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
     now: Part,
@@ -47,12 +47,12 @@ pub struct Slot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Part {
     words: [u16; LENGTH / 2],
-    /// When they came, in counted frames; 0 is never.
+    /// The numbers of these frames; 0 means none.
     at: u64,
 }
 
 impl Slot {
-    /// A slot into which nothing came.
+    /// An empty slot.
     pub const EMPTY: Self = Self {
         now: Part::EMPTY,
         before: Part::EMPTY,
@@ -70,9 +70,9 @@ impl Part {
     }
 }
 
-/// Takes the frames of a telegram from one unit, and gives its words once they came.
+/// Takes the frames of a telegram from one unit, and returns its words once they have arrived.
 ///
-/// It is no `Copy`: a copy that takes frames would leave the first as it was.
+/// It is not `Copy`: a copy that takes frames would leave the original unchanged.
 #[derive(Clone, Debug)]
 pub struct Receiver<T: Telegram> {
     unit: u8,
@@ -81,7 +81,7 @@ pub struct Receiver<T: Telegram> {
 }
 
 impl<T: Telegram> Receiver<T> {
-    /// A receiver for the telegram of that unit.
+    /// A receiver for the telegram of a unit.
     #[must_use]
     pub const fn new(unit: u8) -> Self {
         Self {
@@ -91,8 +91,8 @@ impl<T: Telegram> Receiver<T> {
         }
     }
 
-    /// Whether the frame belongs to the telegram; if so its words are kept. To a unit that the device cannot have
-    /// nothing belongs.
+    /// Takes a frame if it belongs to the telegram, and returns whether it does. No frame belongs to a unit number that
+    /// the device cannot have.
     pub fn take(&mut self, frame: &Frame) -> bool {
         if !T::PROFILE.has_unit(self.unit) {
             return false;
@@ -110,13 +110,13 @@ impl<T: Telegram> Receiver<T> {
         true
     }
 
-    /// How many frames were taken.
+    /// The number of frames taken.
     #[must_use]
     pub const fn taken(&self) -> u64 {
         self.clock
     }
 
-    /// Whether all words of a point came again since so many frames were taken.
+    /// True if all words of a point arrived after this many frames were taken.
     #[must_use]
     pub fn came_since<P: Received<Telegram = T>>(&self, taken: u64) -> bool {
         let came =
@@ -136,8 +136,8 @@ impl<T: Telegram> Receiver<T> {
     /// A point's raw number.
     ///
     /// # Errors
-    /// [`Error::NotReceived`]; [`Error::Torn`] if the number is in two frames and its high word did not stay
-    /// the same from before to after the low one.
+    /// [`Error::NotReceived`]; [`Error::Torn`] if the number is in two frames and its high word was not the same before
+    /// and after the low one.
     pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, Error> {
         let mut words = P::Raw::MIN.into_words();
         let found = self.words(P::ADDRESSES, counted_mut::<P>(words.as_mut()));
@@ -148,7 +148,7 @@ impl<T: Telegram> Receiver<T> {
     /// A point's value.
     ///
     /// # Errors
-    /// As for `raw`; what decoding says.
+    /// As for `raw`; the errors of decoding.
     pub fn value<P>(&self) -> Result<P::Value, Error>
     where
         P: Received<Telegram = T, Factors: NeedsNothing>,
@@ -189,7 +189,7 @@ impl<T: Telegram> Receiver<T> {
         P::decode_count_with(self.raw::<P>()?, with).into_result()
     }
 
-    /// The value of a point as data; what its scale needs of other points comes in the same telegram.
+    /// The value of a point as data; other points that its scale needs are in the same telegram.
     ///
     /// # Errors
     /// As for `value`; [`Error::NotReceived`] for a point of another telegram.
@@ -214,7 +214,7 @@ impl<T: Telegram> Receiver<T> {
         Ok(point.raw_of(words))
     }
 
-    /// Fills in the words at these positions; two of them belong together.
+    /// Stores the words at these positions; two of them are consistent.
     fn words(&self, positions: &[u16], places: &mut [u16]) -> Result<(), Error> {
         if let ([high, low], [first, second]) = (positions, &mut *places) {
             [*first, *second] = self.pair(*high, *low)?;
@@ -226,7 +226,7 @@ impl<T: Telegram> Receiver<T> {
         Ok(())
     }
 
-    /// Two words that belong together.
+    /// Two consistent words.
     fn pair(&self, high: u16, low: u16) -> Result<[u16; 2], Error> {
         let (above, high) = self.place(high)?;
         let (below, low) = self.place(low)?;
@@ -234,7 +234,7 @@ impl<T: Telegram> Receiver<T> {
         if above.now.at == below.now.at {
             return Ok([word, below.now.word(low)]);
         }
-        // The low word is believed if it came between two frames with the same high word.
+        // The low word is accepted if it arrived between two frames with the same high word.
         let (from, to) = (above.before.at, above.now.at);
         let between = |part: &Part| from != 0 && from < part.at && part.at < to;
         if word != above.before.word(high) {
@@ -248,7 +248,7 @@ impl<T: Telegram> Receiver<T> {
         }
     }
 
-    /// The slot of a position, into which something came, and the place of the word in it.
+    /// The slot of a position, unless it is empty, and the place of the word in it.
     fn place(&self, position: u16) -> Result<(&Slot, usize), Error> {
         let (position, words) = (usize::from(position), T::MESSAGE.words());
         let slot = position.checked_div(words);

@@ -6,9 +6,9 @@ use ::embedded_io::{Read, ReadReady, Write};
 use super::{Answer, LineError, Protocol, NOISE};
 use crate::Transport;
 
-/// A port that tells whether bytes have come, and what is done meanwhile.
+/// A port that tells whether bytes have arrived, and a closure to call while it waits.
 ///
-/// After a reply that did not come it waits once more before it asks again, so that no late one is taken for another.
+/// After a missing reply, it waits once more before the next request, so that no late reply is taken for another.
 ///
 /// `wait` is called while nothing comes, with how often that was so in a row; it gives whether to go on waiting:
 ///
@@ -46,7 +46,7 @@ impl<P, W: FnMut(u32) -> bool> Line<P, W> {
         Self::speaking(Protocol::Modbus, port, wait)
     }
 
-    /// A line of that protocol.
+    /// A line with this protocol.
     pub const fn speaking(protocol: Protocol, port: P, wait: W) -> Self {
         Self {
             port,
@@ -56,14 +56,14 @@ impl<P, W: FnMut(u32) -> bool> Line<P, W> {
         }
     }
 
-    /// The port, as for its settings.
+    /// The port, for example to change its settings.
     pub fn port(&mut self) -> &mut P {
         &mut self.port
     }
 }
 
 impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Line<P, W> {
-    /// Whether bytes have come, also while it waits.
+    /// Whether bytes have arrived; with `waits`, it waits for them.
     fn is_ready(&mut self, waits: bool) -> Result<bool, P::Error> {
         let mut waited = 0_u32;
         while !self.port.read_ready()? {

@@ -9,7 +9,7 @@ use core::fmt;
 pub enum LineError<E> {
     /// The port failed.
     Port(E),
-    /// Nothing came in time.
+    /// Nothing arrived in time.
     TimedOut,
     /// The other end is closed.
     Closed,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Any stream of bytes of the standard library, as a serial port. Needs the feature `std`.
+//! Any stream of bytes of the standard library, such as a serial port. Needs the feature `std`.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::time::{Duration, Instant};
@@ -8,10 +8,10 @@ use super::{Answer, Protocol, NOISE};
 use crate::modbus::LONGEST;
 use crate::Transport;
 
-/// How long bytes may come: the longest frame takes 2.4 seconds at 1200 baud.
+/// The longest time for the bytes of a frame: the longest frame takes 2.4 seconds at 1200 baud.
 const LONGEST_TIME: Duration = Duration::from_secs(3);
 
-/// A stream whose reads end with an error when nothing comes in time, as those of a serial port with a timeout.
+/// A stream whose reads fail if nothing arrives in time, like a serial port with a timeout.
 ///
 /// ```no_run
 /// # fn open() -> std::io::Result<std::fs::File> { std::fs::File::open("/dev/ttyUSB0") }
@@ -22,9 +22,9 @@ const LONGEST_TIME: Duration = Duration::from_secs(3);
 /// # std::io::Result::Ok(())
 /// ```
 ///
-/// After a failure it waits until the line is silent before it asks again, so that no late answer is taken for another;
-/// a unit that did not answer makes only itself wait. What comes unasked, [`StreamLine::clearing`] throws away. A line
-/// that is never silent ends an exchange three seconds after its first byte.
+/// After a failure, it waits until the line is silent before the next request, so that no late answer is taken for
+/// another; a unit that did not answer delays only itself. [`StreamLine::clearing`] discards unrequested bytes. If a
+/// line is never silent, an exchange ends three seconds after its first byte.
 #[derive(Debug)]
 pub struct StreamLine<S> {
     stream: S,
@@ -33,13 +33,13 @@ pub struct StreamLine<S> {
     clear: fn(&mut S) -> Result<()>,
 }
 
-/// What may still come of an exchange.
+/// What may still arrive from an exchange.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Late {
     Nothing,
-    /// The whole reply of that unit.
+    /// The whole reply of this unit.
     Reply(u8),
-    /// The rest of what was no reply.
+    /// The rest of bytes that were no reply.
     Rest,
 }
 
@@ -49,7 +49,7 @@ impl<S> StreamLine<S> {
         Self::speaking(Protocol::Modbus, stream)
     }
 
-    /// A line of that protocol.
+    /// A line with this protocol.
     pub const fn speaking(protocol: Protocol, stream: S) -> Self {
         Self {
             stream,
@@ -59,21 +59,21 @@ impl<S> StreamLine<S> {
         }
     }
 
-    /// The same line, where `clear` throws away what has come before each request:
+    /// The same line, with `clear` to discard received bytes before each request:
     /// `|port| Ok(port.clear(ClearBuffer::Input)?)` for a serial port of the crate `serialport`.
     #[must_use]
     pub fn clearing(self, clear: fn(&mut S) -> Result<()>) -> Self {
         Self { clear, ..self }
     }
 
-    /// The stream, as for its settings.
+    /// The stream, for example to change its settings.
     pub fn stream(&mut self) -> &mut S {
         &mut self.stream
     }
 }
 
 impl<S: Read> StreamLine<S> {
-    /// Reads until nothing comes any more.
+    /// Reads until nothing more arrives.
     fn fall_silent(&mut self) -> Result<()> {
         let mut thrown_away = [0; 64];
         let started = Instant::now();
@@ -127,8 +127,8 @@ impl<S: Read + Write> Transport for StreamLine<S> {
     }
 }
 
-/// Receives an answer; whether nothing came behind it. What comes of others is dropped: it is the answer only if
-/// nothing else came, as it tells who answered.
+/// Receives an answer; returns whether nothing arrived after it. Foreign frames are dropped: one is the answer only if
+/// nothing else arrived, as it shows who answered.
 pub(super) fn receive(
     answer: &mut Answer<'_>,
     mut read: impl FnMut(&mut [u8]) -> Result<usize>,
@@ -157,7 +157,7 @@ pub(super) fn receive(
     Ok(true)
 }
 
-/// Whether an error says that nothing came.
+/// True if an error means that nothing arrived.
 pub(super) fn is_silence(kind: ErrorKind) -> bool {
     matches!(kind, ErrorKind::TimedOut | ErrorKind::WouldBlock)
 }

@@ -10,9 +10,9 @@ use super::stream::{is_silence, receive};
 use super::{Answer, Protocol, NOISE};
 use crate::Transport;
 
-/// A connection over TCP: Modbus TCP, or the frames of a serial line behind a serial server.
+/// A connection over TCP: Modbus TCP, or the frames of a serial line over a serial server.
 ///
-/// It connects when it is used first, and anew after a failure: whoever tries again needs to do nothing else.
+/// It connects on first use, and again after a failure: just repeat the request.
 ///
 /// ```no_run
 /// use std::time::Duration;
@@ -30,12 +30,12 @@ pub struct TcpLine<A> {
 }
 
 impl<A: ToSocketAddrs> TcpLine<A> {
-    /// A connection to that address, for Modbus, with a second for each answer.
+    /// A connection to this address, for Modbus, with a second for each answer.
     pub const fn new(address: A) -> Self {
         Self::speaking(Protocol::Modbus, address)
     }
 
-    /// A connection for that protocol.
+    /// A connection with this protocol.
     pub const fn speaking(protocol: Protocol, address: A) -> Self {
         Self {
             address,
@@ -45,7 +45,7 @@ impl<A: ToSocketAddrs> TcpLine<A> {
         }
     }
 
-    /// The same with another time for connecting, and for each whole answer. At least a millisecond is waited.
+    /// The same with another time to connect, and for each whole answer; at least a millisecond.
     #[must_use]
     pub fn timeout(self, timeout: Duration) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl<A: ToSocketAddrs> TcpLine<A> {
         }
     }
 
-    /// The connection that there is, if nothing says that it has ended; else a new one.
+    /// The present connection, unless it has ended; else a new one.
     fn connection(&mut self) -> Result<TcpStream> {
         let old = self.stream.take();
         match old.filter(|stream| drained(stream).unwrap_or(false)) {
@@ -98,7 +98,7 @@ impl<A: ToSocketAddrs> Transport for TcpLine<A> {
     }
 }
 
-/// The same error, where there was no address, with what one is.
+/// The same error; for a missing address, with the form of an address.
 fn with_form(error: Error) -> Error {
     match error.kind() {
         ErrorKind::InvalidInput => Error::new(
@@ -113,7 +113,7 @@ fn nothing_came() -> Error {
     Error::new(ErrorKind::TimedOut, "no byte came")
 }
 
-/// Reads some bytes, of which there is at least one.
+/// Reads at least one byte.
 fn read_within(stream: &mut TcpStream, left: Duration, space: &mut [u8]) -> Result<usize> {
     if left.is_zero() {
         return Err(nothing_came());
@@ -129,9 +129,9 @@ fn read_within(stream: &mut TcpStream, left: Duration, space: &mut [u8]) -> Resu
     }
 }
 
-/// Throws away what came; whether the other end is still there, and silent.
+/// Discards received bytes; returns whether the other end is still connected, and silent.
 ///
-/// One that sends without end is given up, so that this ends.
+/// Gives up on one that sends without end.
 fn drained(mut stream: &TcpStream) -> Result<bool> {
     stream.set_nonblocking(true)?;
     let mut thrown_away = [0; 256];
