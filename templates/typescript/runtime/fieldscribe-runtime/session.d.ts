@@ -105,7 +105,7 @@ export class Session {
     /** Write several points in one request; each is checked with the new numbers of those before it.
      * @param {Map<AnyPoint, unknown>} values */
     _writeTogether(values: Map<AnyPoint, unknown>): Promise<void>;
-    /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
+    /** The word that a bit group shares with other points, read before the group is written. @param {AnyPoint} point
      * @returns {Promise<number>} */
     _sharedWord(point: AnyPoint): Promise<number>;
     /** Write words or bits at a place, and forget what they change. @param {Place} at @param {readonly number[]} words */
@@ -187,7 +187,7 @@ export class Session {
      */
     writeTogether(values: Readonly<Record<string, unknown>>): Promise<void>;
     /**
-     * Read what tells this device from others; returns the value of each variant axis that what it holds fits. Raises
+     * Read the points that identify this device; returns the matching value of each variant axis. Raises
      * OtherDeviceError for another device.
      * @returns {Promise<Record<string, string>>}
      */

@@ -358,7 +358,7 @@ export class Session {
     this._selected = new Map(points[0].facts.selects);
   }
 
-  /** The word that a bit group shares with others, as it is before the group is written. @param {AnyPoint} point
+  /** The word that a bit group shares with other points, read before the group is written. @param {AnyPoint} point
    * @returns {Promise<number>} */
   async _sharedWord(point) {
     if (!point.decode) throw new AccessError("the other bits of its word cannot be read back");
@@ -691,7 +691,7 @@ export class Session {
   }
 
   /**
-   * Read what tells this device from others; returns the value of each variant axis that what it holds fits. Raises
+   * Read the points that identify this device; returns the matching value of each variant axis. Raises
    * OtherDeviceError for another device.
    * @returns {Promise<Record<string, string>>}
    */
