@@ -358,8 +358,8 @@ def test_a_page_that_is_written_before_is_said_before(run: Run) -> None:
         )
         asked = run(*words).err
         sent = run(*words, "--yes", "-v").err
-    assert "    written first, unless it holds: page = inputs (Inputs)\n" in asked
-    assert "    written first, unless it holds: array_index = 11\n" in asked
+    assert "    written first if different: page = inputs (Inputs)\n" in asked
+    assert "    written first if different: array_index = 11\n" in asked
     names = re.findall(r" -> .*\((\w+)\)$", sent, re.MULTILINE)
     assert names == ["page", "array_index", "input_delay_index_2"]
 

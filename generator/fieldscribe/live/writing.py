@@ -172,7 +172,7 @@ class Planner:
             yield f"it exists only when {condition_text(point.when, points_by_name(self._model))}"
         for name, raw in point.selects:
             other = choose_point(self._model, name)
-            yield f"written first, unless it holds: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
+            yield f"written first if different: {label(other)} = {Meanings(self._model, other).text(raw, {})}"
         if point.conditions:
             yield f"write only when: {', '.join(point.conditions).replace('_', ' ')}"
         if keep or point.keeps == "yes":
