@@ -364,11 +364,22 @@ def test_a_page_that_is_written_before_is_said_before(run: Run) -> None:
     assert names == ["page", "array_index", "input_delay_index_2"]
 
 
-def test_a_condition_is_said_before_a_write(run: Run) -> None:
+@pytest.mark.parametrize(
+    ("words", "refused"),
+    [
+        (["target_torque=2"], True),
+        (["control_mode=by_torque", "target_torque=2"], False),
+        (["control_mode=by_torque", "target_speed=100"], True),
+        (["target_torque=2", "control_mode=by_torque"], True),
+    ],
+)
+def test_a_point_is_written_only_while_it_exists(run: Run, words: list[str], refused: bool) -> None:
+    """What is written before it in the same call counts."""
     with simulated(DEVICES / "kitchen_sink") as sink:
         line = f"tcp://127.0.0.1:{sink.port}"
-        asked = run("write", str(DEVICES / "kitchen_sink"), "target_torque=2", "--line", line).err
-    assert "    it exists only when control_mode == by_torque\n" in asked
+        asked = run("write", str(DEVICES / "kitchen_sink"), *words, "--line", line).err
+    condition = "it exists only when control_mode == by_"
+    assert (f"does not exist now: {condition}" in asked, f"    {condition}" in asked) == (refused, not refused)
 
 
 def test_a_base_that_only_a_given_number_moves_and_steps_where_no_point_lies(tmp_path: Path, run: Run) -> None:

@@ -95,6 +95,7 @@ class Planner:
         self._points = {point.item: point for point in model.points}
         self._commands = {command.name: command for command in model.all_commands}
         self._settings: dict[str, int | Fraction] = {**(known or {})}
+        self._raws: dict[str, int | str] = {a: one[0] for a, one in model.variants.items() if len(one) == 1}
         self._lenient = lenient
 
     def plan(self, words: list[str]) -> list[Write]:
@@ -130,9 +131,11 @@ class Planner:
         point = choose_point(self._model, name.removesuffix(".raw"))
         keep = self._keep and self._kept_by_request(point)
         require_writable(point)
+        self._require_existence(point)
         settings = self._needed(point)
         encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))
         self._settings[point.name] = codec.setting_of(point, encoded.raw)
+        self._raws[point.name] = encoded.raw
         reading = self._reading(point, encoded.raw, settings)
         remarks = tuple(self._remarks(point, keep))
         is_lost = not self._keep and point.keeps not in (None, "yes", "no")
@@ -145,6 +148,18 @@ class Planner:
             return reading
         handle: Any = self._device.point(point.item)
         return Reading(**self._device.rows({point.item: handle.decode(raw)})[0], text=reading.text)
+
+    def _require_existence(self, point: Point) -> None:
+        """Raise RefusedError if the point does not exist while its condition is false; selections are written first."""
+        if point.when is None or point.selects:
+            return
+        for name in point.when.names:
+            if name not in self._raws and name not in self._model.variants:
+                self._raws[name] = self._device.point(choose_point(self._model, name).item).read_raw()
+        if self._raws.keys() >= {*point.when.names} and not point.when.holds(self._raws):
+            condition = condition_text(point.when, points_by_name(self._model))
+            message = f"{label(point)} does not exist now: it exists only when {condition}"
+            raise RefusedError("absent", message, "write what the condition needs before it, in the same call")
 
     def _needed(self, point: Point) -> dict[str, int | Fraction]:
         """Return the numbers of other points that a scale or limit needs."""
