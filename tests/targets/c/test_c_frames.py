@@ -125,7 +125,7 @@ def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path:
     assert not re.search(r"__aeabi_[df]|__[a-z]*[sd]f[0-9]", symbols)
     text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
     print(f"Cortex-M0, -Os, a dialogue: .text {text} bytes")
-    assert text <= 4112
+    assert text <= 4320
 
 
 # words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
