@@ -28,7 +28,7 @@ def _of_fact(key: str) -> Column:
 
 COLUMNS = (
     _of_fact("code"),
-    Column("name", "the name in code, with the variant; each stands once"),
+    Column("name", "the name in code, with the variant; each occurs once"),
     Column("kind", "`point`, or `command`: a fixed number that is written so that the device does something"),
     _of_fact("variant"),
     _of_fact("group"),
