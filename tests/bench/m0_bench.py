@@ -37,7 +37,7 @@ codegen-units = 1
 panic = "abort"
 """
 RUST_TARGET = "thumbv6m-none-eabi"
-NOTHING, BUILD, PARSE, ASK, BOTH, POINTS = range(6)
+NOTHING, BUILD, PARSE, ASK, BOTH, POINTS, ENCODE, DECODE, POWER = range(9)
 TICK, INSTRUCTION = 62.5, 64.0
 """Nanoseconds of the timer and of an instruction."""
 
@@ -74,8 +74,8 @@ def _instructions(image: Path) -> float:
     return ticks * TICK / INSTRUCTION
 
 
-def _vendor(target: str, folder: Path, points: str) -> None:
-    words = [FIELDSCRIBE, "vendor", target, "hitachi_l200", "--out", str(folder), "--points", points]
+def _vendor(target: str, folder: Path, points: str, device: str = "hitachi_l200") -> None:
+    words = [FIELDSCRIBE, "vendor", target, device, "--out", str(folder), "--points", points]
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -100,6 +100,14 @@ def rows(folder: Path) -> Iterator[tuple[str, float, float | None, float]]:
     yield "and ask, bytes", asked - nothing, None, 1250
     one, two = (_bytes(_image(folder, "generated", POINTS, points)) for points in (1, 2))
     yield "one more point read and written, bytes", two - one, None, 60
+    _vendor("c", folder, "main_setpoint,main_actual_value", "siemens_mm4")
+    _vendor("c", folder, "generator_voltage_l1_l2", "woodward_mpu2s")
+    images = {part: _image(folder, "scales", part) for part in (NOTHING, ENCODE, DECODE, POWER)}
+    took = {part: _instructions(image) - _instructions(images[NOTHING]) for part, image in images.items()}
+    yield "MM4: setpoint of 25 Hz to raw, instructions", took[ENCODE], None, 400
+    yield "MM4: actual value to a count, instructions", took[DECODE], None, 400
+    yield "MPU2-S: voltage to a count, instructions", took[POWER], None, 100
+    yield "and bytes", _bytes(images[POWER]) - _bytes(images[NOTHING]), None, 300
     _vendor("rust", folder, "A020")
     whole, empty = _rust_bytes(folder, "--features", "both"), _rust_bytes(folder)
     yield "Rust: a point read and written in counts, bytes", whole - empty, None, 3000

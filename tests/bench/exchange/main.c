@@ -14,6 +14,7 @@
 
 extern uint32_t _stack;
 void points(void);
+int scale(void);
 void reset(void);
 
 static const uint8_t answer[11] = {5, 3, 6, 0x01, 0xF4, 0x00, 0x64, 0, 1, ANSWER_CRC};
@@ -49,6 +50,8 @@ static int call(void)
     return build(5U, 0, bytes, sizeof bytes) - 8 + parse(5U, 0, answer, sizeof answer, &values);
 #elif PART == 5
     points();
+#elif PART >= 6
+    return scale();
 #endif
     return 0;
 }
