@@ -483,7 +483,7 @@ POINT: FactTable = (
         "selects",
         "Points that must hold a raw number before the address means this one, each with its number.",
         list_of(record(("point", "The point.", STRING), ("raw", "What it holds.", INTEGER))),
-        BEHAVIOUR,
+        WIRE,
         refers="point",
         yaml=("select",),
     )
