@@ -5,10 +5,10 @@
  *
  * Eastron SDM630-Modbus V2
  *
-  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
-  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
-  * only if it returns EASTRON_SDM630_OK. Decoding accepts every raw number that a device may send.
-  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
+ * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
+ * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
+ * only if it returns EASTRON_SDM630_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
  * - whether the meter sends 4 or 5 when it cannot store a setting (exception_5_number)
@@ -50,9 +50,9 @@ typedef fieldscribe_real eastron_sdm630_real;
 #define EASTRON_SDM630_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
-  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
-  * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
-  * code for that value; without one it is the number itself.
+ * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
+ * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
+ * code for that value; without one it is the number itself.
  */
 #define EASTRON_SDM630_TIMING_SILENT_CHARACTERS_TENTHS 35U
 #define EASTRON_SDM630_SERIAL_BAUD_2400 0U

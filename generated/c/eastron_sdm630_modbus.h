@@ -5,8 +5,8 @@
  *
  * Eastron SDM630-Modbus V2: Modbus requests.
  *
-  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
-  * One that shares its word with other points has `update`: read the word first.
+ * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+ * One that shares its word with other points has `update`: read the word first.
  */
 #include "eastron_sdm630.h"
 #include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */

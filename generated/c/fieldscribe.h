@@ -1,15 +1,15 @@
 /*
  * SPDX-License-Identifier: 0BSD
  *
-  * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
-  * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
-  * no library, and keeps no state: every function may run in an interrupt.
-  *
-  * Headers of points need only this file. Headers of frames also need functions that a program must define exactly
-  * once: one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
-  *
-  * ..._encode checks a value against the limits of its point. The macro of a special code is already a raw number; do
-  * not encode it. `in steps of` in a comment says how the device rounds values; nothing here checks it.
+ * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
+ * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
+ * no library, and keeps no state: every function may run in an interrupt.
+ *
+ * Headers of points need only this file. Headers of frames also need functions that a program must define exactly
+ * once: one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
+ *
+ * ..._encode checks a value against the limits of its point. The macro of a special code is already a raw number; do
+ * not encode it. `in steps of` in a comment says how the device rounds values; nothing here checks it.
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.

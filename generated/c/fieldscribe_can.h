@@ -1,11 +1,11 @@
 /*
-  * CAN frames by layout: builds messages, parses answers, and collects cyclic telegrams that arrive in several frames.
-  * No heap; the state of a receiver is the caller's. Parsing is safe for any bytes of any length.
-  * SPDX-License-Identifier: 0BSD
-  *
-  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
+ * CAN frames by layout: builds messages, parses answers, and collects cyclic telegrams that arrive in several frames.
+ * No heap; the state of a receiver is the caller's. Parsing is safe for any bytes of any length.
+ * SPDX-License-Identifier: 0BSD
  *
-  * To read a parameter:
+ * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
+ *
+ * To read a parameter:
  *
  *     const fieldscribe_can_rw *const point = &woodward_mpu2s_password_level_2_frame;
  *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
@@ -15,17 +15,17 @@
  *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, &word);
  *     fits = fieldscribe_take_u16(point->layout, &word, 1U, &raw);
  *
-  * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
-  * already a raw number. fieldscribe_put_u16(point->layout, raw, &word, 1U) stores it in the word without that check,
-  * and fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame) builds the frame.
-  * fieldscribe_can_write_answer returns OK for the frame that confirms the write. A point that has only some bits of a
-  * word has `update`, not `write`: read the word, put the bits, write it back. Over a serial gateway,
-  * fieldscribe_can_reply_length returns the length of an answer. fieldscribe_can_id returns the identifier to let
-  * through a filter.
-  *
-  * Interrupts: you can take the frames of a telegram in an interrupt and read its words elsewhere, or the reverse. What
-  * is read is consistent, or TORN if the read interrupted fieldscribe_can_take. Only one context may take the frames of
-  * a receiver. All other functions keep no state.
+ * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
+ * already a raw number. fieldscribe_put_u16(point->layout, raw, &word, 1U) stores it in the word without that check,
+ * and fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame) builds the frame.
+ * fieldscribe_can_write_answer returns OK for the frame that confirms the write. A point that has only some bits of a
+ * word has `update`, not `write`: read the word, put the bits, write it back. Over a serial gateway,
+ * fieldscribe_can_reply_length returns the length of an answer. fieldscribe_can_id returns the identifier to let
+ * through a filter.
+ *
+ * Interrupts: you can take the frames of a telegram in an interrupt and read its words elsewhere, or the reverse. What
+ * is read is consistent, or TORN if the read interrupted fieldscribe_can_take. Only one context may take the frames of
+ * a receiver. All other functions keep no state.
  */
 #include "fieldscribe.h"
 

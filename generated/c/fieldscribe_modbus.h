@@ -1,10 +1,10 @@
 /*
-  * Modbus frames over a serial line (RTU) or TCP: builds requests and parses answers in the caller's buffers.
-  * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap. Parsing is safe for any bytes of any length. All state is
-  * the caller's: every function may run in an interrupt with its own buffers, but only one context may use a receiver.
-  * SPDX-License-Identifier: 0BSD
-  *
-  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
+ * Modbus frames over a serial line (RTU) or TCP: builds requests and parses answers in the caller's buffers.
+ * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap. Parsing is safe for any bytes of any length. All state is
+ * the caller's: every function may run in an interrupt with its own buffers, but only one context may use a receiver.
+ * SPDX-License-Identifier: 0BSD
+ *
+ * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
  */
 #include "fieldscribe.h"
 #include "fieldscribe_modbus_facts.h"
@@ -208,10 +208,10 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply);
 
 /*
-  * The same for a framing given as an argument; a constant framing links only its own functions.
+ * The same for a framing given as an argument; a constant framing links only its own functions.
  *
-  * To read a point over a serial line: `words` has the size of the point, `buffer` room for the longest answer, and
-  * `receive` is your function: it returns false when the line stays silent.
+ * To read a point over a serial line: `words` has the size of the point, `buffer` room for the longest answer, and
+ * `receive` is your function: it returns false when the line stays silent.
  *
  *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
@@ -229,20 +229,20 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
  *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
  *
-  * SHORT_FRAME means that no answer arrived. After any error, wait until the line is silent before the next request:
-  * otherwise a late answer is taken for the next one. Where there is no noise (TCP), you can wait for several bytes at
-  * once: fieldscribe_modbus_left returns how many.
-  *
-  * To read a block (..._BLOCK_MOST words hold any block of the device), do the same. Then for each of its points:
-  * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), and
-  * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which returns false if `in` is NULL.
-  *
-  * To write a point: ..._encode makes the raw number and checks that it may be written; the macro of a special code
-  * (..._INACTIVE) is a raw number already. fieldscribe_put_u16(point->layout, raw, words, count) stores it in the words
-  * without that check, and fieldscribe_modbus_write(unit, &point->write, words, count) makes the request. Parse its
-  * answer too: OK means that the device accepted the write; the reply may be {NULL, 0U, 0U, 0U}. A broadcast gets no
-  * answer, so skip receiving and parsing.
-  * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
+ * SHORT_FRAME means that no answer arrived. After any error, wait until the line is silent before the next request:
+ * otherwise a late answer is taken for the next one. Where there is no noise (TCP), you can wait for several bytes at
+ * once: fieldscribe_modbus_left returns how many.
+ *
+ * To read a block (..._BLOCK_MOST words hold any block of the device), do the same. Then for each of its points:
+ * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), and
+ * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which returns false if `in` is NULL.
+ *
+ * To write a point: ..._encode makes the raw number and checks that it may be written; the macro of a special code
+ * (..._INACTIVE) is a raw number already. fieldscribe_put_u16(point->layout, raw, words, count) stores it in the words
+ * without that check, and fieldscribe_modbus_write(unit, &point->write, words, count) makes the request. Parse its
+ * answer too: OK means that the device accepted the write; the reply may be {NULL, 0U, 0U, 0U}. A broadcast gets no
+ * answer, so skip receiving and parsing.
+ * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
  */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
     const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,

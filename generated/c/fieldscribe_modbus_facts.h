@@ -1,6 +1,6 @@
 /*
-  * Types for the facts of a Modbus device and its points: functions, addresses, counts. There is no code here: programs
-  * with a Modbus stack of their own do not need fieldscribe_modbus.h.
+ * Types for the facts of a Modbus device and its points: functions, addresses, counts. There is no code here: programs
+ * with a Modbus stack of their own do not need fieldscribe_modbus.h.
  * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
@@ -156,12 +156,12 @@ typedef struct fieldscribe_modbus_text_rw {
 } fieldscribe_modbus_text_rw;
 
 /*
-  * A point in a table of yours: static const fieldscribe_modbus_row rows[] = {HITACHI_L200_OUTPUT_FREQUENCY_ROW, ...};
-  * Its number counts units of 10^-decimals: (raw * divisor - add) / factor. Where that needs more than the raw number,
-  * `decimals` is FIELDSCRIBE_MODBUS_RAW, and the number is the raw one. Numbers from `low` to `high` may be written;
-  * `write` is NULL if the point is not writable, or if special codes or other points decide which numbers may be
-  * written: use ..._write_POINT then. FIELDSCRIBE_NAMES adds the name and the unit: define it in all files of a program
-  * or in none.
+ * A point in a table of yours: static const fieldscribe_modbus_row rows[] = {HITACHI_L200_OUTPUT_FREQUENCY_ROW, ...};
+ * Its number counts units of 10^-decimals: (raw * divisor - add) / factor. Where that needs more than the raw number,
+ * `decimals` is FIELDSCRIBE_MODBUS_RAW, and the number is the raw one. Numbers from `low` to `high` may be written;
+ * `write` is NULL if the point is not writable, or if special codes or other points decide which numbers may be
+ * written: use ..._write_POINT then. FIELDSCRIBE_NAMES adds the name and the unit: define it in all files of a program
+ * or in none.
  */
 typedef struct fieldscribe_modbus_row {
     const fieldscribe_modbus_profile *profile;

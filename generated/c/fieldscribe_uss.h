@@ -1,14 +1,14 @@
 /*
-  * USS telegrams: builds requests and parses answers in the caller's buffers. A telegram carries a parameter part (PKW:
-  * one task for one parameter, or its answer) and process data (PZD: words that every telegram exchanges). No heap.
-  * Parsing is safe for any bytes of any length. All state is the caller's: every function may run in an interrupt with
-  * its own buffers, but only one context may use a receiver.
-  * SPDX-License-Identifier: 0BSD
-  *
-  * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
-  *
-  * To read a parameter over a serial line: `sent` and `heard` are words of process data; `receive` is your function. It
-  * returns false when the line stays silent.
+ * USS telegrams: builds requests and parses answers in the caller's buffers. A telegram carries a parameter part (PKW:
+ * one task for one parameter, or its answer) and process data (PZD: words that every telegram exchanges). No heap.
+ * Parsing is safe for any bytes of any length. All state is the caller's: every function may run in an interrupt with
+ * its own buffers, but only one context may use a receiver.
+ * SPDX-License-Identifier: 0BSD
+ *
+ * Exactly one C file of a program defines FIELDSCRIBE_IMPLEMENTATION before it includes this header.
+ *
+ * To read a parameter over a serial line: `sent` and `heard` are words of process data; `receive` is your function. It
+ * returns false when the line stays silent.
  *
  *     const fieldscribe_uss_rw *const point = &siemens_mm4_maximum_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_USS_MOST];
@@ -28,18 +28,18 @@
  *     status = fieldscribe_uss_words_of_reply(&reply, &point->read, words, FIELDSCRIBE_COUNT(words));
  *     fits = fieldscribe_take_u32(point->layout, words, FIELDSCRIBE_COUNT(words), &raw);
  *
-  * WRONG_START and WRONG_LENGTH then mean that no answer arrived. After any error, wait until the line is silent before
-  * the next request: otherwise a late answer is taken for the next one.
-  *
-  * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
-  * already a raw number. fieldscribe_put_u32(point->layout, raw, words, count) stores it in the words without that
-  * check, and fieldscribe_uss_write(unit, &point->write, words, count) makes the request and copies the words. Parse
-  * its answer too: OK means that the device accepted the write.
-  * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
-  *
-  * A point of the received process data: in = fieldscribe_uss_words_heard(&point->heard, heard, link.pzd), then
-  * fieldscribe_take_s16(point->layout, in, point->heard.words, &raw), which returns false if `in` is NULL. To send one,
-  * do the same with `sent` and fieldscribe_put_s16.
+ * WRONG_START and WRONG_LENGTH then mean that no answer arrived. After any error, wait until the line is silent before
+ * the next request: otherwise a late answer is taken for the next one.
+ *
+ * To write one: ..._encode makes the raw number and checks that it may be written; the macro of a special code is
+ * already a raw number. fieldscribe_put_u32(point->layout, raw, words, count) stores it in the words without that
+ * check, and fieldscribe_uss_write(unit, &point->write, words, count) makes the request and copies the words. Parse
+ * its answer too: OK means that the device accepted the write.
+ * A point that has only some bits of a word has `update`, not `write`: read the word, put the bits, write it back.
+ *
+ * A point of the received process data: in = fieldscribe_uss_words_heard(&point->heard, heard, link.pzd), then
+ * fieldscribe_take_s16(point->layout, in, point->heard.words, &raw), which returns false if `in` is NULL. To send one,
+ * do the same with `sent` and fieldscribe_put_s16.
  */
 #include "fieldscribe.h"
 

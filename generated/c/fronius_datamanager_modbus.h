@@ -5,8 +5,8 @@
  *
  * Fronius Datamanager with a three-phase inverter: Modbus requests.
  *
-  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
-  * One that shares its word with other points has `update`: read the word first.
+ * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+ * One that shares its word with other points has `update`: read the word first.
  */
 #include "fronius_datamanager.h"
 #include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
@@ -51,11 +51,11 @@ enum {
 };
 
 /*
-  * ---- Bases that addresses count from ----
-  *
-  * Functions that read or write such a point take it as `base`. The rows of points and blocks are relative to it:
-  * fieldscribe_modbus_reading_at and fieldscribe_modbus_writing_at add it.
-  */
+ * ---- Bases that addresses count from ----
+ *
+ * Functions that read or write such a point take it as `base`. The rows of points and blocks are relative to it:
+ * fieldscribe_modbus_reading_at and fieldscribe_modbus_writing_at add it.
+ */
 
 /* Blocks after "SunS": fieldscribe_modbus_find finds them by their ids. */
 static const uint16_t fronius_datamanager_models_marker[] = {0x5375U, 0x6E53U};

@@ -5,10 +5,10 @@
  *
  * Hitachi L200
  *
-  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
-  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
-  * only if it returns HITACHI_L200_OK. Decoding accepts every raw number that a device may send.
-  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
+ * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
+ * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
+ * only if it returns HITACHI_L200_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
  * - whether 0Fh and 10h may be sent to unit 0 (broadcast_0f_10)
@@ -56,9 +56,9 @@ typedef fieldscribe_real hitachi_l200_real;
 #define HITACHI_L200_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
-  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
-  * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
-  * code for that value; without one it is the number itself.
+ * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
+ * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
+ * code for that value; without one it is the number itself.
  */
 #define HITACHI_L200_TIMING_SILENT_CHARACTERS_TENTHS 35U
 #define HITACHI_L200_TIMING_RESPONSE_DELAY_MS_MIN 0U

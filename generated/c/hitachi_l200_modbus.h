@@ -5,8 +5,8 @@
  *
  * Hitachi L200: Modbus requests.
  *
-  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
-  * One that shares its word with other points has `update`: read the word first.
+ * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+ * One that shares its word with other points has `update`: read the word first.
  */
 #include "hitachi_l200.h"
 #include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */

@@ -5,10 +5,10 @@
  *
  * JUMO Controller with MOD-Bus
  *
-  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
-  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
-  * only if it returns JUMO_CONTROLLER_OK. Decoding accepts every raw number that a device may send.
-  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
+ * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
+ * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
+ * only if it returns JUMO_CONTROLLER_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
  * - which settings of the interface are those of the factory (default_settings)
@@ -51,9 +51,9 @@ typedef fieldscribe_real jumo_controller_real;
 #define JUMO_CONTROLLER_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
-  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
-  * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
-  * code for that value; without one it is the number itself.
+ * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
+ * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
+ * code for that value; without one it is the number itself.
  */
 #define JUMO_CONTROLLER_TIMING_SILENT_CHARACTERS 3U
 #define JUMO_CONTROLLER_TIMING_RESPONSE_TIME_MS_MAX 250U

@@ -5,8 +5,8 @@
  *
  * JUMO Controller with MOD-Bus: Modbus requests.
  *
-  * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
-  * One that shares its word with other points has `update`: read the word first.
+ * A point has requests to read it (`read`) and to write it (`write`). One that cannot be written has no `write`.
+ * One that shares its word with other points has `update`: read the word first.
  */
 #include "jumo_controller.h"
 #include "fieldscribe_modbus.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */

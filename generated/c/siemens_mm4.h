@@ -5,10 +5,10 @@
  *
  * Siemens MICROMASTER 4
  *
-  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
-  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
-  * only if it returns SIEMENS_MM4_OK. Decoding accepts every raw number that a device may send.
-  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
+ * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
+ * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
+ * only if it returns SIEMENS_MM4_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
  * - after which errors the next accessible task id follows (next_task_error_name)
@@ -62,9 +62,9 @@ typedef fieldscribe_real siemens_mm4_real;
 #define SIEMENS_MM4_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
-  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
-  * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
-  * code for that value; without one it is the number itself.
+ * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
+ * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
+ * code for that value; without one it is the number itself.
  */
 #define SIEMENS_MM4_SERIAL_BAUD_MOST 57600U
 #define SIEMENS_MM4_SERIAL_SLAVES_MOST 31U

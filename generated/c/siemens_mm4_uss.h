@@ -5,10 +5,10 @@
  *
  * Siemens MICROMASTER 4: USS requests.
  *
-  * `_read_`, `_write_` and `_store_` (in the EEPROM too) exchange one request and its answer. A `..._frame` holds the
-  * requests for a parameter: to read it (`read`) and to write it (`write`; in `..._eeprom_frame` to the EEPROM too),
-  * for fieldscribe_uss.h. One that cannot be written has no `write`. One that shares its word with other points has
-  * `update`: read the word first. Words of process data are `heard` and `sent`.
+ * `_read_`, `_write_` and `_store_` (in the EEPROM too) exchange one request and its answer. A `..._frame` holds the
+ * requests for a parameter: to read it (`read`) and to write it (`write`; in `..._eeprom_frame` to the EEPROM too),
+ * for fieldscribe_uss.h. One that cannot be written has no `write`. One that shares its word with other points has
+ * `update`: read the word first. Words of process data are `heard` and `sent`.
  */
 #include "siemens_mm4.h"
 #include "fieldscribe_uss.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */
@@ -955,9 +955,9 @@ FIELDSCRIBE_USS_CALL siemens_mm4_store_uss_rs485_answer_source_index_3(siemens_m
 }
 
 /*
-  * ---- Words of process data: a link with fewer words than a telegram has carries its first words ----
-  *
-  * Start with all words 0, so that reading parameters commands nothing: not even a constant bit is set.
+ * ---- Words of process data: a link with fewer words than a telegram has carries its first words ----
+ *
+ * Start with all words 0, so that reading parameters commands nothing: not even a constant bit is set.
  */
 
 static const fieldscribe_uss_s siemens_mm4_control_word_frame = {&siemens_mm4_layout_u16_fixed_0400_0400, {0U, 1U}};

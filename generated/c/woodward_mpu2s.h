@@ -5,10 +5,10 @@
  *
  * Woodward MPU2-S
  *
-  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
-  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
-  * only if it returns WOODWARD_MPU2S_OK. Decoding accepts every raw number that a device may send.
-  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
+ * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
+ * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
+ * only if it returns WOODWARD_MPU2S_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
  * - whether a master has to keep the pause of 100 ms (message_pause)
@@ -60,9 +60,9 @@ typedef fieldscribe_real woodward_mpu2s_real;
 #define WOODWARD_MPU2S_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
-  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
-  * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
-  * code for that value; without one it is the number itself.
+ * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
+ * ..._CHARACTERS are character times, ..._TENTHS tenths of them. SERIAL_... with a value in its name is the device's
+ * code for that value; without one it is the number itself.
  */
 #define WOODWARD_MPU2S_TIMING_PAUSE_BETWEEN_MESSAGES_MS 100U
 

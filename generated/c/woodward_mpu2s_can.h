@@ -5,9 +5,9 @@
  *
  * Woodward MPU2-S: CAN frames.
  *
-  * A parameter has messages to read it (`read`) and to write it (`write`); fieldscribe_can.h shows their use. One that
-  * cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
-  * A receiver takes the frames of cyclic telegrams, and gives the words of a point in one (`heard`).
+ * A parameter has messages to read it (`read`) and to write it (`write`); fieldscribe_can.h shows their use. One that
+ * cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
+ * A receiver takes the frames of cyclic telegrams, and gives the words of a point in one (`heard`).
  */
 #include "woodward_mpu2s.h"
 #include "fieldscribe_can.h" /* included each time, for FIELDSCRIBE_IMPLEMENTATION */

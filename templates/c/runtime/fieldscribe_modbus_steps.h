@@ -1,18 +1,18 @@
 /*
-  * Commands of several requests in order: a set-up sequence, a key with its complement, a mailbox.
+ * Commands of several requests in order: a set-up sequence, a key with its complement, a mailbox.
  * SPDX-License-Identifier: 0BSD
  *
  *     const uint16_t arguments[] = {unit};
  *     for (at = 0U; at < GENSET_COMMAND_CLOSE_BREAKER_STEPS; ++at) {
  *         const fieldscribe_modbus_step *const step = &genset_command_close_breaker_steps[at];
  *
-  * 1. Skip the step if it is `conditional` and the condition in its comment is false.
-  * 2. If `read.function` is not 0, read the words: fieldscribe_modbus_read(unit, &step->read). If the step is `based`,
-  *    its addresses count from the base in the comment: pass fieldscribe_modbus_reading_at(base, &step->read), and in
-  *    4. fieldscribe_modbus_writing_at(base, &step->write).
-  * 3. done = fieldscribe_modbus_steps_fill(step, arguments, words).
-  * 4. If `write.function` is not 0, write the words: fieldscribe_modbus_write(unit, &step->write, words,
-  *    step->write.count). Otherwise repeat from 2 until `done`, for at most `within` milliseconds.
+ * 1. Skip the step if it is `conditional` and the condition in its comment is false.
+ * 2. If `read.function` is not 0, read the words: fieldscribe_modbus_read(unit, &step->read). If the step is `based`,
+ *    its addresses count from the base in the comment: pass fieldscribe_modbus_reading_at(base, &step->read), and in
+ *    4. fieldscribe_modbus_writing_at(base, &step->write).
+ * 3. done = fieldscribe_modbus_steps_fill(step, arguments, words).
+ * 4. If `write.function` is not 0, write the words: fieldscribe_modbus_write(unit, &step->write, words,
+ *    step->write.count). Otherwise repeat from 2 until `done`, for at most `within` milliseconds.
  */
 #include "fieldscribe_modbus_facts.h"
 

@@ -193,6 +193,12 @@ def test_what_a_firmware_team_vendors_is_small(device: str) -> None:
     assert max(len(line) for text in texts for line in text.splitlines()) <= 120
 
 
+def test_lines_of_a_comment_are_aligned() -> None:
+    """The asterisks of a comment at the left margin stand one below the other."""
+    for header in (ROOT / "generated/c").glob("*.h"):
+        assert not re.search(r"^  +\*", header.read_text("utf-8").partition("#ifndef")[0], re.MULTILINE), header.name
+
+
 def test_a_function_is_one_or_two_statements(sink: Path) -> None:
     """All else is in the cores."""
     text = (sink / "c/kitchen_sink.h").read_text("utf-8")
