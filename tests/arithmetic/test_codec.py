@@ -11,11 +11,10 @@ import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.exact import half_away
-from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.encoding import encode_point, read_settings, read_value
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.refusals import amount
 from fieldscribe.conversation.selection import choose_point, choose_variants
-from fieldscribe.conversation.typed_values import read_settings, read_value
 from fieldscribe.model import Device, Point, Special
 from fieldscribe.pasted_numbers import HexError, parse_hex
 from fieldscribe.user_errors import RefusedError, UnclearError

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
-from fieldscribe.checks.distinct_names import PointKinds
+from fieldscribe.checks.names_do_not_clash import PointKinds
 from fieldscribe.lowered import lower
 from fieldscribe.model import Device
 from fieldscribe.targets import knows, target

@@ -6,8 +6,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from fieldscribe.conversation.explain_other_items import explain_other_items
-from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.explanation import explain_other_items, explain_point
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import shortened

@@ -7,11 +7,10 @@ from fractions import Fraction
 import pytest
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.decoder import StreamDecoder, decode
-from fieldscribe.conversation.encoding import encode_point, frames_for
+from fieldscribe.conversation.encoding import encode_point, frames_for, read_settings
 from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.selection import choose_point, choose_variants
-from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link

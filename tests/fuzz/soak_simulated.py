@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple, Self
 
 from fieldscribe.simulation import Simulated, simulated
-from fieldscribe.simulation.faults import KINDS
+from fieldscribe.simulation.line import KINDS
 from support.places import PACKAGES
 from support.python_package import imported
 from support.python_transports import behind_a_gateway, transport

@@ -12,7 +12,7 @@ from fieldscribe import pipeline
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
 from fieldscribe.model import Device
-from fieldscribe.output import rendering
+from fieldscribe.output import generation
 from fieldscribe.pipeline import TargetError
 from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
 from support.described import described, write
@@ -211,7 +211,7 @@ def test_a_failing_device_is_told_behind_a_thousand_warnings(
                 raise TargetError("c") from ValueError("broken")
             return original(device, *arguments)
 
-        monkeypatch.setattr(rendering, "outputs", outputs)
+        monkeypatch.setattr(generation, "outputs", outputs)
     out = tmp_path / "out"
     code = main(["generate", str(tmp_path), "--target", "c", "--out", str(out), "--format", form])
     said = "".join(capsys.readouterr())

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.conversation.explain_other_items import explain_other_items
+from fieldscribe.conversation.explanation import explain_other_items
 from fieldscribe.language.units import factor_between, shipped, shipped_unit, unit_hint
 from fieldscribe.model import Unit
 from support.models import point, sample_device

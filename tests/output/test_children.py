@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.output import generation
-from fieldscribe.output.rendering import halves
+from fieldscribe.output.generation import halves
 from fieldscribe.targets import docs
 
 pytestmark = [

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pytest
 from fieldscribe.conversation.decoder import decode
-from fieldscribe.conversation.explain_other_items import explain_other_items
+from fieldscribe.conversation.explanation import explain_other_items
 from fieldscribe.export import export_model
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16

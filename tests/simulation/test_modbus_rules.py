@@ -10,8 +10,7 @@ import pytest
 from fieldscribe.families.modbus.frames import crc16, frame
 from fieldscribe.simulation.bench import Bench
 from fieldscribe.simulation.device import SimulatedDevice
-from fieldscribe.simulation.faults import Fault
-from fieldscribe.simulation.line import Line, Stream
+from fieldscribe.simulation.line import Fault, Line, Stream
 from support.described import described, write
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.simulation.faults import KINDS
+from fieldscribe.simulation.line import KINDS
 from fuzz.soak_simulated import soak
 
 

@@ -3,9 +3,9 @@
 Plain audit: `Citations` are what a description cites, `Held` finds them in a text, `audit` lists what is missing.
 Two editions: `Editions` aligns both texts, `compare` lists every line that differs, with the facts that cite it.
 
-numbers.py, manual.py, passage.py    a text: its numbers, its sections and rows, a piece of it
+numbers.py, manual.py                a text: its numbers, its sections and rows, a piece of it
 claims.py                            one shape of a claim, with few kinds of evidence, and how claims are made
-point_claims.py, flag_claims.py, claims_of_device.py    the claims of points, of flags, and all of a description
+point_claims.py, claims_of_device.py the claims of points and their flags, and all of a description
 notation.py                          how the manual writes things
 evidence.py, held.py                 whether a passage has the evidence; all claims in a text
 plain_audit.py                       the plain audit and its findings

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeAlias
 
-from fieldscribe.audit.passage import letters_of
+from fieldscribe.audit.manual import letters_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number

@@ -7,9 +7,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from fieldscribe.audit.claims import Bytes, Evidence, Label, Number, Run, Word
-from fieldscribe.audit.manual import has_word, places_of_word
+from fieldscribe.audit.manual import Passage, has_word, places_of_word
 from fieldscribe.audit.numbers import Token
-from fieldscribe.audit.passage import Passage
 
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """Matches a run of numbers ("0 to 4", "0..4"), which means all numbers between its ends."""

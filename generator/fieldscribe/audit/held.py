@@ -10,9 +10,8 @@ from typing import NamedTuple
 from fieldscribe.audit.claims import Cited, Claim, Label, Number, Run
 from fieldscribe.audit.claims_of_device import PrintedErratum, claims_of, passed_over, printed_errata
 from fieldscribe.audit.evidence import Found, found, labels_found, lies_in_section
-from fieldscribe.audit.manual import Extent, Manual, has_word
+from fieldscribe.audit.manual import Extent, Manual, Passage, has_word
 from fieldscribe.audit.numbers import Notation, Token
-from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.point_claims import KEYS_OF_PRINTED
 from fieldscribe.model import About
 from fieldscribe.resolve.analysis import Analysis

@@ -9,9 +9,8 @@ from itertools import groupby
 from fieldscribe.audit.claims import Claim, Label, Word
 from fieldscribe.audit.evidence import printed_notations
 from fieldscribe.audit.held import Citations, Held
-from fieldscribe.audit.manual import Extent
+from fieldscribe.audit.manual import Extent, Passage
 from fieldscribe.audit.numbers import readings_of
-from fieldscribe.audit.passage import Passage
 
 _SHORT = 100
 """The most characters of a line in a finding."""

@@ -4,19 +4,172 @@ Nor do two identifiers differ only after the characters that a language compares
 
 Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
 that have other findings are left out. Reserved words do not clash: targets change such names themselves.
+
+Mostly a quick proof does without all the names. Points of one kind have the same identifiers except for the point's
+name. So a target lists the identifiers of one point of each kind: a start, the name, and an ending. Two names that
+differ can only give equal identifiers if one name begins with the other, and an ending begins with the rest. Names are
+compared without case and underscores, because languages write them differently. If the proof fails, that is not yet a
+clash: then all identifiers are compared.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from bisect import bisect_left
+from collections import Counter, defaultdict
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations
 
-from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.checks.identifier_places import IdentifierPlaces, Named, Thing, given_names, thing_of
 from fieldscribe.lowered import lower
+from fieldscribe.model import Device
 from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.targets.identifiers import Names, Owner, Resemblance, clashes, resemblances
 
-if TYPE_CHECKING:
-    from fieldscribe.targets.identifiers import Resemblance
+
+class PointKinds:
+    """The points of a device by kind: those of a kind have the same text in generated code except for their names.
+
+    The keys of points, by their ids, tell their kinds. `names` are the plain names of all points of a kind with several
+    points, each with that of the first point of its kind. `sample` is the device with the first point of each kind and
+    with all other points. `saves_time` if it is so small that the proof takes less time than comparing all names.
+    """
+
+    def __init__(self, device: Device, keys: Mapping[int, Hashable]) -> None:
+        needed = _needed(device)
+        kinds = {
+            item: keys[id(point)]
+            for point in device.points
+            if (item := point.item) not in needed and point.name not in needed
+        }
+        sizes = Counter(kinds.values())
+        first: dict[Hashable, str] = {}
+        self.names: dict[str, str] = {}
+        self._longest: dict[str, int] = {}
+        several = {item: _plain(item) for item, kind in kinds.items() if sizes[kind] > 1}
+        for item, name in several.items():
+            of_kind = self.names[name] = first.setdefault(kinds[item], name)
+            self._longest[of_kind] = max(len(item), self._longest.get(of_kind, 0))
+        self._are_unique = len(self.names) == len(several)
+        left_out = {item for item, name in several.items() if self.names[name] != name}
+        self.sample = _sample(device, left_out)
+        self.saves_time = 3 * len(self.sample.points) < len(device.points)
+
+    def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]], before_points: Iterable[str]) -> bool:
+        """Return True if all identifiers of a target are proven to differ, in the characters that it compares.
+
+        `before_points` are the words that may come between the names of device and point.
+        """
+        if not self._are_unique or not self.names or not before_points:
+            return False
+        listed = list(identifiers(self.sample))
+        if next(clashes(listed), None) is not None or next(resemblances(listed), None) is not None:
+            return False
+        spaces: defaultdict[str, _Space] = defaultdict(_Space)
+        device = _plain(self.sample.id)
+        starts = [*(device + word for word in sorted(before_points, key=len, reverse=True)), ""]
+        for namespace, owner, names, significant in listed:
+            point = _point_of(owner)
+            item = _plain(point)
+            shared = self.names.get(item) == item and point not in namespace  # it has no other names
+            space = spaces[namespace]
+            if shared and significant is not None:
+                most = significant - (self._longest[item] - len(point))  # a longer name is proven by its start
+                if any(len(name) >= most for name in names):
+                    return False
+            for name in map(_plain, names):
+                start = next((start for start in starts if shared and name.startswith(start + item)), None)
+                if start is not None:
+                    space.starts.add(start)
+                    space.endings[name[len(start) + len(item) :]].add(item)
+                elif shared:
+                    return False
+                else:
+                    space.others.add(name)
+        return all(map(self._differ, spaces.values()))
+
+    def _differ(self, space: _Space) -> bool:
+        """Return True if no name gives an identifier that another name, or another thing, has in this namespace."""
+        for start, longer in combinations(sorted(space.starts), 2):
+            rest = longer[len(start) :]
+            if longer.startswith(start) and any(rest.startswith(name) or name.startswith(rest) for name in self.names):
+                return False
+        for ending, points in space.endings.items():
+            for end in range(1, len(ending) + 1):
+                pairs, shorter = self._rests.get(ending[:end]), space.endings.get(ending[end:])
+                if pairs and shorter and any(first in points and second in shorter for first, second in pairs):
+                    return False
+        return not any(
+            other[at:end] in self.names and other[end:] in space.endings
+            for start in space.starts
+            for other in space.others
+            if other.startswith(start)
+            for at in [len(start)]
+            for end in range(at + 1, len(other) + 1)
+        )
+
+    @cached_property
+    def _rests(self) -> dict[str, set[tuple[str, str]]]:
+        """For each name that begins with another: the rest of it, and the kinds of both, the shorter name first."""
+        rests: defaultdict[str, set[tuple[str, str]]] = defaultdict(set)
+        lengths = sorted(set(map(len, self.names)))
+        for name, kind in self.names.items():
+            for end in lengths[: bisect_left(lengths, len(name))]:
+                if (shorter := self.names.get(name[:end])) is not None:
+                    rests[name[end:]].add((shorter, kind))
+        return rests
+
+
+@dataclass
+class _Space:
+    """The identifiers of a namespace: the starts and endings around the names of points, and those of other things.
+
+    Each ending has the kinds of points that have it.
+    """
+
+    starts: set[str] = field(default_factory=set)
+    endings: defaultdict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    others: set[str] = field(default_factory=set)
+
+
+def _sample(device: Device, left_out: set[str]) -> Device:
+    """Return the device without these points, and without the enums that are named after them."""
+    points = [point for point in device.points if point.item not in left_out]
+    first = {point.group: point for point in reversed(points)}
+    blocks = {
+        group: tuple([replace(block, points=(first[group].name,)) for block in blocks[:1]])
+        for group, blocks in device.blocks.items()
+        if group in first
+    }
+    enums = tuple([enum for enum in device.enums if enum.name not in left_out])
+    return replace(device, points=tuple(points), blocks=blocks, enums=enums)
+
+
+def _needed(device: Device) -> set[str]:
+    """Return the names of the points that scales, limits, selections and commands need."""
+    scales = {id(point.shape): point.shape.scale_arguments for point in device.points}
+    limits = {id(point.allowed): point.allowed.arguments for point in device.points}
+    names = {name for arguments in (*scales.values(), *limits.values()) for name in arguments}
+    names |= {
+        name
+        for terms in {id(point.terms): point.terms for point in device.points}.values()
+        for name, _ in terms.selects
+    }
+    return names | {command.busy for command in device.commands if command.busy is not None}
+
+
+def _point_of(owner: Owner) -> str:
+    """Return the item of the point that a thing is or belongs to, or the name of its enum; else nothing."""
+    whole: Owner | None = owner
+    while whole is not None and whole.kind not in ("point", "enum"):
+        whole = whole.of
+    return "" if whole is None else whole.name
+
+
+def _plain(name: str) -> str:
+    """Return a name without case and underscores, which languages write differently."""
+    return name.replace("_", "").lower()
 
 
 def check(analysis: Analysis) -> None:

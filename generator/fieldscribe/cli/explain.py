@@ -6,8 +6,7 @@ from contextlib import suppress
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, print_json
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
-from fieldscribe.conversation.explain_other_items import explain_other_items
-from fieldscribe.conversation.explanation import Explanation, explain_point
+from fieldscribe.conversation.explanation import Explanation, explain_other_items, explain_point
 from fieldscribe.conversation.lookup import Match, advice, find, prefixes
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family

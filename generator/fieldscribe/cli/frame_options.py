@@ -4,8 +4,8 @@ from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
 from fieldscribe.cli.common import StopError, add_repeated
+from fieldscribe.conversation.encoding import read_settings
 from fieldscribe.conversation.selection import at_bases
-from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.model import Device

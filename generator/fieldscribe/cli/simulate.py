@@ -26,7 +26,7 @@ from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.report import visible
 from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
 from fieldscribe.simulation.device import Complaint
-from fieldscribe.simulation.faults import KINDS
+from fieldscribe.simulation.line import KINDS
 from fieldscribe.simulation.servers import serve
 from fieldscribe.user_errors import UnclearError
 

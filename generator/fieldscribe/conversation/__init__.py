@@ -3,9 +3,9 @@
 The modules, in the order in which they build on each other:
 
 - `lookup`, `selection`: the points and variants that a user names
-- `typed_values`, `refusals`, `encoding`: a typed value into a raw number and frames, or the reason why not
-- `meanings`: a raw number into words
-- `explanation`, `explain_other_items`: all facts of a point, and of everything else
+- `refusals`, `meanings`: why a number is refused; a raw number into words
+- `encoding`: a typed value into a raw number and frames, or the reason why not
+- `explanation`: all facts of a point, and of everything else
 - `decode_state`, `address_items`, `telegram_items`, `decoder`: frames into results
 
 The parts `frame_decoder` and `frame_builder` of a family's folder have what depends on the family.

@@ -7,12 +7,13 @@ from typing import Any, NamedTuple
 from fieldscribe.arithmetic.words import raw_of, reader_of, split
 from fieldscribe.conversation.decode_state import (
     PARAMETER,
+    Base,
     DecodeState,
+    PointFormatter,
     PointPlace,
     named_item,
     without_variants,
 )
-from fieldscribe.conversation.point_items import Base, PointFormatter
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan, Element, Word

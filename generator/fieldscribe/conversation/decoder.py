@@ -7,9 +7,8 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
-from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks
+from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks, PointFormatter
 from fieldscribe.conversation.encoding import family_part
-from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
 from fieldscribe.families.frame_results import Captured, FrameResult, Item, Options

@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
-from fieldscribe.conversation.decode_state import DecodeState, named_item
-from fieldscribe.conversation.point_items import PointFormatter
+from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
 from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Point

@@ -1,26 +1,92 @@
 """Loads all devices of a run, then compares their files with the output folder, or writes them, device by device.
 
-A device with an error in its description or in a target, or with a foreign file in its way, keeps its old outputs.
+Files are made in this process, or in a child process for all devices. A device with an error in its description or in
+a target, or with a foreign file in its way, keeps its old outputs.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from itertools import starmap
 from pathlib import Path
+from typing import NamedTuple
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report, Span, show_traceback
 from fieldscribe.model import Device
-from fieldscribe.output.children import may_have_children
-from fieldscribe.output.contents import Spool
+from fieldscribe.output.children import may_have_children, results_of_child
+from fieldscribe.output.contents import Contents, Spool
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
-from fieldscribe.output.rendering import ChildTargets, Failure, failure, halves, rendered
 from fieldscribe.output.writing import Result, carry_out
-from fieldscribe.pipeline import Models, is_new, load_models
+from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
 from fieldscribe.safe_files import Inputs, shown_path
-from fieldscribe.targets import knows
+from fieldscribe.targets import TARGETS, knows, target
+
+
+class Failure(NamedTuple):
+    """An internal error with a device: its place and its text."""
+
+    where: str
+    bug: str
+
+
+Rendered = dict[str, Contents] | Failure
+"""The files of a device for a target by path, or the failure."""
+
+
+class ChildTargets:
+    """A child process that renders some targets of all devices; large files come through a spool."""
+
+    def __init__(self, devices: list[Models], targets: tuple[str, ...], spool: Spool) -> None:
+        self._spool, self._targets = spool.share(), targets
+        self._results = results_of_child(lambda: _all_rendered(devices, targets, spool))
+
+    def next(self) -> dict[str, Rendered]:
+        """Return the files of the next device by target. Raises ChildProcessError."""
+        made = {target: next(self._results) for target in self._targets}
+        return {target: part if isinstance(part, Failure) else self._joined(part) for target, part in made.items()}
+
+    def _joined(self, files: dict[str, Contents]) -> dict[str, Contents]:
+        return {path: self._spool.joined(contents) for path, contents in files.items()}
+
+
+def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the targets of a run in two parts of about equal time; the second is empty if there is one target.
+
+    Neighbours in the list of all targets stay together, because the page of a device shares the scripts of its package.
+    """
+    ordered = tuple(name for name in TARGETS if name in targets)
+    weights = [target(name).WEIGHT for name in ordered]
+    cut = min(range(1, len(ordered) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
+    return ordered[:cut], ordered[cut:]
+
+
+def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
+    """Return the files of a device for a target."""
+    try:
+        found = outputs(models.whole, [target], models.plain)
+        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text is kept longer than needed
+    except TargetError as error:
+        return failure(f"target {error}", error.__cause__ or error)
+    except UnicodeEncodeError as error:
+        return failure("a text", error)
+
+
+def failure(where: str, error: BaseException) -> Failure:
+    """Return the failure of an error; print its traceback if the user asked for it."""
+    show_traceback(error)
+    return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
+
+
+def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool) -> Iterator[Rendered]:
+    """Yield the files of each device for each target, in the child process."""
+    for models in devices:
+        for name in targets:
+            yield rendered(models, name, spool.keep_apart)
+    spool.share()
+
 
 MANY_POINTS = 1_000
 """From this many points in a run on, a second process renders half of the targets."""

@@ -3,7 +3,6 @@
 layout      the words of each point by area, with found chains laid out: once for all devices of a kind
 memory      the words of one device, at first a plausible number for each point; and the values by name
 device      a memory with the rules: access, ranges, conditions, commands, what survives a restart; and its clock
-faults      what can happen to an answer on its way
 line        devices that share a line: requests in, answers with faults and delays out, and the trace; and the
             interface of a family's module `simulation`
 servers     sockets, serial lines and CAN buses for a line

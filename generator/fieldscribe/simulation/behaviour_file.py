@@ -8,8 +8,8 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.formula import conditions, moves
-from fieldscribe.language.formula.moves import Move, parse_move
+from fieldscribe.language.formula import conditions
+from fieldscribe.language.formula.conditions import Move, parse_move
 from fieldscribe.language.formula.syntax import Binary, Expression, FormulaError, Name, Negate, Number, names
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys.places import BEHAVIOUR
@@ -159,7 +159,7 @@ class _Reader:
         clauses = tuple([tuple([self._test(each, move, span) for each in clause]) for clause in move.condition])
         return Step(target, tuple(rates), clauses, move.once, delay)
 
-    def _named(self, ref: Ref, written: moves.Amount) -> Amount | None:
+    def _named(self, ref: Ref, written: conditions.Amount) -> Amount | None:
         """Return the number of a name of the moved point or flag; None if the target is no such name."""
         expression = written.expression
         points = self.by_name.get(ref.name)
@@ -168,7 +168,7 @@ class _Reader:
             return None
         return Amount(Number(Fraction(known[expression.name]), expression.column), {})
 
-    def _amount(self, written: moves.Amount, span: Span) -> Amount:
+    def _amount(self, written: conditions.Amount, span: Span) -> Amount:
         """Return an expression with its names resolved. Raises FactError."""
         refs = {}
         for name in names(written.expression):
@@ -176,7 +176,7 @@ class _Reader:
             refs[name] = self._ref(name.name, "", raw=name.part == "raw", span=place)
         return Amount(written.expression, refs)
 
-    def _with_unit(self, written: moves.Amount, span: Span, unit: str, *, per_second: bool) -> Amount:
+    def _with_unit(self, written: conditions.Amount, span: Span, unit: str, *, per_second: bool) -> Amount:
         """Return a rate in `unit` a second, or a time in seconds. Raises FactError or FormulaError."""
         amount = self._amount(written, span)
         stated = _units_of(written.unit) if written.unit else _dimension(amount.expression, amount.refs)

@@ -21,9 +21,8 @@ from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.behaviour_file import FILE, find_behaviour, read_behaviour
 from fieldscribe.simulation.behaviour_rules import Rules
 from fieldscribe.simulation.device import Clock, SimulatedDevice
-from fieldscribe.simulation.faults import Fault
 from fieldscribe.simulation.layout import Layout
-from fieldscribe.simulation.line import Line, Trace
+from fieldscribe.simulation.line import Fault, Line, Trace
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
 LOCAL = Path("descriptions")

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldscribe.simulation.bench import Bench
-from fieldscribe.simulation.faults import Fault
-from fieldscribe.simulation.line import Line, Trace
+from fieldscribe.simulation.line import Fault, Line, Trace
 from fieldscribe.simulation.servers import Server, serve
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
@@ -40,7 +39,7 @@ class Simulated:
         return self.line.requests
 
     def fault(self, text: str) -> None:
-        """Add a fault, such as `late 0.5 x3`; see `faults.KINDS`."""
+        """Add a fault, such as `late 0.5 x3`; see `line.KINDS`."""
         self.line.faults.waiting.append(Fault.of(text))
 
 

@@ -15,8 +15,8 @@ from fieldscribe.arithmetic.codec import CodecError, Settings, setting_of
 from fieldscribe.arithmetic.dates import first_date
 from fieldscribe.arithmetic.texts import pattern_of_text, text_of
 from fieldscribe.arithmetic.words import insert, joined, with_fixed, words_of
+from fieldscribe.conversation.encoding import read_value
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.conversation.typed_values import read_value
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
 from fieldscribe.user_errors import UnclearError

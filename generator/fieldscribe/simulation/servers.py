@@ -8,8 +8,7 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.simulation.faults import Outcome
-from fieldscribe.simulation.line import Line, Stream
+from fieldscribe.simulation.line import Line, Outcome, Stream
 from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:

@@ -1,26 +1,147 @@
-"""The HTML page of a device: its data as one structure, and all files of the page in one."""
+"""The HTML page of a device: its data as one structure, its code as one script, and all files of the page in one.
+
+Tables are plain texts, in which marks say what is code, a link, or the end of a cell: private characters, which `line`
+removes from every text of a description. The page makes elements and text nodes of the text between them, so that no
+text can become markup.
+
+The generated TypeScript is one classic script, because a page from a file system may run no modules. All modules of the
+runtime share one scope, because their names differ. Those of the device have a scope inside it, because points may have
+names of the runtime. Nothing runs before the page calls the code.
+"""
 
 import json
+import re
 from base64 import b64encode
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
+from posixpath import dirname, join, normpath
 
+from fieldscribe.code_view import for_code
 from fieldscribe.families import family
-from fieldscribe.model import Device, Erratum, Frame, Message
+from fieldscribe.model import Device, Erratum, Frame, Message, Source
 from fieldscribe.resources import Render, templates_dir
+from fieldscribe.targets import knows
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
-from fieldscribe.targets.docs.html_code import code_and_vectors
+from fieldscribe.targets.docs.cells import Form, source_text
 from fieldscribe.targets.docs.html_points import Points
-from fieldscribe.targets.docs.marks import MARKED
 from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
+from fieldscribe.targets.typescript import scripts
 from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
+from fieldscribe.targets.vectors import text_of
 from fieldscribe.text import html_code, line
 from fieldscribe.wording.frames import misprint_text, spaced
+
+_RUNTIME = "typescript/runtime"
+_RUNNER = "fieldscribe-conformance/vectors"
+_DATES = "fieldscribe-runtime/dates.js"
+_MOST_TESTED = 1000
+"""With more points a page carries no vectors."""
+_IMPORT = re.compile(r'^(?:import|export \*)[^;]*?from "([^"]+)";\n', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:async )?(?:const|function|class) (\w+))", re.MULTILINE)
+_LEFT_OUT = re.compile(
+    r"^[ \t]*/\*\*(?:(?!\*/).)*\*/\n|^[ \t]*//[^\n]*\n|^export \{\};\n|/\* @__PURE__ \*/ ", re.MULTILINE | re.DOTALL
+)
+"""Matches comments, and the statement that marks a file without exports as a module."""
+_SCRIPT = """"use strict";
+globalThis.openCode = () => {{
+{runtime}const generatedDevice = (() => {{
+{device}return {kind};
+}})();
+return {{ Device: generatedDevice, {names} }};
+}};
+"""
+
+
+def code_and_vectors(device: Device, render: Render) -> tuple[str, str]:
+    """Return the script with the code of a device, and the vectors that the page runs.
+
+    Both are empty for a family without TypeScript; the vectors also for a device with very many points.
+    """
+    if not knows("typescript", device):
+        return "", ""
+    plain = for_code(device)
+    texts = dict(scripts(plain, render))
+    tested = text_of(plain) if len(plain.points) <= _MOST_TESTED else ""
+    imported = {found for text in texts.values() for found in _IMPORT.findall(text)} | ({_RUNNER} if tested else set())
+    dated = any(point.text is not None and point.text.parts for point in plain.points)
+    runtime, names = _runtime(tuple(sorted(imported)), left_out="" if dated else _DATES)
+    script = _SCRIPT.format(
+        runtime=runtime,
+        device=_EXPORT.sub("", _joined("index.js", texts.__getitem__, set())),
+        kind=TypeScriptIdentifiers(plain).device_class,
+        names=names,
+    )
+    return _safe(script), tested.replace("<", "%3c")
+
+
+@cache
+def _runtime(imported: tuple[str, ...], left_out: str) -> tuple[str, str]:
+    """Return the modules of the runtime that a device imports, but for the one left out, and their names."""
+    root, seen = templates_dir() / _RUNTIME, {left_out}
+
+    def text(path: str) -> str:
+        return (root / path).read_text("utf-8")
+
+    packages = [_located("", name) for name in imported if not name.startswith(".")]
+    joined = "".join(_joined(path, text, seen) for path in packages)
+    return _EXPORT.sub("", joined), ", ".join(dict.fromkeys(_EXPORT.findall(joined)))
+
+
+def _joined(path: str, text_of: Callable[[str], str], seen: set[str]) -> str:
+    """Return a module after those that it imports, without imports, exports and comments."""
+    if path in seen:
+        return ""
+    seen.add(path)
+    text = text_of(path)
+    before = (_located(path, name) for name in _IMPORT.findall(text) if name.startswith(".") or "/" in path)
+    return "".join(_joined(each, text_of, seen) for each in before) + _LEFT_OUT.sub("", _IMPORT.sub("", text))
+
+
+def _located(path: str, imported: str) -> str:
+    """Return the path of a module that another one imports."""
+    if imported.startswith("."):
+        return normpath(join(dirname(path), imported))
+    package, _, part = imported.partition("/")
+    return f"{package}/{part or 'index'}.js"
+
+
+def _safe(script: str) -> str:
+    """Return a script that neither ends nor hides its element, with the same texts."""
+    return script.replace("</", "<\\/").replace("<!--", "<\\!--")
+
+
+_START, _MIDDLE, _END, _CELL, _ROW = "\ue000", "\ue001", "\ue002", "\ue003", "\ue004"
+_TARGET = "="
+"""Begins the kind of a target of links."""
+
+
+def _marked(kind: str, text: str) -> str:
+    return f"{_START}{kind}{_MIDDLE}{line(text)}{_END}"
+
+
+def _code(text: str) -> str:
+    return _marked("", text)
+
+
+def _target(kind: str, name: str) -> str:
+    return _marked(_TARGET + kind, name)
+
+
+def _source_cell(source: Source, with_document: bool) -> str:
+    return line(source_text(source, with_document))
+
+
+def _lay_out(rows: Sequence[Sequence[str]]) -> str:
+    return _ROW.join(_CELL.join(row) for row in rows)
+
+
+MARKED = Form(line, line, _code, _marked, _marked, _target, _target, _source_cell, "\n", _lay_out)
+
 
 _SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "exchange.js", "calculator.js", "point.js")
 _DECODER = ("pasted.js", "meanings.js", "decoding.js", "decoding_{}.js", "decoder.js", "conformance.js")
