@@ -12,7 +12,7 @@ from fieldscribe.export import export_model
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Device, SteppedCommand
-from support.described import compile_in, described, kitchen_sink
+from support.described import compile_in, described, group, head, kitchen_sink, loaded_in, together
 
 
 def _command(device: Device, name: str) -> SteppedCommand:
@@ -96,6 +96,29 @@ def test_low_bytes_come_first_where_the_point_says_so(tmp_path: Path) -> None:
     assert words == [
         [(0x3412, 0xFFFF)], [(0x3412, 0xFFFF), (0x7856, 0xFFFF)], [(0x0580, 0x0F80)], [(0x0500, 0x0F00)],
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("what", "readings"),
+    [
+        ("4104", ["go wire address 1008h (4104), holding: step 1", "stop wire address 1008h (4104), holding: step 2"]),
+        ("4105", ["go modicon 4105: step 1; wire address 1009h (4105), holding: step 1", "stop modicon 4105: step 2"]),
+        ("modicon:4106", ["go modicon 4106: step 1"]),
+        ("404105", ["go reference 404105: step 1", "stop reference 404105: step 2"]),
+        ("name:4104", []),
+        ("1", []),  # a point has it
+        ("5", ["stop wire address 0005h (5), holding: step 3"]),  # a point has it from its base
+    ],
+)
+def test_an_address_that_only_steps_write_leads_to_their_command(
+    tmp_path: Path, what: str, readings: list[str]
+) -> None:
+    steps = "{write: {one: 5}}, {at: 4104, words: [7]}, {at: 5, words: [8]}"
+    commands = f"[{{name: go, steps: [{{at: 4104, words: [1, 2]}}]}}, {{name: stop, steps: [{steps}]}}]"
+    groups = group("- {name: one, at: 1}\n"), group("- {name: two, at: 5}\n", group="based", base="slot * 10")
+    device = loaded_in(tmp_path, together(head(commands=commands, given="{slot: {range: 1..2}}"), *groups))
+    found = explain_other_items(device, what)
+    assert [f"{one.heading.split()[1][:-1]} {reading}" for [reading], one in found] == readings
 
 
 def test_export_and_explanation_have_each_step() -> None:

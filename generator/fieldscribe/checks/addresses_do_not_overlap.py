@@ -41,6 +41,7 @@ class _Overlaps:
         self._analysis = analysis
         self._coexistence = Coexistence(analysis)
         self._reported_rows: set[int] = set()
+        self._reported_pairs: set[tuple[int, int]] = set()
 
     def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
         """Add a point at the address that this key gives it."""
@@ -54,7 +55,12 @@ class _Overlaps:
 
     def _compare(self, resolved: ResolvedPoint, fresh: list[ResolvedPoint], address: int, key: str) -> None:
         rows, report = self._reported_rows, self._analysis.report
-        rivals = [other for other in fresh if self._overlap(resolved, other)]
+        rivals = [
+            other
+            for other in fresh
+            if (id(resolved), id(other)) not in self._reported_pairs and self._overlap(resolved, other)
+        ]
+        self._reported_pairs.update((id(resolved), id(other)) for other in rivals)
         place = _place_in_words(self._analysis, resolved.point, address)
         if rivals:
             _report_overlap(report, [resolved, *rivals], address, key, place)
@@ -118,8 +124,10 @@ def _report_overlap(report: Report, together: list[ResolvedPoint], address: int,
         report.error("bits-overlap", f"{what} take bit {bit} of {place}", mine.facts.span("bits"), hint, related)
         return
     hint = f"correct one `{key}`, give each `bits` of the word{APART}"
-    if any(len(resolved.point.addresses) > 1 for resolved in together):
-        hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+    longest = max((resolved.point for resolved in together), key=lambda point: len(point.addresses))
+    if len(longest.addresses) > 1:
+        first, last = min(longest.addresses), max(longest.addresses)
+        hint = f"`{longest.name}` has the words {first} to {last}: correct an `at`, or how long it is{APART}"
     elif key == "write_at" and any(mine.facts.layer(key) is other.facts.layer(key) for other in others):
         hint = "each set, variant and member with an `at` of its own needs a `write_at`, or `write_at: ~`"
     elif any(_row(mine, other) is not None for other in others):

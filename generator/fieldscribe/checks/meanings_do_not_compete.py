@@ -12,7 +12,12 @@ from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_PATTERNS = tuple(key for key in (*_OF_INTEGERS, "range", "range_in_units", "scale") if key not in ("enum", "open"))
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
-_OF_DATES = tuple(key for key in _OF_NUMBERS if key != "coding")
+_NO_NUMBERS = {
+    "a date or time": (tuple(key for key in _OF_NUMBERS if key != "coding"), "its parts are all that it means"),
+    "made of bytes": (_OF_NUMBERS, "its `notation` says all about it"),
+    "a text": (_OF_NUMBERS, "its characters are its value"),
+}
+"""What is no number: the keys that it cannot have, and why."""
 _RIVALS = (
     ("enum", "flags", "name the numbers of several bits under `values` of one flag"),
     ("enum", "scale", "codes beside the numbers go under `special`"),
@@ -70,11 +75,8 @@ def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:
         return _OF_INTEGERS, "a floating-point number", "the device sends the value itself in the unit"
     if facts.pattern_bits:
         return _OF_PATTERNS, "a floating-point number", "its enum names all that may be written"
-    if facts.get("parts"):
-        return _OF_DATES, "a date or time", "its parts are all that it means"
-    if facts.bytes:
-        return _OF_NUMBERS, "made of bytes", "its `notation` says all about it"
-    return (_OF_NUMBERS, "a text", "its characters are its value") if facts.text else None
+    keys, why = _NO_NUMBERS.get(facts.no_number, ((), ""))
+    return (keys, facts.no_number, why) if why else None
 
 
 def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:

@@ -110,7 +110,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]
 def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
     """Return the raw number of another point. Only its bits limit it: it may hold what must not be written."""
     if point.text is not None:
-        raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
+        raise UnclearError(f"{label(point)} is {point.text.kind}, and no rule takes one", "")
     typed = read_value(point, text, as_raw=as_raw)
     try:
         raw = typed.raw if typed.value is None else codec.quantity(point, codec.encode(point, typed.value, settings))

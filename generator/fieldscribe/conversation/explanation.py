@@ -15,7 +15,7 @@ from fieldscribe.facts.texts import place_in_manual
 from fieldscribe.families import Codes, family
 from fieldscribe.families.frame_results import WriteMethod
 from fieldscribe.language.units import shipped, shipped_unit
-from fieldscribe.model import Code, Command, Device, Erratum, Message, Point, SteppedCommand
+from fieldscribe.model import Code, Command, Device, Erratum, Message, Point, Step, SteppedCommand
 from fieldscribe.pasted_numbers import number_of as typed_number
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, rounded
@@ -184,8 +184,11 @@ def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
         if reading := _reading_of(device, command, text, forced):
             yield reading, *_command(device, command)
     for stepped in device.stepped_commands:
-        if name == stepped.name:
-            yield f"command {stepped.name}", *_stepped(device, stepped)
+        reading = (
+            f"command {stepped.name}" if name == stepped.name else _reading_of_steps(device, stepped, text, forced)
+        )
+        if reading:
+            yield reading, *_stepped(device, stepped)
     for erratum in device.errata:
         if name == erratum.id:
             yield f"erratum {erratum.id}", *_erratum(device, erratum)
@@ -201,10 +204,31 @@ def _reading_of(device: Device, command: Command, text: str, forced: str) -> str
     """Return how the text names a command: by its name, its address, or a usual number for that."""
     if forced in ("", "name") and text.lower() == command.name:
         return f"command {command.name}"
-    numbers = {"wire": command.address, **family(device.family).numbers(command.space, command.address)}
+    return _reading_of_address(device, command.space, command.address, text, forced)
+
+
+def _reading_of_steps(device: Device, command: SteppedCommand, text: str, forced: str) -> str:
+    """Return how the text names a word that steps of a command write and no point has."""
+    readings: dict[str, list[str]] = {}
+    for number, step in enumerate(command.steps, 1):
+        for address in range(step.address, step.address + len(step.words)):
+            reading = _reading_of_address(device, step.space, address, text, forced)
+            if reading and not _has_point(device, step, address):
+                readings.setdefault(reading, []).append(f"step {number}")
+    return "; ".join(f"{reading}: {', '.join(steps)}" for reading, steps in readings.items())
+
+
+def _has_point(device: Device, step: Step, address: int) -> bool:
+    here = [point for point in device.points if (point.space, point.base) == (step.space, step.base)]
+    return any(address in place.addresses for point in here for place in point.places)
+
+
+def _reading_of_address(device: Device, space: str, address: int, text: str, forced: str) -> str:
+    """Return how the text names an address: as it travels, or by a usual number for it; empty if it does not."""
+    numbers = {"wire": address, **family(device.family).numbers(space, address)}
     key = next((key for key, number in numbers.items() if number == typed_number(text) and forced in ("", key)), "")
     if key == "wire":
-        return f"wire address {wording.address_text(command.address)}, {command.space}"
+        return f"wire address {wording.address_text(address)}, {space}"
     return key and f"{key} {numbers[key]}"
 
 

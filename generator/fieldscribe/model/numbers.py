@@ -139,6 +139,11 @@ class Text:
         return -(-self.characters // self.per_word)
 
     @property
+    def kind(self) -> str:
+        """Return what it is, in a message: `a text`, `made of bytes`, `a date or time`."""
+        return "a date or time" if self.parts else "made of bytes" if self.is_bytes else "a text"
+
+    @property
     def is_bytes(self) -> bool:
         """Return True for plain bytes, which are not characters."""
         return self.encoding in NOTATIONS

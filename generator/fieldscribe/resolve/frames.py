@@ -171,7 +171,12 @@ class StatedValues:
             self.scope.unknown("entry", value, span, known)
             raise FactError
         if point.text is not None:
-            raise FactError("bad-formula", f"`{word}` is a text", span, "leave it out of `says`")
+            raise FactError(
+                "bad-formula",
+                f"`{word}` is {point.text.kind}",
+                span,
+                "`says` takes only points that hold a number: leave it out",
+            )
         exact = number(value, span, self.scope.report)
         if exact is None:
             raise FactError

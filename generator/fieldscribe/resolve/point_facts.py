@@ -162,6 +162,13 @@ class PointFacts:
         return self.bytes or self.get("type") == "text"
 
     @property
+    def no_number(self) -> str:
+        """Return what the point is instead of a number: `a text`, `made of bytes`, `a date or time`; else empty."""
+        if self.get("parts"):
+            return "a date or time"
+        return "made of bytes" if self.bytes else "a text" if self.text else ""
+
+    @property
     def bytes(self) -> bool:
         """Return True if the type is `bytes`, or the point has parts of a date and time, which are held as these."""
         return bool(self.get("type") == "bytes" or self.get("parts"))

@@ -60,8 +60,8 @@ class Scales:
 
     def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
         """Raise FactError for a point that is not a number, or whose type or scale is not settled."""
-        if used.text:
-            raise bad_formula(place, f"`{name}` is a text", "name a number")
+        if used.no_number:
+            raise bad_formula(place, f"`{name}` is {used.no_number}", "a formula takes only points that hold a number")
         if used.untyped:
             raise bad_formula(place, f"no type says what `{name}` is", "a formula needs a number: say its `type`")
         for key in ("type",) if part == "raw" else ("type", "scale"):

@@ -29,7 +29,6 @@ _NO_QUANTITY = {
     "enum": "a number with names",
     "flags": "a word of flags",
     "digits": "a word of digits",
-    "text": "a text",
     "bit": "a single bit",
 }
 """The forms of points that are not a quantity, in words."""
@@ -167,7 +166,8 @@ def _display_of(facts: PointFacts, shape: Shape, bounds: Bounds) -> int | None:
     if display is None:
         return None
     decimals: int = display["decimals"]
-    what, report = _NO_QUANTITY.get(shape.form), bounds.scales.scope.report
+    what = _NO_QUANTITY.get(shape.form) if shape.text is None else shape.text.kind
+    report = bounds.scales.scope.report
     if what is not None:
         if facts.layer("display") is not facts.group:  # a group's `display` is for its quantities
             message = f"`{facts.name}` is {what}, which has no value to show with decimals"

@@ -252,7 +252,9 @@ class _Reader:
             return None
         point = points[0]
         if not _has_number(point):
-            what = "is a text" if point.text is not None else "has no number here: the manual leaves it open"
+            what = (
+                f"is {point.text.kind}" if point.text is not None else "has no number here: the manual leaves it open"
+            )
             self.report.error("unknown-point", f"`{word}` {what}", span, _NO_NUMBER)
             return None
         return point
