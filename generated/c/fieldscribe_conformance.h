@@ -452,6 +452,15 @@ FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
     fieldscribe_is_text(v, "status", one->name);
 }
 
+/* A family's statuses begin with those of conversions, and have their names. */
+#define FIELDSCRIBE_NAMES_STATUSES(type, name_of)                                                \
+    {                                                                                            \
+        const fieldscribe_status_name *one = v->suite->statuses;                                 \
+        for (; one->name != NULL; ++one) {                                                       \
+            fieldscribe_agree(v, fieldscribe_spells(one->name, name_of((type)one->status)));     \
+        }                                                                                        \
+    }
+
 /* A status and, where it is ok, a number; nothing may be stored where it is not. */
 FIELDSCRIBE_ONCE void fieldscribe_stored(
     fieldscribe_vector *v, int status, const char *key, uint64_t bits, bool untouched)

@@ -4732,7 +4732,17 @@ static void members_of_common(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_common_group group;
+    fronius_datamanager_common_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_common_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_common_group_decode(at, all, &group);
+        fronius_datamanager_common_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_common_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4754,7 +4764,17 @@ static void members_of_inverter(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_inverter_group group;
+    fronius_datamanager_inverter_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_inverter_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_inverter_group_decode(at, all, &group);
+        fronius_datamanager_inverter_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_inverter_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4813,7 +4833,17 @@ static void members_of_nameplate(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_nameplate_group group;
+    fronius_datamanager_nameplate_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_nameplate_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_nameplate_group_decode(at, all, &group);
+        fronius_datamanager_nameplate_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_nameplate_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4854,7 +4884,17 @@ static void members_of_settings(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_settings_group group;
+    fronius_datamanager_settings_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_settings_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_settings_group_decode(at, all, &group);
+        fronius_datamanager_settings_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_settings_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4900,7 +4940,17 @@ static void members_of_status(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_status_group group;
+    fronius_datamanager_status_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_status_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_status_group_decode(at, all, &group);
+        fronius_datamanager_status_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_status_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4936,7 +4986,17 @@ static void members_of_controls(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_controls_group group;
+    fronius_datamanager_controls_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_controls_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_controls_group_decode(at, all, &group);
+        fronius_datamanager_controls_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_controls_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4976,7 +5036,17 @@ static void members_of_mppt(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_mppt_group group;
+    fronius_datamanager_mppt_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_mppt_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_mppt_group_decode(at, all, &group);
+        fronius_datamanager_mppt_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_mppt_blocks); ++at) {
         const size_t block = at / 2U;
@@ -5019,7 +5089,17 @@ static void members_of_storage(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_storage_group group;
+    fronius_datamanager_storage_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_storage_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_storage_group_decode(at, all, &group);
+        fronius_datamanager_storage_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_storage_blocks); ++at) {
         const size_t block = at / 2U;
@@ -5059,7 +5139,17 @@ static void members_of_fronius(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_fronius_group group;
+    fronius_datamanager_fronius_group other;
+    unsigned char filled[sizeof group] = {0U};
     size_t at;
+    fieldscribe_fill(all, sizeof all);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_fronius_blocks); ++at) {
+        memset(&group, 0, sizeof group);
+        memset(&other, 0xFF, sizeof other);
+        fronius_datamanager_fronius_group_decode(at, all, &group);
+        fronius_datamanager_fronius_group_decode(at, all, &other);
+        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
+    }
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_fronius_blocks); ++at) {
         const size_t block = at / 2U;

@@ -476,6 +476,18 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         }                                                                                        \
     }
 
+/* Two structs that differed agree now in the bytes that a block filled in: no other block fills in one of them. */
+static inline void fieldscribe_fills_apart(
+    fieldscribe_vector *v, const void *one, const void *other, unsigned char *filled, size_t size)
+{
+    size_t at;
+    for (at = 0U; at < size; ++at) {
+        const bool agree = ((const unsigned char *)one)[at] == ((const unsigned char *)other)[at];
+        fieldscribe_agree(v, !agree || filled[at] == 0U);
+        filled[at] = agree ? 1U : filled[at];
+    }
+}
+
 /* Whether the words of a text in the order of reading are those of the answer. */
 FIELDSCRIBE_ONCE bool fieldscribe_reads_text(const fieldscribe_text *text, const uint16_t *words)
 {
@@ -610,6 +622,87 @@ static inline void fieldscribe_holds_rows(fieldscribe_vector *v)
     }
 }
 
+#ifdef FIELDSCRIBE_MODBUS_IDENTIFY_H
+/* ---- Identification ---- */
+
+static unsigned fieldscribe_asked;
+
+/* The unit of eight words; it refuses address 8, and a request at address 9 is lost. */
+FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_refused(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    fieldscribe_modbus_request again = *request;
+    again.function = 3U;
+    ++fieldscribe_asked;
+    return request->address == 8U   ? FIELDSCRIBE_MODBUS_EXCEPTION
+           : request->address == 9U ? FIELDSCRIBE_MODBUS_NOISE
+                                    : fieldscribe_ask_held(line, &again, reply);
+}
+
+FIELDSCRIBE_ONCE fieldscribe_status fieldscribe_is_five(const uint16_t *words)
+{
+    return words[0] == 5U ? FIELDSCRIBE_OK : FIELDSCRIBE_UNKNOWN_VALUE;
+}
+
+FIELDSCRIBE_ONCE fieldscribe_status fieldscribe_is_odd(const uint16_t *words)
+{
+    return words[0] % 2U == 1U ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
+}
+
+/* What a unit with 5 in the words 1, 2 and 5 and 7 in word 3 is found to be, in how many requests. */
+typedef struct fieldscribe_identity_case {
+    size_t count;
+    fieldscribe_modbus_expectation rows[3];
+    fieldscribe_modbus_status status;
+    uint8_t found[3];
+    unsigned asked;
+} fieldscribe_identity_case;
+
+static inline void fieldscribe_identifies(fieldscribe_vector *v)
+{
+#define FIELDSCRIBE_EXPECTED(axis, value, function, address, count, what) \
+    {axis, value, {function, address, count}, &fieldscribe_is_##what}
+    static const fieldscribe_identity_case cases[] = {
+        {2U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 3U, 1U, five)},
+            FIELDSCRIBE_MODBUS_OK, {0U, 0U, 0U}, 2U},
+        {3U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 3U, 1U, five),
+            FIELDSCRIBE_EXPECTED(1U, 2U, 3U, 2U, 1U, five)}, FIELDSCRIBE_MODBUS_OK, {1U, 2U, 0U}, 3U},
+        {3U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 8U, 1U, five),
+            FIELDSCRIBE_EXPECTED(1U, 2U, 3U, 8U, 1U, five)}, FIELDSCRIBE_MODBUS_OK, {1U, 0U, 0U}, 3U},
+        {2U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 8U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 1U, 1U, five)},
+            FIELDSCRIBE_MODBUS_OK, {0U, 0U, 0U}, 1U},
+        {2U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 9U, 1U, five)},
+            FIELDSCRIBE_MODBUS_NOISE, {1U, 0U, 0U}, 2U},
+        {3U, {FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 2U, 3U, 1U, 1U, five),
+            FIELDSCRIBE_EXPECTED(2U, 3U, 3U, 1U, 1U, five)}, FIELDSCRIBE_MODBUS_OK, {1U, 1U, 3U}, 1U},
+        {3U, {FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 1U, 1U, five), FIELDSCRIBE_EXPECTED(1U, 1U, 4U, 1U, 1U, five),
+            FIELDSCRIBE_EXPECTED(1U, 1U, 4U, 1U, 2U, five)}, FIELDSCRIBE_MODBUS_OK, {1U, 1U, 0U}, 3U},
+        {2U, {FIELDSCRIBE_EXPECTED(0U, 1U, 3U, 0U, 1U, odd), FIELDSCRIBE_EXPECTED(1U, 1U, 3U, 1U, 1U, odd)},
+            FIELDSCRIBE_MODBUS_OUT_OF_RANGE, {0U, 0U, 0U}, 1U}
+    };
+#undef FIELDSCRIBE_EXPECTED
+    static const uint16_t held[8] = {0U, 5U, 5U, 7U, 0U, 5U, 0U, 0U};
+    static const fieldscribe_modbus_base whole = {0U, 0xFFFFU};
+    static const fieldscribe_modbus_base later = {4U, 7U};
+    const fieldscribe_modbus_line line = {
+        fieldscribe_tables_of(v)->profile, NULL, 0U, NULL, NULL, NULL, 0U, 0U};
+    fieldscribe_modbus_unit unit = FIELDSCRIBE_MODBUS_UNIT(&line, &fieldscribe_ask_refused, 1U);
+    uint8_t found[3];
+    size_t at;
+    memcpy(fieldscribe_held, held, sizeof held);
+    for (at = 0U; at < FIELDSCRIBE_COUNT(cases); ++at) {
+        const fieldscribe_identity_case *const one = &cases[at];
+        fieldscribe_asked = 0U;
+        fieldscribe_fill(found, sizeof found);
+        fieldscribe_agree(v,
+            fieldscribe_modbus_identify(&unit, whole, one->rows, one->count, found, 3U) == one->status &&
+                memcmp(found, one->found, sizeof found) == 0 && fieldscribe_asked == one->asked);
+    }
+    fieldscribe_agree(v, fieldscribe_modbus_identify(&unit, later, cases[0].rows, 1U, found, 3U) ==
+            FIELDSCRIBE_MODBUS_OK && found[0] == 1U);
+}
+
+#endif
 /* ---- Frames ---- */
 
 static fieldscribe_modbus_framing fieldscribe_read_request(
@@ -972,8 +1065,12 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
     const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_holds_long_numbers(v);
     fieldscribe_holds_rows(v);
+#ifdef FIELDSCRIBE_MODBUS_IDENTIFY_H
+    fieldscribe_identifies(v);
+#endif
     fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
         fieldscribe_modbus_status_name(FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL))); /* no vector has it */
+    FIELDSCRIBE_NAMES_STATUSES(fieldscribe_modbus_status, fieldscribe_modbus_status_name)
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("functions", fieldscribe_known_functions(profile))

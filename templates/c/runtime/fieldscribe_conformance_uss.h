@@ -495,6 +495,7 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
     fieldscribe_holds_long_numbers(v);
     fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
         fieldscribe_uss_status_name(FIELDSCRIBE_USS_BUFFER_TOO_SMALL))); /* no vector has it */
+    FIELDSCRIBE_NAMES_STATUSES(fieldscribe_uss_status, fieldscribe_uss_status_name)
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("functions", profile->task_count)

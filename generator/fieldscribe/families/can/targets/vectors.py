@@ -102,6 +102,9 @@ def frames(lines: Lines, device: Device) -> None:
     codes(lines, "constant", "exception", device.bus.exceptions)
     for message in (message for message in device.messages if message.fields):
         _signals(lines, device, message)
+        lines.add("size", "words", message.name, sum(field.words for field in message.fields))
+        if message.every is not None:
+            lines.add("size", "every", message.name, message.every)
     reads, _ = request_and_answer(device.messages, writes=False)
     for group in device.groups:
         members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
@@ -256,7 +259,7 @@ def _signals(lines: Lines, device: Device, message: Message) -> None:
         known = {place: raws[-1] for place, raws in when}
         ends = dict.fromkeys((0, 1, (1 << point.width) - 1, 1 << (point.width - 1), _PATTERN % (1 << point.width)))
         tried = [(low, _filled(message, {**known, number: raw}, fill)) for raw in ends for fill in (0, _PATTERN)]
-        tried += [(low, _filled(message, {place: raws[-1] ^ 1}, _PATTERN)) for place, raws in when]
+        tried += [(low, _filled(message, {**known, place: raws[-1] ^ 1}, _PATTERN)) for place, raws in when]
         good = tried[0][1]
         tried += [(high, good), (low, good[:-1]), (low, good + b"\0")]
         lines.set("point", point.item)
