@@ -10,21 +10,24 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from hashlib import sha256
+from itertools import islice
 from pathlib import Path
 
 from mutants.equivalents import entry, named
-from mutants.judges import JUDGES, LEFT_OUT, ROOT, SURVIVED, Verdict
+from mutants.judges import JUDGES, ROOT, SURVIVED, Judge, Verdict
 from mutants.results import Results
 from mutants.rooms import drawn_in, rooms
 from mutants.sources import Mutant, drawn
 from mutants.table import MARKS, Table
 
-_Judged = Callable[[Mutant], Verdict]
+_Judged = Callable[[Iterable[Mutant]], Iterable[tuple[Mutant, Verdict]]]
 
 HERE = Path(__file__).parent
 CACHE = ROOT / ".cache/mutants"
 OF_A_LANGUAGE, OF_A_ROOM = 300, 100
 """How many mutants are judged if COUNT does not say."""
+AT_ONCE = 100
+"""How many mutants are judged together."""
 PROGRESS = 10.0
 """Seconds between two lines that say how far it is."""
 
@@ -61,18 +64,14 @@ def _code(language: str, seed: str, count: int) -> Table:
     work = CACHE / language
     base = _generated(work / "base", language)
     runner = [ROOT / "tests/conformance", *sorted(ROOT.glob("tests/support/vector*.py"))]
-    state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
+    state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py", HERE / "batches.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
-    judge: list[object] = []
 
-    def judged(mutant: Mutant) -> Verdict:
-        if not judge:  # made when the first one is not known yet
-            judge.append(JUDGES[language](base, work / "work"))
-        made = judge[0]
-        assert isinstance(made, JUDGES[language])
-        return made.verdict(mutant)
+    @cache
+    def judge() -> Judge:  # made when the first one is not known yet
+        return JUDGES[language](base, work / "work")
 
-    return _measure(Table(language), drawn(language, base, seed), results, count, judged)
+    return _measure(Table(language), drawn(language, base, seed), results, count, lambda some: judge().verdicts(some))
 
 
 def _descriptions(seed: str, count: int) -> Table:
@@ -82,7 +81,8 @@ def _descriptions(seed: str, count: int) -> Table:
     judge = DescriptionJudge(CACHE / "descriptions")
     parts = [ROOT / "descriptions", ROOT / "generator/fieldscribe", *judge.readings, HERE / "descriptions.py"]
     results = Results(CACHE / f"descriptions-{seed}-{_digest([*parts, judge.manuals])}.jsonl")
-    return _measure(Table("descriptions"), drawn_facts(judge.folder, seed), results, count, judge.verdict)
+    facts = drawn_facts(judge.folder, seed)
+    return _measure(Table("descriptions"), facts, results, count, lambda some: ((m, judge.verdict(m)) for m in some))
 
 
 def _generator(chosen: list[str], seed: str, count: int) -> Table:
@@ -125,18 +125,19 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
 
 def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: int, judged: _Judged) -> Table:
     """Judge until so many count."""
-    equivalent, told = named(), time.monotonic()
-    for mutant in mutants:
-        if table.judged >= count:
-            break
-        verdict = results.get(mutant.key)
-        if verdict is None:
-            verdict = judged(mutant)
+    equivalent, told, drawing = named(), time.monotonic(), iter(mutants)
+    while some := list(islice(drawing, min(count - table.judged, AT_ONCE))):
+        unknown = [mutant for mutant in some if results.get(mutant.key) is None]
+        for at, (mutant, verdict) in enumerate(judged(unknown) if unknown else (), 1):
             results.put(mutant.key, verdict)
-        table.add(mutant, verdict, equivalent=entry(table.language, mutant) in equivalent)
-        if verdict.outcome != LEFT_OUT and time.monotonic() - told > PROGRESS:
-            told = time.monotonic()
-            print(f"{table.language}: {table.judged} of {count}, {len(table.survivors)} survived", flush=True)
+            if time.monotonic() - told > PROGRESS:
+                told = time.monotonic()
+                more = f"{table.judged} of {count}, {len(table.survivors)} survived"
+                print(f"{table.language}: {more}; {at} of {len(unknown)} more are known", flush=True)
+        for mutant in some:
+            known = results.get(mutant.key)
+            assert known is not None
+            table.add(mutant, known, equivalent=entry(table.language, mutant) in equivalent)
     return table
 
 

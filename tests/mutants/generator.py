@@ -3,6 +3,7 @@
 A parent that has loaded everything but the compiler forks a child for each mutant, which imports the changed module
 from memory. The child compiles the devices whose compilation enters the changed function and compares with what the
 sound compiler made of them, the small ones first; then it runs the tests that enter it, those that enter little first.
+The tests of the mutant's room are asked alone before: most mutants need no more, and the others need not be measured.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
 from pathlib import Path, PurePath
 from types import CodeType
 from typing import Any
@@ -34,6 +36,8 @@ LIMIT = 45
 _LOADED = ("jinja2", "yaml", "hypothesis", "jsonschema")
 
 Codes = dict[str, CodeType]
+Output = tuple[Witness, str, str, dict[str, str]]
+"""How an output was made, its device and target, and what was made."""
 
 NOBODY, IMPORT = "nobody", "it does not import"
 
@@ -46,15 +50,25 @@ class GeneratorJudge:
         sys.dont_write_bytecode = False
         for name in _LOADED:
             importlib.import_module(name)
-        measured = work / "measured"
-        self.outputs: list[tuple[Witness, str, str, dict[str, str]]] = []
-        for device in compiled_devices:
-            for target in TARGETS:
-                judge, made = measured_output(device, target, measured)
-                self.outputs.append((judge, device, target, made))
-        self.files = [measured_tests(path, measured) for path in tests]
+        self._measured, self._devices, self._tests = work / "measured", list(compiled_devices), list(tests)
+        self._files: dict[Path, FileOfTests] = {}
         self.codes = compiled()
         self.sound: dict[str, bool] = {}
+
+    @cached_property
+    def outputs(self) -> list[Output]:
+        """Each output of each device, with the functions that making it enters."""
+        made = [(device, target) for device in self._devices for target in TARGETS]
+        found = [(device, target, measured_output(device, target, self._measured)) for device, target in made]
+        return [(judge, device, target, texts) for device, target, (judge, texts) in found]
+
+    def files(self, folder: Path) -> list[FileOfTests]:
+        """The files of tests in a folder, measured once."""
+        paths = [path for path in self._tests if path.is_relative_to(folder)]
+        for path in paths:
+            if path not in self._files:
+                self._files[path] = measured_tests(path, self._measured)
+        return [self._files[path] for path in paths]
 
     def verdict(self, mutant: Mutant) -> Verdict:
         """Return the first output or test that notices the mutant."""
@@ -63,44 +77,41 @@ class GeneratorJudge:
             code = compile(mutant.text, path, "exec", dont_inherit=True)
         except (SyntaxError, ValueError):
             return Verdict(LEFT_OUT, "it does not compile")
-        place = place_of(mutant)
-        while True:
-            by = self._asked({**self.codes, str(path): code}, mutant.path, place)
-            if by in (NOBODY, IMPORT):
-                return Verdict(SURVIVED, "") if by == NOBODY else Verdict(LEFT_OUT, by)
-            if not by.startswith("tests/") or self._is_sound(by):
-                return Verdict(KILLED, by)
+        place, codes = place_of(mutant), {**self.codes, str(path): code}
+        of_room = self._noticed(codes, mutant.path, place, self.files(ROOT / "tests" / mutant.kind), [])
+        by = of_room or self._noticed(codes, mutant.path, place, self.files(ROOT / "tests"), self.outputs)
+        return Verdict(LEFT_OUT, by) if by == IMPORT else Verdict(KILLED if by else SURVIVED, by)
 
-    def _asked(self, codes: Codes, changed: str, place: str) -> str:
+    def _noticed(
+        self, codes: Codes, changed: str, place: str, files: Sequence[FileOfTests], outputs: Sequence[Output]
+    ) -> str:
+        """Return the name of what notices a changed file, sound tests alone; empty if nothing does."""
+        while True:
+            by = self._asked(
+                codes, changed, self.chosen(place, files), [one for one in outputs if place in one[0].enters]
+            )
+            if by == NOBODY:
+                return ""
+            if not by.startswith("tests/") or self._is_sound(by):
+                return by
+
+    def _asked(self, codes: Codes, changed: str, tests: dict[Path, list[str]], outputs: Sequence[Output]) -> str:
         """Return the name of what notices a changed file, judged in a child process."""
 
         def work(tell: Callable[[Any], None]) -> None:
             use(codes)
-            tell(_import_fails(changed) or self._output_that_differs(place) or self._test_that_fails(place) or NOBODY)
+            tell(_import_fails(changed) or _output_that_differs(outputs) or _test_that_fails(tests) or NOBODY)
 
         try:
             return str(in_child(work, LIMIT)[-1])
         except StoppedError as stopped:
             return str(stopped)
 
-    def _output_that_differs(self, place: str) -> str:
-        """Return the first output that differs; the devices of the tests come first."""
-        for judge, device, target, made in self.outputs:
-            if place in judge.enters and _differs(device, target, made):
-                return judge.name
-        return ""
-
-    def _test_that_fails(self, place: str) -> str:
-        for path, names in self.chosen(place).items():
-            if failing := _failing(path, names):
-                return failing
-        return ""
-
-    def chosen(self, place: str) -> dict[Path, list[str]]:
+    def chosen(self, place: str, files: Sequence[FileOfTests]) -> dict[Path, list[str]]:
         """Return the tests to run, by file, within the time limit: those that enter few functions first."""
         module, _, function = place.partition("::")
         of_room = "" if function else f"tests/{room_of(PurePath(module).parts[1:])}/"
-        known = [(file, test) for file in self.files for test in entering(file, place) if self._may_judge(test)]
+        known = [(file, test) for file in files for test in entering(file, place) if self._may_judge(test)]
         found: dict[Path, list[str]] = {}
         left = TESTED
         for file, test in sorted(known, key=lambda one: _order(one[1], of_room)):
@@ -108,7 +119,7 @@ class GeneratorJudge:
             if cost <= left:
                 left -= cost
                 found.setdefault(file.path, []).append(test.name)
-        for file in self.files:
+        for file in files:
             if file.path in found:
                 found[file.path] += self._beside(file, set(found[file.path]))
         return found
@@ -157,6 +168,15 @@ def entering(file: FileOfTests, place: str) -> Sequence[Witness]:
         return direct
     using = [test for test in file.tests if any(one.startswith(f"{module}::") for one in test.enters)]
     return using or file.tests
+
+
+def _output_that_differs(outputs: Iterable[Output]) -> str:
+    """Return the first output that differs; the devices of the tests come first."""
+    return next((judge.name for judge, device, target, made in outputs if _differs(device, target, made)), "")
+
+
+def _test_that_fails(tests: dict[Path, list[str]]) -> str:
+    return next((failing for path, names in tests.items() if (failing := _failing(path, names))), "")
 
 
 def _import_fails(changed: str) -> str:

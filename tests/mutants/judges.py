@@ -9,14 +9,15 @@ import resource
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from mutants.batches import CHOICE, CHOOSES, Variant, blamed, body_around, switched
 from mutants.sources import RUNTIME, Mutant
 
-CPU_LIMIT, RUN_LIMIT, BUILD_LIMIT = 10, 120, 600
-"""Seconds of work after which a program is taken to hang, and seconds of waiting for it and for a compiler."""
+RUN_LIMIT, BUILD_LIMIT = 120, 600
+"""Seconds of waiting for a program and for a compiler."""
 MEMORY = 4 << 30
 """What a mutant that runs away may take."""
 
@@ -37,8 +38,11 @@ class Verdict(NamedTuple):
     by: str
 
 
+Command = tuple[object, ...]
+
+
 class DoesNotBuildError(Exception):
-    """The changed file does not compile or import."""
+    """The changed file does not compile or import; the second argument holds the compiler's messages."""
 
 
 class Judge:
@@ -46,6 +50,8 @@ class Judge:
 
     language = ""
     builds: tuple[tuple[str, ...], ...] = ((),)
+    cpu_limit = 10
+    """Seconds of work after which a program is taken to hang."""
 
     def __init__(self, base: Path, work: Path) -> None:
         self.work = work / self.language
@@ -64,6 +70,10 @@ class Judge:
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Whether all vectors of a device pass. Raises DoesNotBuildError."""
         raise NotImplementedError
+
+    def verdicts(self, mutants: Iterable[Mutant]) -> Iterator[tuple[Mutant, Verdict]]:
+        """Judge each mutant, in any order."""
+        return ((mutant, self.verdict(mutant)) for mutant in mutants)
 
     def verdict(self, mutant: Mutant) -> Verdict:
         """Run the devices that use the file, the small ones first, until one fails that passes without the change."""
@@ -86,7 +96,7 @@ class Judge:
                     if not self.passes(*way):
                         return way, KILLED, ""
                 except DoesNotBuildError as error:
-                    return way, LEFT_OUT, str(error)
+                    return way, LEFT_OUT, str(error.args[0])
                 except subprocess.TimeoutExpired:
                     return way, KILLED, "time"
         finally:
@@ -113,7 +123,7 @@ class Judge:
         return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
 
     def run(
-        self, *words: object, memory: int = MEMORY, packages: Path | None = None, slow: bool = False
+        self, *words: object, memory: int = MEMORY, slow: bool = False, environment: Mapping[str, object] | None = None
     ) -> subprocess.CompletedProcess[str]:
         """Run a program that may do anything, within limits. Raises TimeoutExpired."""
         return subprocess.run(
@@ -124,8 +134,8 @@ class Judge:
             errors="replace",
             check=False,
             timeout=BUILD_LIMIT if slow else RUN_LIMIT,
-            env={**os.environ, **({"FIELDSCRIBE_PACKAGES": str(packages)} if packages else {})},
-            preexec_fn=lambda: _bound(memory, RUN_LIMIT if slow else CPU_LIMIT),
+            env=os.environ | {name: str(value) for name, value in (environment or {}).items()},
+            preexec_fn=lambda: _bound(memory, RUN_LIMIT if slow else self.cpu_limit),
         )
 
     def compile(self, *words: object, folder: Path | None = None) -> str:
@@ -135,7 +145,7 @@ class Judge:
             command, cwd=folder or self.work, capture_output=True, text=True, check=False, timeout=BUILD_LIMIT
         )
         if done.returncode:
-            raise DoesNotBuildError("it does not compile")
+            raise DoesNotBuildError("it does not compile", done.stdout + done.stderr)
         return done.stdout + done.stderr
 
 
@@ -150,7 +160,77 @@ def _bound(memory: int, seconds: int) -> None:
 SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 
-class OfC(Judge):
+class OfCompiled(Judge):
+    """A program a device, in which many mutants are built at once where their functions can choose when they run."""
+
+    cpu_limit = 3
+
+    def built(self, device: str, build: Sequence[str]) -> Command:
+        """Build the program of a device and return its command. Raises DoesNotBuildError."""
+        raise NotImplementedError
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Compile and run."""
+        return self._runs(self.built(device, build), build)
+
+    def _runs(self, command: Command, build: Sequence[str], number: int = 0) -> bool:
+        memory = resource.RLIM_INFINITY if build == SANITIZED else MEMORY
+        try:
+            return self.run(*command, memory=memory, environment={CHOICE: number}).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+    def verdicts(self, mutants: Iterable[Mutant]) -> Iterator[tuple[Mutant, Verdict]]:
+        """Judge those that change a function's body together, then the others and those that do not compile."""
+        left = dict(enumerate(mutants, 1))
+        apart = [left.pop(number) for number, one in list(left.items()) if not self._can_choose(one)]
+        for build in self.builds:
+            for device in self.vectors:
+                tried = {number: one for number, one in left.items() if device in self.users(one, build)}
+                if not tried or not self.sound.get((device, build), True):
+                    continue
+                command, held = self._built_with(device, build, tried)
+                if not self._runs(command, build):
+                    if not self._is_sound(device, build):
+                        continue
+                    held = set()
+                for number in tried:
+                    if number not in held:
+                        apart.append(left.pop(number))
+                    elif not self._runs(command, build, number):
+                        yield left.pop(number), Verdict(KILLED, " ".join((device, *build)))
+        yield from ((mutant, Verdict(SURVIVED, "")) for mutant in left.values())
+        yield from super().verdicts(apart)
+
+    def _can_choose(self, mutant: Mutant) -> bool:
+        return body_around(self.language, (self.base / mutant.path).read_text("utf-8"), mutant) is not None
+
+    def _built_with(self, device: str, build: Sequence[str], mutants: dict[int, Mutant]) -> tuple[Command, set[int]]:
+        """Build one program of all mutants that compile; return its command and their numbers."""
+        held = set(mutants)
+        while True:
+            variants = self._write([(number, mutants[number]) for number in sorted(held)])
+            try:
+                return self.built(device, build), held
+            except DoesNotBuildError as error:
+                if not held:
+                    raise
+                held -= set(blamed(self.language, error.args[1], variants)) or set(held)
+            finally:
+                for path in variants:
+                    shutil.copyfile(self.base / path, self.work / path)
+
+    def _write(self, mutants: Sequence[tuple[int, Mutant]]) -> dict[str, list[Variant]]:
+        """Write the files that choose a mutant; return the lines of each mutant, by file."""
+        found = {}
+        for path in {mutant.path for _, mutant in mutants}:
+            inside = {number: mutant for number, mutant in mutants if mutant.path == path}
+            text, found[path] = switched(self.language, (self.base / path).read_text("utf-8"), path, inside)
+            (self.work / path).write_text(text, encoding="utf-8")
+        return found
+
+
+class OfC(OfCompiled):
     """The conformance program, built by one call of the compiler; the branches that defines choose are builds too."""
 
     language = "c"
@@ -164,13 +244,17 @@ class OfC(Judge):
             return found if switched else []
         return found[:1] if build else found
 
-    def passes(self, device: str, build: Sequence[str]) -> bool:
-        """Compile and run."""
-        program = self.work / "program"
-        source = self.work / f"c/conformance/{device}_conformance.c"
-        self.compile("gcc", "-O0", "-w", *build, "-I", self.work / "c", "-o", program, source)
-        done = self.run(program, self.vectors[device], memory=resource.RLIM_INFINITY if build == SANITIZED else MEMORY)
-        return done.returncode == 0
+    def prepare(self) -> None:
+        """Write what chooses a mutant, which every program begins with."""
+        self.chooses = self.work / "chooses.h"
+        self.chooses.write_text(CHOOSES["c"], encoding="utf-8")
+
+    def built(self, device: str, build: Sequence[str]) -> Command:
+        """Call the compiler."""
+        program, source = self.work / "program", self.work / f"c/conformance/{device}_conformance.c"
+        start = ("gcc", "-O0", "-w", "-include", self.chooses, "-I", self.work / "c")
+        self.compile(*start, *build, "-o", program, source)
+        return program, self.vectors[device]
 
 
 def conditions_around(text: str, line: int) -> list[str]:
@@ -203,7 +287,8 @@ class OfPython(Judge):
         folder = self.work / "python"
         if device == TRANSPORTS:
             files = sorted(ROOT.glob(f"tests/targets/python/test_*{TRANSPORTS}.py"))
-            return self.run(sys.executable, "-B", "-m", "pytest", "-q", "-x", *files, packages=folder).returncode == 0
+            words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", *files)
+            return self.run(*words, environment={"FIELDSCRIBE_PACKAGES": folder}).returncode == 0
         done = self.run(sys.executable, "-B", ROOT / "tests/conformance", folder, device, self.vectors[device])
         if done.returncode and not done.stdout.strip():
             program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"
@@ -223,7 +308,7 @@ incremental = true
 """
 
 
-class OfRust(Judge):
+class OfRust(OfCompiled):
     """The conformance test of each crate in one workspace, whose build stays warm from mutant to mutant."""
 
     language = "rust"
@@ -233,6 +318,8 @@ class OfRust(Judge):
         from support.rust_crates import without_registry
 
         root = self.work / "rust"
+        with (root / "fieldscribe_runtime/src/transports/mod.rs").open("a", encoding="utf-8") as never_changed:
+            never_changed.write(CHOOSES["rust"])
         without_registry(root)
         crates = sorted(str(path.parent.relative_to(root)) for path in root.glob("*/**/Cargo.toml"))
         members = ", ".join(f'"{crate}"' for crate in crates)
@@ -253,14 +340,13 @@ class OfRust(Judge):
 
     builds_once = False
 
-    def passes(self, device: str, build: Sequence[str]) -> bool:
-        """Compile the test and run it."""
+    def built(self, device: str, build: Sequence[str]) -> Command:
+        """Compile the test."""
         del build
         said = self.cargo("test", "--no-run", "--test", "conformance", "--package", f"{device}_conformance")
         found = re.search(r"Executable .*\((.*)\)", said)
         assert found is not None, said
-        program = self.work / "rust" / found[1]
-        return self.run(program, memory=MEMORY).returncode == 0
+        return (self.work / "rust" / found[1],)
 
 
 SESSIONS = "sessions"
@@ -292,8 +378,8 @@ class OfTypeScript(Judge):
         if device == SESSIONS:
             files = [ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in _ASKING]
             words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files)
-            packages = self.work / "typescript"
-            return self.run(*words, packages=packages, memory=resource.RLIM_INFINITY, slow=True).returncode == 0
+            packages = {"FIELDSCRIBE_PACKAGES": self.work / "typescript"}
+            return self.run(*words, environment=packages, memory=resource.RLIM_INFINITY, slow=True).returncode == 0
         modules, runner = self.work / "typescript/node_modules", ROOT / "tests/support/run_vectors.mjs"
         words = ("node", runner, modules, device.replace("_", "-"), self.vectors[device])
         done = self.run(*words, memory=resource.RLIM_INFINITY)  # node reserves more than it uses

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from mutants.judges import ROOT
-from mutants.sources import Mutant, Source, of_kind
+from mutants.sources import Mutant, Source, changed, of_kind
 from mutants.tokens import line_starts, span
 
 HOUSE = ROOT / "generator"
@@ -64,12 +64,6 @@ def functions_of(tree: ast.AST, outer: str = "") -> Iterator[tuple[ast.FunctionD
 def place_of(mutant: Mutant) -> str:
     """The function that a mutant changes, as `path::name`; the module alone if it is in none."""
     source = next(one for room in rooms().values() for one in room if one.path == mutant.path)
-    start = len(_common(source.text, mutant.text))
+    start, _ = changed(source.text, mutant.text)
     around = [name for first, end, name in functions(source) if first <= start < end]
     return f"{mutant.path}::{around[-1] if around else MODULE}"
-
-
-def _common(first: str, second: str) -> str:
-    """What two texts begin with."""
-    differs = (at for at, (one, other) in enumerate(zip(first, second, strict=False)) if one != other)
-    return first[: next(differs, min(len(first), len(second)))]

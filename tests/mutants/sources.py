@@ -144,5 +144,17 @@ def mutant_of(source: Source, change: Change) -> Mutant:
     return Mutant(source.kind, source.device, source.path, line, _one_line(before), _one_line(after), change.what, text)
 
 
+def changed(before: str, after: str) -> tuple[int, int]:
+    """Where a text differs from a later one: what stands before and behind is the same."""
+    start = _alike(before, after)
+    return start, len(before) - _alike(before[start:][::-1], after[start:][::-1])
+
+
+def _alike(one: str, other: str) -> int:
+    """How many characters two texts have in common at their start."""
+    both = enumerate(zip(one, other, strict=False))
+    return next((at for at, (here, there) in both if here != there), min(len(one), len(other)))
+
+
 def _one_line(text: str) -> str:
     return " / ".join(line.strip() for line in text.splitlines())

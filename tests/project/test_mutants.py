@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
+from mutants.batches import blamed, body_around, switched
 from mutants.changes import Change, places_of
 from mutants.children import BROKE_DOWN, StoppedError, in_child
 from mutants.equivalents import FILE, named
-from mutants.judges import KILLED, LEFT_OUT, SURVIVED, OfC
-from mutants.sources import mutant_of, sources_of
+from mutants.judges import KILLED, LEFT_OUT, SURVIVED, Command, OfC
+from mutants.sources import Source, mutant_of, sources_of
 from mutants.table import MARKS
 from support.places import TESTS
 from support.toolchains import tool
@@ -146,6 +147,70 @@ def test_a_mutant_that_vectors_see_is_killed_and_one_that_they_do_not_survives(b
     }
     assert verdicts == {"4": KILLED, "3": SURVIVED, "(": LEFT_OUT}
     assert (tmp_path / "work/c/c/dev.h").read_text("utf-8") == source.text
+
+
+CHOICES = """\
+#ifndef DEV_H
+#define DEV_H
+static int dev_a(int raw)
+{
+    return raw + 1;
+}
+static int dev_b(int raw)
+{
+    if (raw > 4) {
+        raw = 4;
+    }
+    return raw * 2;
+}
+static const int dev_c = 3;
+#endif
+"""
+
+
+class CountingBuilds(OfC):
+    """Counts the programs that it builds."""
+
+    count = 0
+
+    def built(self, device: str, build: Sequence[str]) -> Command:
+        self.count += 1
+        return super().built(device, build)
+
+
+def test_mutants_of_functions_are_built_and_judged_together(base: Path, tmp_path: Path) -> None:
+    """Those that do not compile, or change no function, are judged alone: six mutants took six programs before."""
+    tool("gcc")
+    (base / "c/dev.h").write_text(CHOICES, encoding="utf-8")
+    program = '#include "../dev.h"\nint main(void) { return dev_a(1) == 2 && dev_b(2) == 4 && dev_c == 3 ? 0 : 1; }\n'
+    (base / "c/conformance/dev_conformance.c").write_text(program, encoding="utf-8")
+    (source,) = sources_of("c", base)
+    judge = CountingBuilds(base, tmp_path / "work")
+    edits = [("+ 1", "+ 2"), ("+ 1", "+ (1"), ("raw > 4", "raw > 5"), ("* 2", "* 3"), ("* 2", "<< 1"), ("= 3", "= 5")]
+    starts = [source.text.index(before) for before, _ in edits]
+    changes = [Change("x", start, start + len(one[0]), one[1]) for start, one in zip(starts, edits, strict=True)]
+    mutants = [mutant_of(source, change) for change in changes]
+    found = dict(judge.verdicts(mutants))
+    outcomes = [found[one].outcome for one in mutants]
+    assert outcomes == [KILLED, LEFT_OUT, SURVIVED, KILLED, SURVIVED, KILLED]
+    assert (tmp_path / "work/c/c/dev.h").read_text("utf-8") == source.text
+    assert judge.count == 6, "four in two, as one does not compile; one with sanitizers; one alone; one alone and sound"
+
+
+def test_functions_of_rust_choose_their_body_when_they_run() -> None:
+    source = Source("rust", "points", "dev", "rust/dev/src/points.rs", RUST)
+    changes = [Change("x", RUST.index("raw | 1"), RUST.index("raw | 1") + 7, after) for after in ("raw | 3", "raw")]
+    first, second = (mutant_of(source, change) for change in changes)
+    text, variants = switched("rust", RUST, source.path, {7: first, 9: second})
+    assert (
+        body_around("rust", RUST, mutant_of(source, Change("x", RUST.index("0x0F"), RUST.index("0x0F"), "1"))) is None
+    )
+    lines = text.splitlines()
+    for one, changed in zip(variants, ("Some(raw | 3)", "Some(raw)"), strict=True):
+        assert f"if ::fieldscribe_runtime::transports::mutant() == {one.number} {{" in lines[one.first - 1]
+        assert [changed in line for line in lines[one.first - 1 : one.last]].count(True) == 1
+    message = f"error[E0308]: mismatched types\n --> dev/src/points.rs:{variants[1].first + 2}:20\n"
+    assert list(blamed("rust", message, {source.path: variants})) == [9]
 
 
 HOUSE = '''\
