@@ -25,6 +25,7 @@ from fieldscribe.model import (
     Terms,
     Titles,
 )
+from fieldscribe.text import humanised
 
 Made = TypeVar("Made")
 _NOWHERE = Source("", None, None, None)
@@ -136,6 +137,7 @@ def _point(point: Point, shape: Shape, terms: Terms) -> Point:
         point.index,
         point.was,
         point.errata,
+        point.enum_names,
     )
 
 
@@ -171,18 +173,14 @@ class _Enums:
     """The enums of a device as code sees them; those that share their entries still do."""
 
     def __init__(self) -> None:
-        self._enums: dict[int, tuple[Enum, Enum]] = {}
         self._entries: dict[int, tuple[Entry, ...]] = {}
 
     def of(self, enum: Enum) -> Enum:
         """Return an enum with names as titles."""
-        known = self._enums.get(id(enum))
+        known = self._entries.get(id(enum.entries))
         if known is None:
-            entries = self._entries.get(id(enum.entries))
-            if entries is None:
-                entries = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
-            known = self._enums[id(enum)] = enum, Enum(enum.name, _title(enum.name), entries, enum.closed, enum.was)
-        return known[1]
+            known = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
+        return Enum(enum.name, known, enum.closed, enum.was)
 
 
 def _entry(entry: Entry) -> Entry:
@@ -192,4 +190,4 @@ def _entry(entry: Entry) -> Entry:
 @lru_cache(maxsize=65536)
 def _title(name: str) -> Titles:
     """Return `base_frequency` as `Base frequency`."""
-    return {"en": name.replace("_", " ").capitalize()}
+    return {"en": humanised(name)}

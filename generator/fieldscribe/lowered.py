@@ -14,7 +14,7 @@ from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
 from fieldscribe.code_view import DeviceCache, has_same_points
-from fieldscribe.model import Allowed, Device, Enum, Erratum, Factor, Linear, Point, Shape, Terms, kind_of
+from fieldscribe.model import Allowed, Device, Erratum, Factor, Linear, Point, Shape, Terms
 
 
 class TemplateKeys:
@@ -26,20 +26,20 @@ class TemplateKeys:
 
     def __init__(self) -> None:
         self._keys: dict[Hashable, int] = {}
-        self._shapes: dict[int, tuple[int, int, str]] = {}
-        self._kinds: dict[Hashable, int] = {}
+        self._shapes: dict[int, int] = {}
         self._terms: dict[int, int] = {}
 
     def of(self, point: Point) -> int:
         """Return the number of the point's kind."""
         shape, allowed, addresses = point.shape, point.allowed, point.place.addresses
-        whole, unnamed, enum = self._shapes.get(id(shape)) or self._of_shape(shape)
-        if not whole or allowed.moves or point.was or point.variant is not None or point.write_place is not None:
+        apart = point.was or point.variant is not None or point.write_place is not None
+        if apart or allowed.moves or not _is_shared(shape):
             return self._number(point.item)
         references = point.place.references
         return self._number(
             (
-                unnamed if enum == point.item else whole,
+                self._shapes.get(id(shape)) or self._of_shape(shape),
+                None if point.enum_names[:1] == (point.item,) else point.enum_names,
                 self._terms.get(id(point.terms)) or self._of_terms(point.terms),
                 -len(allowed.intervals) if _is_range(allowed) else id(allowed),
                 tuple([address - addresses[0] for address in addresses]) if len(addresses) > 1 else len(addresses),
@@ -55,27 +55,18 @@ class TemplateKeys:
     def _number(self, facts: Hashable) -> int:
         return self._keys.setdefault(facts, len(self._keys) + 1)
 
-    def _of_shape(self, shape: Shape) -> tuple[int, int, str]:
-        """Return the numbers of a shape with and without the name of its enum, and that name.
-
-        The numbers are 0 for texts, digits and scales that need other points, which follow from more than the shape.
-        """
-        enum = shape.enum
-        if shape.text is not None or shape.digits is not None or shape.scale_arguments:
-            numbers = 0, 0, ""
-        elif enum is None:
-            numbers = self._number(shape), 0, ""
-        else:
-            kind = kind_of(shape)
-            if kind not in self._kinds:
-                self._kinds[kind] = self._number((replace(shape, enum=None), enum.closed, id(enum.entries)))
-            numbers = self._number((self._kinds[kind], enum.name)), self._kinds[kind], enum.name
-        self._shapes[id(shape)] = numbers
-        return numbers
+    def _of_shape(self, shape: Shape) -> int:
+        number = self._shapes[id(shape)] = self._number(shape)
+        return number
 
     def _of_terms(self, terms: Terms) -> int:
         number = self._terms[id(terms)] = self._number(replace(terms, group=""))
         return number
+
+
+def _is_shared(shape: Shape) -> bool:
+    """Return False for texts, digits and scales with other points: their code follows from more than the shape."""
+    return shape.text is None and shape.digits is None and not shape.scale_arguments
 
 
 def _is_range(allowed: Allowed) -> bool:
@@ -185,7 +176,7 @@ def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
     return first, last
 
 
-__all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "named_numbers", "plan_of"]
+__all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "plan_of"]
 
 
 Band = tuple[int, int]
@@ -273,11 +264,6 @@ _last: DeviceCache[Lowered] = DeviceCache(has_same_points, most=2)
 def lower(device: Device) -> Lowered:
     """Return the lowered model of a device; devices with the same points and errata share one."""
     return _last.of(device, Lowered)
-
-
-def named_numbers(shape: Shape) -> Enum | None:
-    """Return the enum that names the numbers of points, or each of their digits."""
-    return shape.enum if shape.digits is None else shape.digits.enum
 
 
 def _by_name(device: Device) -> dict[str, Point]:

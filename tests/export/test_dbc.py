@@ -210,9 +210,7 @@ def test_what_a_database_cannot_say_is_in_comments() -> None:
 def hostile() -> Device:
     """A CAN device with texts that want to end strings, and names that are too long."""
     text = 'a "quoted"; \\ CM_ "x";\n\u202eπ°\\'
-    enum = Enum(
-        "states", titles(text), (Entry(0, "off", titles(text), None), Entry(1, "on", titles(text), None)), False
-    )
+    enum = Enum("states", (Entry(0, "off", titles(text), None), Entry(1, "on", titles(text), None)), False)
     facts: dict[str, Any] = {"space": "telegram", "telegram": "cycle", "access": "r", "title": titles(text)}
     long = "a_name_that_is_much_longer_than_thirty_two_characters"
     points = (

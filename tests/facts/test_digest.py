@@ -118,7 +118,7 @@ NO_FACTS = (
         *("Code.most", "Code.line", "Frame.family_facts", "Message.length"),
     ),
     *("Field.start", "Field.width", "Field.low_first", "Field.word", "Field.when"),
-    *("Point.errata", "Frame.errata", "Enum.title", "Enum.was", "Erratum.where", "ScaleCase.written"),
+    *("Point.errata", "Frame.errata", "Enum.was", "Erratum.where", "ScaleCase.written"),
     *("Shape.width", "Shape.encodes_values", "Shape.most_raw", "Shape.patterns", "Text.characters", "ScaleCase.raw"),
     *("Factor.within", "Factor.slope", "Factor.intercept", "Limit.least", "Limit.greatest"),
     *("Allowed.listed", "Point.default"),
@@ -149,7 +149,8 @@ def counted_fields(device: Device, known: AbstractSet[str]) -> set[str]:
     assert device.digest == digest(device)
     counted, tries = set[str](), Counter[str]()
     for owner, path, value in leaves(device):
-        if owner in counted | known or owner in NO_FACTS or value == () or tries[owner] > 2:
+        follows = owner in NO_FACTS or path[0] == ("field", "enums") or (owner == "Enum.name" and not value)
+        if owner in counted | known or follows or value == () or tries[owner] > 2:
             continue
         tries[owner] += 1
         for other in (other for other in others(value) if other != value):

@@ -129,7 +129,7 @@ def test_sharing_templates_changes_no_text(name: str, monkeypatch: pytest.Monkey
 
 Facts = dict[str, Any]
 LONG = "a_name_so_long_that_lines_break_where_they_do_not_break_for_its_neighbour"
-MODES = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "slow")), False)
+MODES = Enum("mode", (entry(0, "off"), entry(1, "slow")), False)
 FAULT = (Special(65535, 65535, "fault", titles("Fault"), True, shared=True),)
 OFF = Erratum("E1", ("two",), "", SOURCE, "1", "2", "", "sure", (("scale", "1"),))
 SEVENTHS = {"scale": scaled("3/7"), "decimals": 1}

@@ -35,8 +35,8 @@ def test_what_belongs_to_a_shape_is_shared_and_the_rest_is_not() -> None:
         replace(first, title=titles("Another"), default=None, errata=("one",)),
     ]
     assert {id(interner.shape(one.shape)) for one in (first, *same)} == {id(first.shape)}
-    named = Enum("mode", titles("Mode"), (entry(0, "off"),), closed=True)
-    titled = replace(named, title=titles("Other mode"))
+    named = Enum("mode", (entry(0, "off"),), closed=True)
+    titled = replace(named, entries=(replace(named.entries[0], title=titles("Other")),))
     facts = ({"access": "r"}, {"type": "s16"}, {"bits": (3, 0)}, {"decimals": 2}, {"scale": None}, {"enum": named})
     others = [changed(first, **one) for one in facts] + [changed(first, enum=titled)]
     assert len({id(interner.shape(one.shape)) for one in others}) == len(others)

@@ -71,10 +71,10 @@ def test_limits_decide_for_each_point(tmp_path: Path) -> None:
     assert points["first"].shape is points["second"].shape is points["third"].shape
     assert [points[name].outer for name in ("first", "second", "third")] == [(0, 10), (5, 4000), (1, 40)]
     assert (points["second"].default_raw, points["first"].default) == (10, None)
-    enums = {name: point.enum for name, point in points.items() if point.enum is not None}
+    enums = {name: enum for name, point in points.items() if (enum := point.named_numbers) is not None}
     assert {name: enum.name for name, enum in enums.items()} == {name: name for name in enums}
     assert [name for name, enum in enums.items() if enum.closed] == ["mode", "other_mode", "closed_mode"]
-    assert enums["mode"].entries is enums["other_mode"].entries
+    assert points["mode"].shape is points["other_mode"].shape
     assert (points["small"].encodes_values, points["large"].encodes_values) == (True, False)
 
 

@@ -90,7 +90,7 @@ def conformance_source(folder: Path, device: str) -> Path:
     return folder / "c" / "conformance" / f"{device}_conformance.c"
 
 
-WIDE_NUMBERS = Enum("wide_number", titles("Wide"), (Entry(0xFFFF, "all", titles("All"), None),), False)
+WIDE_NUMBERS = Enum("wide_number", (Entry(0xFFFF, "all", titles("All"), None),), False)
 
 
 def rare_points() -> tuple[Point, ...]:
@@ -183,8 +183,8 @@ def floating_factors() -> tuple[Point, ...]:
 
 def words_of_parts() -> tuple[Point, ...]:
     """Texts, digits, and words with constant bits."""
-    digit = Enum("digit", titles("Digit"), (entry(0, "off"), entry(1, "a"), entry(2, "b"), entry(7, "c")), True)
-    loud = Enum("loud", titles("Loud"), tuple(entry(number, f"n{number}") for number in range(10)), True)
+    digit = Enum("digit", (entry(0, "off"), entry(1, "a"), entry(2, "b"), entry(7, "c")), True)
+    loud = Enum("loud", tuple(entry(number, f"n{number}") for number in range(10)), True)
     return (
         point("name", 100, "text", order=range(107, 99, -1), text=Text(16, "ascii")),
         point("note", 110, "text", order=(110, 112, 111), text=Text(6, "latin-1")),

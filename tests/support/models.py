@@ -157,12 +157,11 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
 
 FREQUENCY_SOURCE = Enum(
     "frequency_source",
-    titles("Frequency source"),
     (Entry(0, "keypad", titles("Keypad", "Bedienfeld"), None), entry(1, "terminal"), entry(10, "logic")),
     True,
 )
-FILTER_MODE = Enum("filter_mode", titles("Filter"), (entry(17, "dead_band", "16 samples, dead band", "500 ms"),), False)
-TEMPERATURE_MODE = Enum("temperature_mode", titles("Mode"), (entry(-1, "cold", "Cold */ \\"), entry(2, "hot")), True)
+FILTER_MODE = Enum("filter_mode", (entry(17, "dead_band", "16 samples, dead band", "500 ms"),), False)
+TEMPERATURE_MODE = Enum("temperature_mode", (entry(-1, "cold", "Cold */ \\"), entry(2, "hot")), True)
 
 
 def plain_points() -> tuple[Point, ...]:

@@ -47,9 +47,9 @@ from support.models import (
     value_of,
 )
 
-SWITCH = Enum("switch", titles("Switch"), (entry(0, "off"), entry(3, "on")), False)
-DELAY = Enum("delay", titles("Delay"), tuple(entry(raw, f"step_{raw}") for raw in (0, 1, 2, 5)), False)
-NORMALISATION = Enum("normalisation", titles("Normalisation"), (entry(0, "normalised"), entry(1, "absolute")), True)
+SWITCH = Enum("switch", (entry(0, "off"), entry(3, "on")), False)
+DELAY = Enum("delay", tuple(entry(raw, f"step_{raw}") for raw in (0, 1, 2, 5)), False)
+NORMALISATION = Enum("normalisation", (entry(0, "normalised"), entry(1, "absolute")), True)
 WORD_FLAGS = (Flag(0, 1, "start", titles("Start"), 1, ()), Flag(10, 1, "valid", titles("Valid"), 1, ()))
 
 

@@ -76,8 +76,8 @@ def rare_device() -> Device:
 
 def odd_points() -> tuple[Point, ...]:
     """Names that mean something in Rust, names as long as they come, enums that points of several types share."""
-    shared = Enum("result", titles("Shared"), tuple(entry(raw, name) for raw, name in enumerate(ODD_ENTRIES)), False)
-    closed = Enum("option", titles("Closed"), (Entry(-3, "low", titles("Low"), None), entry(200, "high")), True)
+    shared = Enum("result", tuple(entry(raw, name) for raw, name in enumerate(ODD_ENTRIES)), False)
+    closed = Enum("option", (Entry(-3, "low", titles("Low"), None), entry(200, "high")), True)
     many = allowed(*((raw, raw) for raw in range(1000, 60000, 1733)), listed=True)
     flags = (
         *(
@@ -162,8 +162,8 @@ def can_messages() -> tuple[Message, ...]:
 
 def can_points() -> tuple[Point, ...]:
     """Parameters of every form, and points in one frame and in two."""
-    digit = Enum("digit", titles("Digit"), (entry(0, "off"), entry(1, "soon"), entry(5, "late")), True)
-    mixed = Enum("mixed", titles("Mixed"), (entry(2, "two"), entry(3, "three")), False)
+    digit = Enum("digit", (entry(0, "off"), entry(1, "soon"), entry(5, "late")), True)
+    mixed = Enum("mixed", (entry(2, "two"), entry(3, "three")), False)
     parameter: dict[str, Any] = {"space": "parameter", "references": {}}
     heard: dict[str, Any] = {"space": "telegram", "references": {}, "telegram": "measured", "access": "r"}
     exponent = value_of("exponent", -1, ten_to=True)

@@ -81,8 +81,8 @@ def _enums(analysis: Analysis) -> Iterator[_LocatedEnum]:
     """Yield the enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
     for resolved in analysis.resolved:
-        shape, facts = resolved.point.shape, resolved.facts
-        key, enum = ("enum", shape.enum) if shape.digits is None else ("digits", shape.digits.enum)
+        facts, enum = resolved.facts, resolved.point.named_numbers
+        key = "enum" if resolved.point.digits is None else "digits"
         if enum is None or not resolved.point.generated:
             continue
         enum_as_written = facts.get("enum") if key == "enum" else facts.get("digits")["enum"]

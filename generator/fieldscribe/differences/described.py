@@ -146,7 +146,7 @@ class Described:
 
     def _enum_of(self, item: str) -> str:
         point = self.points.get(item)
-        enum = None if point is None else point.enum if point.digits is None else point.digits.enum
+        enum = None if point is None else point.named_numbers
         return "" if enum is None else enum.name
 
     def _shared_codes(self, item: str) -> str:

@@ -5,7 +5,7 @@ a change of data structures in the compiler nor an optional key that nobody uses
 """
 
 import json
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from hashlib import sha256
@@ -13,10 +13,9 @@ from operator import attrgetter
 from typing import Any, TypeAlias
 
 from fieldscribe.facts.devices import device_table
-from fieldscribe.facts.point_values import enum_of
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Fact, FactTable, stated
-from fieldscribe.model import Device, Point, kind_of
+from fieldscribe.model import Device, Point
 
 FactsOfPoint: TypeAlias = Callable[[Point], dict[str, Any]]
 
@@ -54,18 +53,15 @@ def _digest(
 
 def _points(device: Device, context: Context, facts: FactTable) -> Iterator[bytes]:
     """Return the facts of the points: shared facts point by point, the others fact by fact."""
-    shapes = {id(point.shape): point.shape for point in device.points}
-    numbers: dict[Hashable, int] = {}
-    kinds = {key: numbers.setdefault(kind_of(shape), len(numbers)) for key, shape in shapes.items()}
     for shared, holder in _HOLDERS.items():
         table = tuple(fact for fact in facts if fact.holder == shared)
         if not table:
             continue
-        keys = [holder(point, kinds[id(point.shape)]) for point in device.points]
+        keys = [holder(point) for point in device.points]
         points = dict(zip(keys, device.points, strict=True))
         facts_of: FactsOfPoint = partial(stated, table, context=context)
         if shared == "shape":
-            facts_of = _facts_of_shapes(table, kinds, facts_of)
+            facts_of = _facts_of_shapes(table, facts_of)
         texts = {key: _canonical(facts_of(point)) for key, point in points.items()}
         yield b"".join(map(texts.__getitem__, keys))
     for fact in sorted(facts, key=attrgetter("key")):
@@ -75,25 +71,25 @@ def _points(device: Device, context: Context, facts: FactTable) -> Iterator[byte
                 yield _canonical({fact.key: values})
 
 
-_HOLDERS: Mapping[str, Callable[[Point, int], object]] = {
-    "shape": lambda point, _: id(point.shape),
-    "terms": lambda point, _: id(point.terms),
-    "shape and terms": lambda point, kind: (kind, id(point.terms)),
-    "limits": lambda point, kind: (id(point.allowed), kind),
+_HOLDERS: Mapping[str, Callable[[Point], object]] = {
+    "shape": lambda point: (id(point.shape), point.enum_names),
+    "terms": lambda point: id(point.terms),
+    "shape and terms": lambda point: (id(point.shape), id(point.terms)),
+    "limits": lambda point: (id(point.allowed), id(point.shape)),
 }
-"""What points share, and what of a point and the kind of its shape tells that two points have the same."""
+"""What points share, and what of a point tells that two points have the same."""
 
 
-def _facts_of_shapes(table: FactTable, kinds: Mapping[int, int], facts_of: FactsOfPoint) -> FactsOfPoint:
-    """Return `facts_of`, worked out once for each kind: the shapes of a kind differ in the name of the enum alone."""
+def _facts_of_shapes(table: FactTable, facts_of: FactsOfPoint) -> FactsOfPoint:
+    """Return `facts_of`, worked out once for each shape: its points differ in the name of the enum alone."""
     known: dict[int, dict[str, Any]] = {}
     has_name = any(fact.key == "enum_name" for fact in table)
 
     def of_point(point: Point) -> dict[str, Any]:
-        kind, enum = kinds[id(point.shape)], enum_of(point)
-        if kind not in known:
-            known[kind] = facts_of(point)
-        return {**known[kind], "enum_name": enum.name} if enum and has_name else known[kind]
+        if id(point.shape) not in known:
+            known[id(point.shape)] = facts_of(point)
+        facts = known[id(point.shape)]
+        return {**facts, "enum_name": point.enum_names[0]} if point.enum_names and has_name else facts
 
     return of_point
 

@@ -119,11 +119,6 @@ def repeat(point: Point, _: Context) -> str | None:
     return None if name == point.name else name
 
 
-def enum_of(point: Point) -> Enum | None:
-    """Return the enum of a point, or of its digits."""
-    return point.enum if point.digits is None else point.digits.enum
-
-
 def entries_of(enum: Enum) -> dict[str, Entry]:
     """Return the named numbers of an enum by number."""
     return {str(entry.raw): entry for entry in enum.entries}

@@ -393,13 +393,13 @@ POINT: FactTable = (
     .says(rows=texts.enum_rows),
     Fact("enum_name", "The name of the enum, or of that of `digits`: its type in generated code.", TEXT_OR_NULL)
     .differs(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)))
-    .of(lambda point, _: None if (enum := values.enum_of(point)) is None else enum.name, shared="shape"),
+    .of(lambda point, _: None if (enum := point.named_numbers) is None else enum.name, shared="shape"),
     Fact(
         "enum_was",
         "The names that the enum had when its point had its old ones: generated code keeps them, too.",
         TEXTS,
         derived="it follows from the old names",
-    ).of(lambda point, _: [] if (enum := values.enum_of(point)) is None else list(enum.was), shared="shape"),
+    ).of(lambda point, _: [] if (enum := point.named_numbers) is None else list(enum.was), shared="shape"),
     Fact(
         "open",
         "True if numbers without a name are possible in addition to those of `enum`.",

@@ -45,4 +45,4 @@ from fieldscribe.model.numbers import (
 )
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, bits_of, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
-from fieldscribe.model.shape import Interner, Shape, kind_of
+from fieldscribe.model.shape import Interner, Shape

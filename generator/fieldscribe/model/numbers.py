@@ -68,13 +68,13 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Enum:
-    """Names of numbers. `name` is unique in the device; a closed enum allows only its own numbers.
+    """Names of numbers. A closed enum allows only its own numbers.
 
-    `was` has the names that the enum had when its point had its old names.
+    `name` is unique in the device. It is empty in a shape if each point has the enum under a name of its own. `was` has
+    the names that the enum had when its point had its old names.
     """
 
     name: str
-    title: Titles
     entries: tuple[Entry, ...]
     closed: bool
     was: tuple[str, ...] = field(default=(), repr=False)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 from fieldscribe.conditions import Condition
-from fieldscribe.model.numbers import Special, Titles
+from fieldscribe.model.numbers import Enum, Special, Titles
 from fieldscribe.model.rules import Allowed
 from fieldscribe.model.shape import Shape
 
@@ -155,7 +155,9 @@ class Point:
     `name` is unique, except that points of the same name may differ in `variant`. `place` has no addresses if the
     manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is the factory
     setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a floating-point
-    number has only the first. `Final` keeps the fields as they are made; `frozen` would take three times as long.
+    number has only the first. `enum_names` are the name and the old names of an enum that only this point has, or its
+    sets and elements; empty if its shape has the name. `Final` keeps the fields as they are made; `frozen` would take
+    three times as long.
     """
 
     name: Final[str]
@@ -176,6 +178,7 @@ class Point:
     index: Final[int | None]
     was: Final[tuple[str, ...]]
     errata: Final[tuple[str, ...]]
+    enum_names: Final[tuple[str, ...]] = ()
 
     # Facts of the shape and the terms are attributes of the point: users need not know which facts are shared.
     type = _Shared(lambda point: point.shape.type)
@@ -186,8 +189,8 @@ class Point:
     display = _Shared(lambda point: point.shape.display)
     encodes_values = _Shared(lambda point: point.shape.encodes_values)
     most_raw = _Shared(lambda point: point.shape.most_raw)
-    enum = _Shared(lambda point: point.shape.enum)
     flags = _Shared(lambda point: point.shape.flags)
+    enum = _Shared(lambda point: point.shape.enum)
     specials = _Shared(lambda point: point.shape.specials)
     shared_codes = _Shared(lambda point: point.shape.shared_codes)
     specials_of = _Shared(lambda point: point.shape.specials_of)
@@ -236,6 +239,15 @@ class Point:
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
     addresses = _Shared(lambda point: point.place.addresses)
     references = _Shared(lambda point: point.place.references)
+
+    @property
+    def named_numbers(self) -> Enum | None:
+        """Return the names of its numbers, or of each of its digits."""
+        enum = self.shape.named_numbers
+        if enum is None or not self.enum_names:
+            return enum
+        name, *was = self.enum_names
+        return Enum(name, enum.entries, enum.closed, tuple(was))
 
     @property
     def raw_only(self) -> bool:

@@ -1,9 +1,7 @@
 """The facts that many points share: everything about their raw numbers, without names and addresses."""
 
-from collections.abc import Hashable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
-from operator import attrgetter
 
 from fieldscribe.model.numbers import TYPES, Digits, Enum, Fixed, Flag, Special, Text, TypeInfo
 from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
@@ -95,6 +93,11 @@ class Shape:
         return (-(1 << (bits - 1)) if signed else 0, (1 << (bits - signed)) - 1)
 
     @cached_property
+    def named_numbers(self) -> Enum | None:
+        """Return the enum of the numbers, or of each of their digits."""
+        return self.enum if self.digits is None else self.digits.enum
+
+    @cached_property
     def readable(self) -> bool:
         """Return True if the point can be read."""
         return "r" in self.access
@@ -142,15 +145,6 @@ class Shape:
                 names[case.point] = None
             names.update(dict.fromkeys(factor.point for factor in case.rule.factors))
         return tuple(names)
-
-
-_BESIDE_ENUM = attrgetter(*(field.name for field in fields(Shape) if field.name != "enum"))
-
-
-def kind_of(shape: Shape) -> Hashable:
-    """Return the same for shapes that differ only in the name of their enum, if they were made from one shape."""
-    enum = shape.enum
-    return (*map(id, _BESIDE_ENUM(shape)), *((id(enum.entries), enum.closed) if enum else ()))
 
 
 class Interner:

@@ -19,8 +19,9 @@ from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, s
 from fieldscribe.resolve.frames import LocatedFrame
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.resolve.ranges import Ranges
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
+from fieldscribe.text import humanised
 
 _NO_VERSION = "0.0.0"
 """Stands in for a version that has a finding, so that names can still be compared."""
@@ -178,9 +179,8 @@ def _enums(points: Iterable[Point]) -> tuple[Enum, ...]:
     """Return the enums that generated points use, each name once."""
     by_name: dict[str, Enum] = {}
     for point in points:
-        for enum in (point.enum, None if point.digits is None else point.digits.enum):
-            if enum is not None and point.generated:
-                by_name.setdefault(enum.name, enum)
+        if point.generated and (enum := point.named_numbers) is not None:
+            by_name.setdefault(enum.name, enum)
     return tuple(by_name.values())
 
 

@@ -7,9 +7,9 @@ from math import prod
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Base, Found, Given
-from fieldscribe.resolve.scope import Scope, humanised, titles
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import FactError, formula_multiples, integer, interval
-from fieldscribe.text import shortened
+from fieldscribe.text import humanised, shortened
 
 _MOST_BASES = 65536
 """The most bases of a group: each of them is checked."""

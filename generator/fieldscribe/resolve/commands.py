@@ -8,10 +8,11 @@ from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Command, Identification, Point, SteppedCommand, Variant
 from fieldscribe.resolve.bus import NO_BUS, reader_of
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.steps import Steps
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer
+from fieldscribe.text import humanised
 
 _NEEDED = ("at", "function", "value")
 _ALONE = (*_NEEDED, "space", "wears", "busy")

@@ -10,7 +10,8 @@ from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
 from fieldscribe.model import Titles, Variant, item_of
 from fieldscribe.resolve.point_facts import Element, PointFacts, elements_of, set_title
-from fieldscribe.resolve.scope import Scope, humanised, titles
+from fieldscribe.resolve.scope import Scope, titles
+from fieldscribe.text import humanised
 
 MOST_POINTS = 100_000
 """The most points of a device. Without a limit, rows that repeat could fill the memory."""

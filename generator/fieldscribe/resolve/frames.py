@@ -12,9 +12,10 @@ from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import PrintedFact
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, integer, number, whole
+from fieldscribe.text import humanised
 from fieldscribe.wording.exact import number_text
 
 RAW = ".raw"

@@ -92,6 +92,7 @@ class _Points:
             None if facts.element is None else facts.element.index,
             () if old_names is None else tuple(map(facts.called, old_names)),
             (),
+            _enum_names(facts, shape),
         )
 
     def _source(self, facts: PointFacts) -> Source:
@@ -185,6 +186,12 @@ def _keeps(scope: Scope, facts: PointFacts) -> str | None:
         message, hint = "`keeps` and `keep_with` exclude each other", "leave one of them out"
         scope.report.error("two-meanings", message, kept.key_span("keep_with"), hint)
     return facts.keeps
+
+
+def _enum_names(facts: PointFacts, shape: Shape) -> tuple[str, ...]:
+    """Return the name and the old names of an enum in the row of the point."""
+    enum = shape.named_numbers
+    return () if enum is None or enum.name else (facts.enum_name, *facts.old_enum_names)
 
 
 def _unit(scope: Scope, facts: PointFacts) -> Unit:

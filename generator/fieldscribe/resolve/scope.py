@@ -153,11 +153,6 @@ def open_scope(files: Files, report: Report) -> Scope:
     return scope
 
 
-def humanised(name: str) -> str:
-    """Return a name as words: `base_frequency` as `Base frequency`."""
-    return name.replace("_", " ").capitalize()
-
-
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:
     """Return a title by language from its YAML value; `otherwise` replaces a missing English one."""
     if value is None:

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from fieldscribe.language.nodes import Map
 from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
@@ -17,7 +16,7 @@ from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.ranges import Ranges
-from fieldscribe.resolve.scope import Scope, humanised
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import quantities
 from fieldscribe.resolve.values import FactError
 from fieldscribe.resolve.word_contents import allowed_digits, digits_of, enum_of, epoch_of, fixed_of, flags_of, text_of
@@ -48,8 +47,8 @@ class ShapeAndLimits(NamedTuple):
 
     @property
     def is_general(self) -> bool:
-        """Return True if all points of a kind share this: it depends neither on another point nor on a name."""
-        return self.shape.digits is None and not self.shape.scale_arguments and not self.allowed.moves
+        """Return True if all points of a kind share this: it depends on no other point."""
+        return not self.shape.scale_arguments and not self.allowed.moves
 
 
 class Shapes:
@@ -70,15 +69,7 @@ class Shapes:
         found = self._memo.of(whole, facts, self._shape_of, lambda new: new.is_general)
         if found.free and found.is_general:
             self._free.setdefault(kind, found)
-        return self._with_own_enum(facts, found)
-
-    def _with_own_enum(self, facts: PointFacts, found: ShapeAndLimits) -> ShapeAndLimits:
-        """Name the enum after this point if the point's row defines it."""
-        enum, name = found.shape.enum, facts.enum_name
-        if enum is None or enum.name == name or not isinstance(facts.get("enum"), Map):
-            return found
-        renamed = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed, facts.old_enum_names)
-        return found._replace(shape=self._interner.shape(replace(found.shape, enum=renamed)))
+        return found
 
     def _shape_of(self, facts: PointFacts) -> ShapeAndLimits:
         scope, bounds, encoding = self._scope, self._ranges.bounds, self._encodings[facts]

@@ -16,9 +16,10 @@ from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.frames import RAW, StatedValues
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, formula_multiples, interval, whole
+from fieldscribe.text import humanised
 from fieldscribe.wording import meaning_text
 
 MOST_STEPS = 1000

@@ -6,7 +6,8 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.model import Message, Telegram
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.point_facts import PointFacts
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.text import humanised
 
 Telegrams = Mapping[str, tuple[Telegram, int]]
 """Telegrams by name, each with how many of its words one multiplexed frame carries (0: not multiplexed)."""

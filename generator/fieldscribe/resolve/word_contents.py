@@ -15,9 +15,10 @@ from fieldscribe.model import NOTATIONS, Allowed, Digits, Entry, Enum, Fixed, Fl
 from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.dates import is_date, layout_of_date
 from fieldscribe.resolve.point_facts import PointFacts
-from fieldscribe.resolve.scope import Scope, humanised, titles
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, number, pattern
 from fieldscribe.schema_types import TEXTS
+from fieldscribe.text import humanised
 from fieldscribe.wording.exact import number_text
 
 _MOST_WORDS = 500
@@ -43,13 +44,8 @@ def enum_of(scope: Scope, facts: PointFacts, closed: bool) -> Enum | None:
 
 
 def named_enum(scope: Scope, facts: PointFacts, raw: Map | str, span: Span, *, closed: bool) -> Enum | None:
-    """Return a shared enum by its name, or an inline one, which is named after the point once for all its sets.
-
-    None, after a finding, if there is no shared enum of that name.
-    """
-    name, entries, was = facts.enum_name, raw, facts.old_enum_names
-    if isinstance(raw, str):
-        name, entries, was = raw, scope.named_enums.get(raw, raw), ()
+    """Return a shared enum by its name, or an inline one without a name; None, after a finding, for a wrong name."""
+    name, entries = (raw, scope.named_enums.get(raw, raw)) if isinstance(raw, str) else ("", raw)
     if isinstance(entries, str):
         scope.unknown("enum", name, span, scope.named_enums)
         return None
@@ -58,7 +54,7 @@ def named_enum(scope: Scope, facts: PointFacts, raw: Map | str, span: Span, *, c
         name = f"{name}_f{floating}"  # whole numbers may share the enum, too
     key = (name, id(entries), closed)
     if key not in scope.enums:
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries, floating), closed, was)
+        scope.enums[key] = Enum(name, entries_of(scope, entries, floating), closed)
     return scope.enums[key]
 
 

@@ -181,7 +181,7 @@ def _reduced(
 
 
 def _enums_of(device: Device, points: Iterable[Point]) -> tuple[Enum, ...]:
-    used = {enum.name for point in points for enum in (point.enum, point.digits and point.digits.enum) if enum}
+    used = {enum.name for point in points if (enum := point.named_numbers)}
     return tuple(enum for enum in device.enums if enum.name in used)
 
 

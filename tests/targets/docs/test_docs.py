@@ -78,7 +78,7 @@ def test_every_link_has_its_target() -> None:
 
 def test_names_that_only_a_documented_point_uses_are_shown() -> None:
     entries = tuple(entry(number, f"baud_{number}") for number in range(6))
-    speeds = Enum("speeds", titles("Speeds"), entries, True)
+    speeds = Enum("speeds", entries, True)
     page = _page(sample_device((point("baud_rate", 1, enum=speeds, generated=False, reason="not reachable"),)))
     assert "| 0 = baud_0 (" in page
     assert "<br>5 = baud_5 (" in page
@@ -118,8 +118,8 @@ def test_where_a_narrow_cell_may_be_broken(text: str, broken: str) -> None:
     assert narrow(text) == broken
 
 
-LEVELS = Enum("levels", titles("Levels"), tuple(entry(number, f"level_{number}") for number in range(6)), True)
-EVENTS = Enum("events", titles("Events"), tuple(entry(number, f"event_{number}") for number in range(40)), True)
+LEVELS = Enum("levels", tuple(entry(number, f"level_{number}") for number in range(6)), True)
+EVENTS = Enum("events", tuple(entry(number, f"event_{number}") for number in range(40)), True)
 
 
 def test_a_list_of_names_stands_once_a_group_beside_its_first_point() -> None:
@@ -325,7 +325,7 @@ def _hostile() -> Device:
     bad = point("bad", 1, title=titles, note=titles, code=HOSTILE, specials=(special,), conditions=(HOSTILE,))
     unit = replace(NUMBER, symbol="|<b>")
     group = replace(DEVICE.groups[0], title=titles, note={"en": "1. one"})
-    enum = replace(DEVICE.enums[0], title=titles, entries=(entry(0, "zero", HOSTILE),))
+    enum = replace(DEVICE.enums[0], entries=(entry(0, "zero", HOSTILE),))
     errata = (replace(DEVICE.errata[0], printed=HOSTILE, why=HOSTILE, points=("bad",), leaves_open=(("at", HOSTILE),)),)
     made = sample_device((bad, changed(bad, name="worse", unit=unit, enum=enum)))
     return replace(made, title=titles, note=titles, groups=(group,), enums=(enum,), errata=errata, vendor=HOSTILE)

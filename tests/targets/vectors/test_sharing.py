@@ -15,7 +15,7 @@ from fieldscribe.targets.vectors.scaled import Scaled
 from support.described import KITCHENS, SHIPPED, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
 
-ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "on")), closed=True)
+ENUM = Enum("mode", (entry(0, "off"), entry(1, "on")), closed=True)
 
 
 def twins() -> Device:
@@ -133,7 +133,7 @@ def test_a_forgotten_part_of_an_encoding_is_caught(part: int, monkeypatch: pytes
 
 # The key by which the model interns shapes
 
-OTHER_ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(2, "on")), closed=True)
+OTHER_ENUM = Enum("mode", (entry(0, "off"), entry(2, "on")), closed=True)
 DEPENDENT = scaled(1, 0, value_of("ratio"))
 PAIRS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "type": ({"type": "u16"}, {"type": "s16", "width": 16}),

@@ -147,7 +147,7 @@ def test_read_only_and_write_only_points() -> None:
 
 
 def test_names_cannot_break_the_file() -> None:
-    enum = Enum("odd", titles("Odd"), (Entry(1, 'a"b\n', titles("x"), None),), True)
+    enum = Enum("odd", (Entry(1, 'a"b\n', titles("x"), None),), True)
     flag = Flag(0, 1, '"', titles("x"), 1, ())
     special = Special(3, 3, "\\", titles("x"), False)
     device = sample_device(

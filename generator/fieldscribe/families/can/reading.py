@@ -16,9 +16,9 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Bus, Code, Message, Point, Role
 from fieldscribe.resolve.bus import FamilyReader, Messages
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
-from fieldscribe.text import shortened
+from fieldscribe.text import humanised, shortened
 
 _HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
 _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}

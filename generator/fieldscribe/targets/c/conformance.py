@@ -3,7 +3,6 @@
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from fieldscribe.families import family
-from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.calls import call_cases
@@ -91,7 +90,7 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     if point.writable and view.shape != "text":
         yield f"CHECK({function}_check, {kind}, {_arguments_of(point, point.limit_arguments, scope)})"
     yield from _TEXTS[view.shape](view) if view.shape in _TEXTS else _conversion_cases(view, scope)
-    enum = named_numbers(point.shape)
+    enum = point.named_numbers
     if enum is not None:
         name, macro = names_of(enum, point, view.fields)
         yield f"NAME({scope.prefix}_{name}_name, {value_type(point)})"

@@ -6,7 +6,6 @@ from itertools import islice, product
 from typing import NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point, Variant, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.declarations import defines, place_defines
@@ -155,7 +154,7 @@ def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[Al
         yield old._replace(old=name, new=new, sort="NUMBER")
     for name, sort in symbols_of(view):
         yield old._replace(old=function + name.removeprefix(view.function), new=name, sort=sort)
-    enum = named_numbers(point.shape)
+    enum = point.named_numbers
     if view.enum is not None and enum is not None and enum.was:
         before = enum.was[point.was.index(old.was)]
         yield old._replace(old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 
-from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
@@ -91,7 +90,7 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
         codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
         yield from _of_codes(point, f"{scope.upper}_{upper(shared.name)}", shared)
-    enum = named_numbers(point.shape)
+    enum = point.named_numbers
     if view.enum is not None and enum is not None:
         whole = Owner("enum", names_of(enum, point, view.fields)[0])
         yield whole, (view.enum.function, view.enum.table)

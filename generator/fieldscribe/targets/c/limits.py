@@ -7,7 +7,7 @@ from operator import attrgetter
 
 from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
-from fieldscribe.model import Digits, Interval, Limit, Point
+from fieldscribe.model import Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.scales import linear
 from fieldscribe.targets.c.scope import HeaderScope, bare, float_order, hexadecimal, raw_type, signed, unsigned
@@ -33,7 +33,7 @@ def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     if point.info.floating:
         return _check_of_pattern(point)
     if point.digits is not None:
-        return f"fieldscribe_check_digits(raw, {digits_arguments(point.digits, scope)})"
+        return f"fieldscribe_check_digits(raw, {digits_arguments(point, scope)})"
     status = known(point, _status(point, fields, scope))
     if point.fixed is None or point.bits is not None:
         return status
@@ -42,9 +42,12 @@ def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
 
 
-def digits_arguments(digits: Digits, scope: HeaderScope) -> str:
+def digits_arguments(point: Point, scope: HeaderScope) -> str:
     """Return the number of digits and their names as arguments for the runtime."""
-    names = f"{scope.prefix}_{digits.enum.name}_names"
+    digits, enum = point.digits, point.named_numbers
+    assert digits
+    assert enum
+    names = f"{scope.prefix}_{enum.name}_names"
     return f"{digits.count}U, {names}, FIELDSCRIBE_COUNT({names})"
 
 

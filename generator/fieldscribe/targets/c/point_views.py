@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.arithmetic.words import mask_of
-from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Enum, Flag, Point
 from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import defines, value_defines
@@ -30,7 +29,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
     shape = shape_of(point)
     struct = scope.struct(point.arguments) if len(point.arguments) > 1 else ""
     members = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
-    enum, (brings_names, brings_codes, brought) = named_numbers(point.shape), scope.brings(point)
+    enum, (brings_names, brings_codes, brought) = point.named_numbers, scope.brings(point)
     return PointView(
         point=point,
         fields=fields,

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.arithmetic.words import INT32, INT64, UINT64
-from fieldscribe.lowered import Lowered, lower, named_numbers
+from fieldscribe.lowered import Lowered, lower
 from fieldscribe.model import Device, Point
 from fieldscribe.text import upper
 
@@ -124,7 +124,7 @@ class HeaderScope:
 
     def brings(self, point: Point) -> tuple[bool, bool, tuple[str, ...]]:
         """Return the shared items that this point defines: names of numbers, shared codes, shared enums of flags."""
-        item, enum, codes = point.item, named_numbers(point.shape), point.shape.shared_codes
+        item, enum, codes = point.item, point.named_numbers, point.shape.shared_codes
         names = enum is not None and self.is_first(item, f"names of {enum.name}")
         wide = dict.fromkeys(flag.enum for flag in point.flags if flag.enum and flag.width > 1)
         flags = [name for name in wide if name not in self.enums and self.is_first(item, f"flags of {name}")]
@@ -156,8 +156,7 @@ class HeaderScope:
 
 def scope_of(device: Device) -> HeaderScope:
     """Return a fresh scope for a device."""
-    shapes = {id(point.shape): point.shape for point in device.points}.values()
-    digits = frozenset(shape.digits.enum.name for shape in shapes if shape.digits is not None)
+    digits = frozenset(enum.name for point in device.points if point.digits and (enum := point.named_numbers))
     enums = frozenset(enum.name for enum in device.enums)
     return HeaderScope(device.id, upper(device.id), lower(device), digits, enums, _spaces(device))
 

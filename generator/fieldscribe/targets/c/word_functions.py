@@ -86,7 +86,7 @@ def _unicode_functions(point: Point, layout: Text, name: str, words: str) -> Ite
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
     """Yield the conversions of digits."""
     assert point.digits is not None
-    count, known = point.digits.count, digits_arguments(point.digits, scope)
+    count, known = point.digits.count, digits_arguments(point, scope)
     digits = f"uint16_t digits[{count}]"
     if point.writable:
         whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"

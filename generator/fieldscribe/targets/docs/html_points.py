@@ -12,7 +12,6 @@ from fieldscribe.families import family
 from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.model.point import bits_of
 from fieldscribe.targets.docs.scope import DocsScope, reference_heads
-from fieldscribe.targets.docs.tables import enum_of
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.typescript.identifiers import attribute as constant
@@ -153,7 +152,7 @@ class Points:
 
     def _kind(self, point: Point) -> dict[str, object]:
         """Return the facts of a point's shape and terms."""
-        shape, enum, bits = point.shape, enum_of(point), point.bits
+        shape, enum, bits = point.shape, point.named_numbers, point.bits
         fixed = shape.fixed
         kind = {
             "rows": list(self._rows(_SHARED, point)),

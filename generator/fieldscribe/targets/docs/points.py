@@ -261,7 +261,7 @@ class _Lists:
     def cell_of(self, point: Point) -> str:
         """Return the list of a point or a link to it; empty without one, and for a short one."""
         shape = point.shape
-        enum = shape.digits.enum if shape.digits else shape.enum
+        enum = shape.named_numbers
         if enum is None or (shape.digits is None and len(enum.entries) <= _SHORT_LIST):
             return ""
         before = "each digit: " if shape.digits else ""

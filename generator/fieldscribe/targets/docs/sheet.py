@@ -119,7 +119,7 @@ _CELLS = (
     _Cells("raw_min", sheet_cells.limits, "limits"),
     _Cells("default", sheet_cells.default, needs="default"),
     _Cells("default_raw", lambda point, _: (str(point.default_raw),), needs="default_raw"),
-    _Cells("enum", sheet_cells.enum, "terms"),
+    _Cells("enum", sheet_cells.enum, needs="shape.named_numbers"),
     _Cells("flags", lambda point, sheet: (sheet.encode(point.item),), needs="shape.flags"),
     _Cells("codes", lambda point, sheet: (sheet.encode(codes_of(point)),), needs="shape.specials"),
     _Cells("keeps", sheet_cells.keeps, "terms"),

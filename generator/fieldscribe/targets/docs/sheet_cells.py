@@ -9,7 +9,7 @@ from fieldscribe.facts.table import Fact
 from fieldscribe.families import family
 from fieldscribe.model import Point
 from fieldscribe.targets.docs.scope import DocsScope, Remarks
-from fieldscribe.targets.docs.tables import Encode, decimal, enum_of
+from fieldscribe.targets.docs.tables import Encode, decimal
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 
 _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
@@ -164,7 +164,7 @@ def _default_fraction(point: Point) -> str:
 
 def enum(point: Point, sheet: Sheet) -> tuple[str]:
     """Return the name of the enum."""
-    enum = enum_of(point)
+    enum = point.named_numbers
     return ("" if enum is None else sheet.encode(enum.name),)
 
 

@@ -83,11 +83,6 @@ _NAMELESS = ("zero", "one")
 """The names of the numbers of a flag if the manual has only texts for them."""
 
 
-def enum_of(point: Point) -> Enum | None:
-    """Return the enum of the point, or of its digits."""
-    return point.digits.enum if point.digits is not None else point.enum
-
-
 def codes_of(point: Point) -> str:
     """Return the name of a point's special codes in the table of meanings; empty if it has none."""
     shared = point.shared_codes
@@ -98,7 +93,7 @@ def meaning_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
     """Yield the rows of the meanings of numbers, in the order of the points."""
     listed: set[tuple[str, str]] = set()
     for point in device.points:
-        if (enum := enum_of(point)) is not None and ("enum", enum.name) not in listed:
+        if (enum := point.named_numbers) is not None and ("enum", enum.name) not in listed:
             listed.add(("enum", enum.name))
             yield from _of_enum(enum, encode)
         for flag in point.flags:

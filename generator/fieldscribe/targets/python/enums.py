@@ -6,14 +6,14 @@ from collections.abc import Callable, Hashable
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
-from fieldscribe.model import Device, Entry, Flag, Point, Titles
+from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import docstring, laid_out
 from fieldscribe.targets.runtime_calls.point_texts import entry_text, flag_text, sentence
 from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, call
-from fieldscribe.text import python_doc, upper
+from fieldscribe.text import humanised, python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 
@@ -38,7 +38,7 @@ def enums_context(device: Device, names: Identifiers, render: Render) -> dict[st
     """Return the context of the enums module: enums in the order of the device, then words of flags by their points."""
     classes = _Classes(names, render)
     for enum in device.enums:
-        classes.add_enum(names.enum_class(enum.name), enum.title, enum.entries)
+        classes.add_enum(names.enum_class(enum.name), humanised(enum.name), enum.entries)
     for point in device.points:
         if names.word_class(point):
             classes.add_word(point)
@@ -65,18 +65,18 @@ class _Classes:
         self._names, self._render = names, render
         self._templates = TextTemplates()
 
-    def add_enum(self, name: str, title: Titles, entries: tuple[Entry, ...]) -> None:
+    def add_enum(self, name: str, title: str, entries: tuple[Entry, ...]) -> None:
         """Add the class of named numbers."""
         self._added.add(name)
         self.used.add("NamedNumber")
-        self._add(id(entries), (name, _sentence(title["en"])), lambda name, text: _enum(name, text, entries))
+        self._add(id(entries), (name, _sentence(title)), lambda name, text: _enum(name, text, entries))
 
     def add_word(self, point: Point) -> None:
         """Add the class of a word of flags, after those of the numbers of its flags."""
         classes = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
         for flag, named in zip(point.flags, classes, strict=True):
             if named and named not in self._added:
-                title = {"en": flag.enum.replace("_", " ").capitalize()} if flag.enum else flag.title
+                title = humanised(flag.enum) if flag.enum else flag.title["en"]
                 self.add_enum(named, title, flag.values)
             self.used.add("Flag" if flag.width == 1 else "Field")
         self.used.add("Word")

@@ -73,7 +73,7 @@ def call_of(point: Point, fields: PointFields, scope: Scope) -> Call:
 
 def numbers_of(point: Point, scope: Scope) -> str:
     """Return the class of a point's numbers or flags; empty if there is none."""
-    return scope.names.word_class(point) if point.form == "flags" else scope.names.numbers_class(point.shape)
+    return scope.names.word_class(point) if point.form == "flags" else scope.names.numbers_class(point)
 
 
 def keeps(point: Point, scope: Scope) -> str:

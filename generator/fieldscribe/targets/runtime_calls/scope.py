@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
 
 from fieldscribe.families import family
-from fieldscribe.lowered import Lowered, lower, named_numbers
-from fieldscribe.model import Device, Point, Shape, Telegram
+from fieldscribe.lowered import Lowered, lower
+from fieldscribe.model import Device, Point, Telegram
 from fieldscribe.text import pascal
 
 
@@ -85,9 +85,9 @@ class ClassNames:
         """Return the class of an enum."""
         return self._enums[enum]
 
-    def numbers_class(self, shape: Shape) -> str:
-        """Return the class that names the numbers of a shape, or each of its digits; empty if there is none."""
-        enum = named_numbers(shape)
+    def numbers_class(self, point: Point) -> str:
+        """Return the class that names the numbers of a point, or each of its digits; empty if there is none."""
+        enum = point.named_numbers
         return "" if enum is None else self._enums[enum.name]
 
     def word_class(self, point: Point) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from fieldscribe import wording
 from fieldscribe.lowered import Lowered
 from fieldscribe.model import Device, Point
-from fieldscribe.text import rust_code
+from fieldscribe.text import humanised, rust_code
 
 _WIDTH = 104
 _BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
@@ -18,7 +18,7 @@ _BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
 
 def sentence(name: str) -> str:
     """Return a name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
-    return f"{name.replace('_', ' ').capitalize()}."
+    return f"{humanised(name)}."
 
 
 class PointDoc:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from fieldscribe.lowered import Lowered, lower, named_numbers
-from fieldscribe.model import Device, Enum, Message, Point, Shape, Telegram
+from fieldscribe.lowered import Lowered, lower
+from fieldscribe.model import Device, Enum, Message, Point, Telegram
 from fieldscribe.targets.rust.literals import device_type, raw_type, type_name
 
 
@@ -32,7 +32,7 @@ class CratePoint(NamedTuple):
     @property
     def enum(self) -> Enum | None:
         """The enum of its values, or of its digits."""
-        return named_numbers(self.point.shape)
+        return self.point.named_numbers
 
     @property
     def factors_name(self) -> str:
@@ -70,13 +70,12 @@ class CrateScope:
 def scope_of(device: Device) -> CrateScope:
     """Return the scope of a device, with its generated points."""
     generated = [point for point in device.points if point.generated]
-    shapes = {id(point.shape): point.shape for point in generated}
-    enums = _enum_types(shapes.values())
+    enums = _enum_types(generated)
     messages = {message.name: message for message in device.messages}
-    lowered, types = lower(device), {key: _types_of(shape, enums) for key, shape in shapes.items()}
+    lowered = lower(device)
     keys = lowered.template_keys
     subjects = [
-        CratePoint(point, item := point.item, type_name(item), *types[id(point.shape)], keys[id(point)])
+        CratePoint(point, item := point.item, type_name(item), *_types_of(point, enums), keys[id(point)])
         for point in generated
     ]
     return CrateScope(
@@ -90,11 +89,11 @@ def scope_of(device: Device) -> CrateScope:
     )
 
 
-def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
+def _enum_types(points: Iterable[Point]) -> dict[str, str]:
     """Return the raw type of each enum: that of its points, or one that holds the numbers of all."""
     enums: dict[str, str] = {}
-    for shape in shapes:
-        enum, raw = named_numbers(shape), raw_type(shape)
+    for point in points:
+        enum, raw = point.named_numbers, raw_type(point.shape)
         if enum is not None:
             known = enums.setdefault(enum.name, raw)
             if known != raw:
@@ -102,7 +101,7 @@ def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
     return enums
 
 
-def _types_of(shape: Shape, enums: Mapping[str, str]) -> tuple[str, str]:
+def _types_of(point: Point, enums: Mapping[str, str]) -> tuple[str, str]:
     """Return the type of raw numbers, and that of the enum of the values."""
-    enum, raw = named_numbers(shape), raw_type(shape)
+    enum, raw = point.named_numbers, raw_type(point.shape)
     return raw, raw if enum is None else enums[enum.name]

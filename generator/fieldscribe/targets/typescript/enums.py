@@ -10,7 +10,7 @@ from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, call
 from fieldscribe.targets.typescript.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
 from fieldscribe.targets.typescript.points import is_big
-from fieldscribe.text import camel, js_comment, upper
+from fieldscribe.text import camel, humanised, js_comment, upper
 
 
 class Numbers(NamedTuple):
@@ -33,14 +33,16 @@ class WordOfFlags(NamedTuple):
 
 def enums_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the module: numbers in the order of the device, then words of flags by their points."""
-    numbers = [Numbers(*_numbers(names.enum_class(enum.name), enum.title["en"], enum.entries)) for enum in device.enums]
+    numbers = [
+        Numbers(*_numbers(names.enum_class(enum.name), humanised(enum.name), enum.entries)) for enum in device.enums
+    ]
     layout, words, known = Layout({}, camel), list[WordOfFlags](), {one.name for one in numbers}
     for point in device.points:
         if names.word_class(point):
             for flag, name in _fields(point, names):
                 if name not in known:
                     known.add(name)
-                    title = flag.enum.replace("_", " ").capitalize() if flag.enum else flag.title["en"]
+                    title = humanised(flag.enum) if flag.enum else flag.title["en"]
                     numbers.append(Numbers(*_numbers(name, title, flag.values)))
             words.append(_word(point, names, layout))
     return {"numbers": numbers, "words": words, "old_names": sorted(names.old_classes.items())}

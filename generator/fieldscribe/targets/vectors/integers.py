@@ -83,7 +83,7 @@ def with_fixed(encoding: PointEncoding, raw: int) -> int:
 
 def names(lines: Lines, shape: Shape, *, deep: bool) -> None:
     """Add vectors of the names of an enum, and of numbers without a name."""
-    enum = shape.digits.enum if shape.digits is not None else shape.enum
+    enum = shape.named_numbers
     if enum is None:
         return
     least, greatest = (0, 9) if shape.digits is not None else (shape.least, shape.greatest)

@@ -85,7 +85,7 @@ def _facts(shape: Shape) -> Hashable:
     """Return the facts that decide how a point is computed, except its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
-    enum = shape.digits.enum if shape.digits is not None else shape.enum
+    enum = shape.named_numbers
     entries = enum and tuple([(entry.raw, entry.name) for entry in enum.entries])
     return (*kind, shape.display, shape.scale, specials, entries, bool(shape.flags))
 

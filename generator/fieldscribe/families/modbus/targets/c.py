@@ -176,7 +176,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     stepped = stepped_views(device.stepped_commands, scope)
     bases = [_base(base, device, scope) for base in device.bases if base.block is None]
     found = device.found and f"{scope.prefix}_{device.found.name}"
-    selections = Selections(device, profile, scope)
+    selections = Selections(device, profile, scope, bool(device.selecting))
     started = [base for base in device.bases if base.starts_block]
     ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block), base.name) for base in started]
     frames = Frames(

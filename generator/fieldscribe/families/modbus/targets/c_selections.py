@@ -17,6 +17,8 @@ class Selections:
     device: Device
     profile: Profile
     scope: HeaderScope
+    has_pages: bool
+    """True if some points select others."""
     arrays: dict[str, list[str]] = field(default_factory=dict)
 
     def of(self, point: Point) -> str | None:
@@ -25,7 +27,7 @@ class Selections:
         if point.selects and (point.base or not all(self._has_row(other) for other, _ in held)):
             return None
         if not held:
-            return "NULL" if self.device.selecting else ""
+            return "NULL" if self.has_pages else ""
         parts = [f"{other.item}_{raw}".replace("-", "minus_") for other, raw in held]
         name = f"{self.scope.prefix}_select_{'_'.join(parts)}"
         if name not in self.arrays:
