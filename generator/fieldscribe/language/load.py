@@ -11,7 +11,7 @@ from sys import intern
 from typing import Any, NoReturn
 
 import yaml
-from yaml import MappingEndEvent, ScalarEvent, SequenceEndEvent
+from yaml import AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq, Value, share
@@ -177,7 +177,7 @@ class _Reader:
         """Yield the documents that are not empty, as far as they can be read."""
         self.next_event()  # the start of the stream
         count = filled = 0
-        while type(event := self.next_event()) is not yaml.StreamEndEvent:
+        while type(event := self.next_event()) is not StreamEndEvent:
             count += 1
             if count > MOST_DOCUMENTS:
                 message = f"more than {MOST_DOCUMENTS} documents"
@@ -202,7 +202,7 @@ class _Reader:
 
     def _value(self, event: Any, depth: int) -> Value:
         """Return the value that starts with this event."""
-        if type(event) is yaml.AliasEvent:
+        if type(event) is AliasEvent:
             return self._alias(event)
         if event.tag is not None:
             message = f"the tag `{event.tag[:60]}` is not allowed"
@@ -215,7 +215,7 @@ class _Reader:
             message = f"nested deeper than {MOST_DEPTH} levels"
             self._refuse("yaml-depth", message, event, "a description never needs this; check the brackets")
         else:
-            is_mapping = type(event) is yaml.MappingStartEvent
+            is_mapping = type(event) is MappingStartEvent
             value = self._mapping(event, depth) if is_mapping else self._sequence(event, depth)
             self.values += len(value)
             if self.values > MOST_VALUES:

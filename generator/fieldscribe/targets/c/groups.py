@@ -1,6 +1,8 @@
 """Structs with a member for each point of a group or telegram, the code that fills them, and rows of a user's table."""
 
-from collections.abc import Callable, Iterator, Sequence
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import NamedTuple
@@ -56,12 +58,19 @@ _INDENT = 2 * "    "
 class Part(NamedTuple):
     """The members that one request or frame fills: their declarations, with the statements that fill them.
 
-    `label` is the number of the request or frame in the function, `points` are those that have members.
+    `label` is the number of the request or frame in the function, `cases` are the macros of the conformance program.
     """
 
     label: str
     members: dict[str, str]
-    points: Sequence[GeneratedPoint] = ()
+    cases: Sequence[str]
+
+    @classmethod
+    def of(cls, label: str, texts: Iterable[tuple[str, str, str]]) -> Part:
+        """Return the part that has these texts of points, from `Members`."""
+        present = [text for text in texts if text[0]]
+        members = {declaration: statements for declaration, statements, _ in present}
+        return cls(label, members, [case for _, _, cases in present for case in cases.split("\n") if case])
 
 
 @dataclass(frozen=True)
@@ -86,27 +95,37 @@ class StructView:
         """The declarations of all members."""
         return dict.fromkeys(member for part in self.parts for member in part.members)
 
+    @property
+    def cases(self) -> Iterator[str]:
+        """The macros of the conformance program that compare members with the raw numbers of their points."""
+        return (case for part in self.parts for case in part.cases)
+
 
 class Members:
-    """Builds the members of points; the text is laid out once for each view and length of the position."""
+    """Builds the members of points; the text is laid out once for each view and length of the position.
 
-    def __init__(self, scope: HeaderScope) -> None:
-        self.scope = scope
+    `compares_texts` says whether the conformance program compares texts, too.
+    """
+
+    def __init__(self, scope: HeaderScope, *, compares_texts: bool = True) -> None:
+        self.scope, self._compares_texts = scope, compares_texts
         self._texts = TextTemplates()
 
-    def of(self, each: GeneratedPoint, position: int) -> tuple[str, str]:
-        """Return the members of a point whose words begin at a position, and the statements that fill them.
+    def of(self, each: GeneratedPoint, position: int) -> tuple[str, str, str]:
+        """Return the members of a point whose words begin at a position, the statements that fill them, and the cases.
 
         The position takes the place of the comment among the fields. A text that is read backwards has no members.
         """
         at, (point, view, fields) = str(position), each
         lay_out = partial(self._lay_out, point, view, placeholders((at,))[0])
-        declarations, _, statements = self._texts.fill((view, len(at)), (at, *fields[1:]), lay_out).partition("\0")
-        return declarations, statements
+        declarations, statements, cases = self._texts.fill((view, len(at)), (at, *fields[1:]), lay_out).split("\0")
+        return declarations, statements, cases
 
     def _lay_out(self, point: Point, view: PointView, at: str) -> str:
         members = list(_members(point, view, f"words[{at}]"))
-        return "\0".join("\n".join(texts) for texts in zip(*members, strict=True))
+        cases = () if point.text is not None and not self._compares_texts else _cases(point, view, self.scope)
+        texts = [declaration for declaration, _ in members], [statement for _, statement in members], cases
+        return "\0".join(map("\n".join, texts))
 
 
 def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, str]]:
@@ -137,23 +156,17 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
         yield f"    {kind} {target}{ending};{remark}", "\n".join(wrapped(statement, _INDENT))
 
 
-def member_cases(values: StructView, scope: HeaderScope, *, texts: bool = True) -> Iterator[str]:
-    """Yield the macros of the conformance program that compare members with the raw numbers of their points."""
-    for point, view, _ in (each for part in values.parts for each in part.points):
-        item, kind = point.item, raw_type(point)
-        if point.text is not None:
-            if not texts:
-                continue
-            member = "BYTES" if point.text.is_bytes else "PACKED"
-            is_plain = point.text.is_plain and not point.text.is_bytes
-            yield f"MEMBER_TEXT({item})" if is_plain else f"MEMBER_{member}({scope.prefix}, {item})"
-        elif _is_plainly_counted(point, view):
-            yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})"
-        else:
-            yield f"MEMBER_RAW({item}, {kind})"
-        for old in point.old_items if point.text is None else ():
-            end = "count" if _is_plainly_counted(point, view) else "raw"
-            yield f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})'
+def _cases(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
+    """Yield the macros of the conformance program that compare the members of a point with its raw number."""
+    item, kind, is_counted = view.fields.item, raw_type(point), _is_plainly_counted(point, view)
+    if point.text is not None:
+        member = "BYTES" if point.text.is_bytes else "PACKED"
+        is_plain = point.text.is_plain and not point.text.is_bytes
+        yield f"MEMBER_TEXT({item})" if is_plain else f"MEMBER_{member}({scope.prefix}, {item})"
+        return
+    yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})" if is_counted else f"MEMBER_RAW({item}, {kind})"
+    end = "count" if is_counted else "raw"
+    yield from (f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})' for old in point.old_items)
 
 
 def _raw(point: Point, name: str, word: str) -> str:

@@ -1,23 +1,18 @@
 """The view of the CAN header: messages, cyclic telegrams, and the frames of each point."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import TypeAlias
 
 from fieldscribe.families.can import identifier_bits, of_bus, signals
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
-from fieldscribe.targets.c.groups import Members, Part, StructView, member_cases
+from fieldscribe.targets.c.groups import Members, Part, StructView
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
-
-Cases: TypeAlias = Callable[[], Iterator[str]]
-"""Returns the macros of the conformance program for the members of a struct, called as that is written."""
 
 NAMED_CODES: tuple[str, ...] = ()
 HAS_FACTS = False
@@ -53,7 +48,6 @@ class TelegramView:
     message: str
     per_frame: int
     values: StructView
-    cases: Cases
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +69,6 @@ class SignalsView:
     choices: list[tuple[str, list[tuple[int, int, str]]]]
     reads: bool
     values: StructView
-    cases: Cases
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +88,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     exchanges = [request_and_answer(device.messages, writes=writes) for writes in (False, True)]
     # the arrays of the messages that read, answer that, write, answer that; empty for a missing one
     arrays = tuple(_array(message, scope) for exchange in exchanges for message in exchange)
-    members = Members(scope)
+    members = Members(scope, compares_texts=False)
     telegrams = [
         _telegram(telegram, carrying[telegram.name], placed, members)
         for telegram in device.telegrams
@@ -175,23 +168,17 @@ def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPo
     array, slots = _array(message, scope), frame_count(telegram, message)
 
     def parts() -> Iterator[Part]:
-        brought: dict[int, dict[str, str]] = {}
-        points: dict[int, list[GeneratedPoint]] = {}
+        brought: dict[int, list[tuple[str, str, str]]] = {}
         for each in placed:
             if each.point.telegram == telegram.name and each.point.addresses:
                 first, last = min(each.point.addresses), max(each.point.addresses)
                 if first // per_frame == last // per_frame and last - first < each.point.words:
-                    declaration, fill = members.of(each, first % per_frame)
-                    brought.setdefault(first // per_frame, {})[declaration] = fill
-                    if declaration:
-                        points.setdefault(first // per_frame, []).append(each)
+                    brought.setdefault(first // per_frame, []).append(members.of(each, first % per_frame))
         for frame in sorted(brought):
-            members_of = {member: fill for member, fill in brought[frame].items() if member}
-            yield Part(f"{frame}U", members_of, points.get(frame, ()))
+            yield Part.of(f"{frame}U", brought[frame])
 
     values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
-    cases = partial(member_cases, values, scope, texts=False)
-    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values, cases)
+    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values)
 
 
 def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Members) -> SignalsView:
@@ -210,9 +197,7 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
     def parts() -> Iterator[Part]:
         for words, _ in signals.parts(message):
             points = [by_word[word] for word in words if word in by_word]
-            made = [(each, *members.of(each, each.point.addresses[0])) for each in points]
-            filled = {member: fill for _, member, fill in made if member}
-            yield Part(f"{words.start}U", filled, [each for each, member, _ in made if member])
+            yield Part.of(f"{words.start}U", (members.of(each, each.point.addresses[0]) for each in points))
 
     values = StructView(f"{scope.prefix}_{message.name}_values", parts)
     return SignalsView(
@@ -240,7 +225,6 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
         list(choices.values()),
         bool(mine),
         values,
-        partial(member_cases, values, scope, texts=False),
     )
 
 

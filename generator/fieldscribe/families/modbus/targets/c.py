@@ -22,7 +22,7 @@ from fieldscribe.targets.c.frames import (
     kind_of,
     lies,
 )
-from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, has_row, is_written_by_row, member_cases
+from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, has_row, is_written_by_row
 from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, unsigned
@@ -123,7 +123,6 @@ class BlocksView:
     values: StructView
     blocks: Sequence[Block]
     by_name: Mapping[str, Sequence[GeneratedPoint]]
-    scope: HeaderScope
 
     @property
     def rows(self) -> Iterator[tuple[str, str, str, str]]:
@@ -132,11 +131,6 @@ class BlocksView:
             ends = [self.by_name[name][-1].point for name in (block.points[0], block.points[-1])]
             holds = c_comment("..".join(dict.fromkeys(point.code or point.name for point in ends)))
             yield unsigned(block.function), hexadecimal(block.address), unsigned(block.count), holds
-
-    @property
-    def cases(self) -> Iterator[str]:
-        """The macros of the conformance program for the members."""
-        return member_cases(self.values, self.scope)
 
 
 @dataclass(frozen=True, slots=True)
@@ -363,19 +357,18 @@ def _blocks(
 ) -> BlocksView:
     def parts() -> Iterator[Part]:
         for number, block in enumerate(blocks):
-            placed = [
-                (each, *members.of(each, at))
+            texts = [
+                members.of(each, at)
                 for name in block.points
                 for each in by_name[name]
                 if (at := min(each.point.place.addresses, default=-1) - block.address) >= 0
                 and at <= block.count - each.point.words
                 and each.point.space == block.space
             ]
-            filled = {declaration: fill for _, declaration, fill in placed if declaration}
-            yield Part(unsigned(number), filled, [each for each, declaration, _ in placed if declaration])
+            yield Part.of(unsigned(number), texts)
 
     values = StructView(f"{members.scope.prefix}_{group}_group", parts)
-    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, by_name, members.scope)
+    return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, by_name)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
