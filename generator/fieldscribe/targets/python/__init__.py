@@ -5,13 +5,13 @@ from collections.abc import Iterable, Iterator
 from keyword import iskeyword
 
 from fieldscribe import __version__
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Flag
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import Names, Owner, head_lines
 from fieldscribe.targets.python.device import imports_of, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, word_attribute
 from fieldscribe.targets.python.layout import comment, wrapped
-from fieldscribe.targets.runtime_calls.scope import command_attributes
+from fieldscribe.targets.runtime_calls.scope import shared_identifiers
 from fieldscribe.text import pascal, python_doc, python_string, toml_string, upper
 from fieldscribe.wording import open_texts
 
@@ -19,8 +19,7 @@ LIBRARIES = frozenset({"can", "pymodbus", "serial"})
 """The packages that transports of the runtime import if a project uses them."""
 
 _OWN = Owner("target", "what the package needs")
-_POINTS = "Python, the points"
-_CLASSES = "Python, the classes of numbers and flags"
+_SPACES = "Python, the points", "Python, the classes of numbers and flags"
 
 
 def device_name_taken(name: str) -> str:
@@ -38,16 +37,12 @@ def identifiers(device: Device) -> Iterator[Names]:
     """Yield every name that depends on the description, and the fixed names in the same namespaces."""
     names = Identifiers(device)
     yield from _of_device(device, names)
-    yield from _classes(device, names)
-    for enum in device.enums:
-        owner, space = Owner("enum", enum.name), f"Python, the enum `{enum.name}`"
-        for entry in enum.entries:
-            yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
-    for point in device.points:
-        if point.generated:
-            yield from _of_point(point)
-    for command, name in command_attributes(device, attribute).items():
-        yield Names(_POINTS, Owner("command", command), (name,))
+    yield from shared_identifiers(device, names, _SPACES, attribute, _flag_attributes)
+
+
+def _flag_attributes(flag: Flag) -> tuple[str, str]:
+    """Return the member of a flag, and its reader."""
+    return upper(flag.name), word_attribute(flag.name)
 
 
 def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
@@ -59,33 +54,6 @@ def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
     for axis in device.variants:
         yield Names(module, Owner("variant", axis), (f"{pascal(axis)}Choice",))
         yield Names(constructor, Owner("variant", axis), (parameter(axis),))
-
-
-def _classes(device: Device, names: Identifiers) -> Iterator[Names]:
-    """Yield the classes of the enums module."""
-    for enum in device.enums:
-        yield Names(_CLASSES, Owner("enum", enum.name), (names.enum_class(enum.name),))
-    for point in device.points:
-        owner, word = Owner("point", point.item), names.word_class(point)
-        if word:
-            yield Names(_CLASSES, owner, (word,))
-        for flag in point.flags if word else ():
-            if (name := names.field_class(point, flag.name)) is not None:
-                yield Names(
-                    _CLASSES, Owner("enum", flag.enum) if flag.enum else Owner("flag", flag.name, owner), (name,)
-                )
-
-
-def _of_point(point: Point) -> Iterator[Names]:
-    owner = Owner("point", point.item)
-    yield Names(_POINTS, owner, (attribute(point.item),))
-    if point.variant is not None:
-        yield Names(_POINTS, Owner("point", point.name), (attribute(point.name),))
-    for old in point.was:
-        yield Names(_POINTS, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
-    for flag in point.flags if point.form == "flags" else ():
-        space = f"Python, the flags of `{point.item}`"
-        yield Names(space, Owner("flag", flag.name, owner), (upper(flag.name), word_attribute(flag.name)))
 
 
 SEES_TITLES = False

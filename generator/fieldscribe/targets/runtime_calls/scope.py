@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
 
 from fieldscribe.families import family
 from fieldscribe.lowered import Lowered, lower
-from fieldscribe.model import Device, Point, Telegram
-from fieldscribe.text import pascal
+from fieldscribe.model import Device, Flag, Point, Telegram
+from fieldscribe.targets.identifiers import Names, Owner
+from fieldscribe.text import pascal, upper
 
 
 class Name(str):
@@ -165,6 +166,39 @@ def command_attributes(device: Device, attribute: Callable[[str], str]) -> dict[
     points = {name for point in device.points for name in (point.item, point.name)}
     names = [command.name for command in device.all_commands]
     return {name: attribute(f"{name}_command" if name in points else name) for name in names}
+
+
+def shared_identifiers(
+    device: Device,
+    names: ClassNames,
+    spaces: tuple[str, str],
+    attribute: Callable[[str], str],
+    flag_attributes: Callable[[Flag], Sequence[str]],
+) -> Iterator[Names]:
+    """Yield the names of enums, flags, points and commands; `spaces` are the namespaces of points and of classes."""
+    points, classes = spaces
+    language, _, _ = points.partition(",")
+    for enum in device.enums:
+        owner, space = Owner("enum", enum.name), f"{language}, the enum `{enum.name}`"
+        yield Names(classes, owner, (names.enum_class(enum.name),))
+        for entry in enum.entries:
+            yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
+    for point in (point for point in device.points if point.generated):
+        owner, word = Owner("point", point.item), names.word_class(point)
+        yield Names(points, owner, (attribute(point.item),))
+        if point.variant is not None:
+            yield Names(points, Owner("point", point.name), (attribute(point.name),))
+        for old in point.was:
+            yield Names(points, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
+        if word:
+            yield Names(classes, owner, (word,))
+        for flag in point.flags if word else ():
+            of_flag = Owner("flag", flag.name, owner)
+            yield Names(f"{language}, the flags of `{point.item}`", of_flag, flag_attributes(flag))
+            if (name := names.field_class(point, flag.name)) is not None:
+                yield Names(classes, Owner("enum", flag.enum) if flag.enum else of_flag, (name,))
+    for command, name in command_attributes(device, attribute).items():
+        yield Names(points, Owner("command", command), (name,))
 
 
 class FamilyCalls(NamedTuple):

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from fieldscribe.families import family
-from fieldscribe.model import Device, Flag, Point, Special
+from fieldscribe.model import Device, Flag, Special
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.runtime_calls.scope import ClassNames, Scope, command_attributes
-from fieldscribe.text import camel, pascal, upper
+from fieldscribe.targets.runtime_calls.scope import ClassNames, Scope, shared_identifiers
+from fieldscribe.text import camel, pascal
 
 
 class TypeScriptFamily(NamedTuple):
@@ -147,8 +147,7 @@ def scope_of(device: Device, names: Identifiers) -> Scope:
     return Scope.of(device, names, attribute)
 
 
-_POINTS = "TypeScript, the points"
-_CLASSES = "TypeScript, the names of numbers and flags"
+_SPACES = "TypeScript, the points", "TypeScript, the names of numbers and flags"
 
 
 NODE_MODULES = frozenset(
@@ -173,35 +172,11 @@ def device_name_taken(name: str) -> str:
 def identifiers(device: Device) -> Iterator[Names]:
     """Yield every name that depends on the description, and the fixed names in the same namespaces."""
     names = Identifiers(device)
-    yield Names(_CLASSES, Owner("device", device.id), (names.device_class, names.options))
+    yield Names(_SPACES[1], Owner("device", device.id), (names.device_class, names.options))
     for axis in device.variants:
         yield Names("TypeScript, the options", Owner("variant", axis), (option(axis),))
-    for enum in device.enums:
-        owner, space = Owner("enum", enum.name), f"TypeScript, the enum `{enum.name}`"
-        yield Names(_CLASSES, owner, (names.enum_class(enum.name),))
-        for entry in enum.entries:
-            yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
+    yield from shared_identifiers(device, names, _SPACES, attribute, lambda flag: (word_attribute(flag),))
     for point in device.points:
-        if point.generated:
-            yield from _of_point(point, names)
-    for command, name in command_attributes(device, attribute).items():
-        yield Names(_POINTS, Owner("command", command), (name,))
-
-
-def _of_point(point: Point, names: Identifiers) -> Iterator[Names]:
-    owner, word = Owner("point", point.item), names.word_class(point)
-    yield Names(_POINTS, owner, (attribute(point.item),))
-    if point.variant is not None:
-        yield Names(_POINTS, Owner("point", point.name), (attribute(point.name),))
-    for old in point.was:
-        yield Names(_POINTS, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
-    for special in point.specials:
-        space = f"TypeScript, the special codes of `{point.item}`"
-        yield Names(space, Owner("code", special.name, owner), (code_attribute(special),))
-    if word:
-        yield Names(_CLASSES, owner, (word,))
-    for flag in point.flags if word else ():
-        flag_owner = Owner("flag", flag.name, owner)
-        yield Names(f"TypeScript, the flags of `{point.item}`", flag_owner, (word_attribute(flag),))
-        if (name := names.field_class(point, flag.name)) is not None:
-            yield Names(_CLASSES, Owner("enum", flag.enum) if flag.enum else flag_owner, (name,))
+        space, owner = f"TypeScript, the special codes of `{point.item}`", Owner("point", point.item)
+        for special in point.specials if point.generated else ():
+            yield Names(space, Owner("code", special.name, owner), (code_attribute(special),))
