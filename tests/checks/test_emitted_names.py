@@ -192,7 +192,7 @@ NAMES_OF_FLAGS = {
         ),
         "low": ("MADE_UP_STATE_LOW_MASK",),
     },
-    "python": {"on": ("ON", "on"), "mode": ("StateMode", "MODE", "mode"), "low": ("LOW", "low")},
+    "python": {"on": ("ON", "on"), "mode": ("MODE", "mode", "StateMode"), "low": ("LOW", "low")},
     "rust": {
         "on": ("ON", "on", "with_on"),
         "mode": ("MODE", "mode", "with_mode", "MODE_A", "MODE_B"),
