@@ -207,13 +207,16 @@ def test_each_flag_has_its_names_and_is_named_as_their_owner(language: str, tmp_
     """A single bit has no names for its numbers; a finding about a name leads to the flag, which is of its point."""
     device = loaded_in(tmp_path, described(f"- {{name: state, at: 1, flags: {{{FLAGS}}}}}\n"))
     found: dict[str, tuple[str, ...]] = {}
+    of_point: set[str] = set()
     for _, owner, names, _ in target(language).identifiers(device):
+        of_point.update(names if (owner.kind, owner.name) == ("point", "state") else ())
         flag = owner.of if owner.kind == "value" and owner.of is not None else owner
         if flag.kind == "flag":
             assert flag.of is not None
             assert (flag.of.kind, flag.of.name) == ("point", "state")
             found[flag.name] = (*found.get(flag.name, ()), *names)
     assert found == NAMES_OF_FLAGS[language]
+    assert language == "c" or "State" in of_point, "the class of the word belongs to its point"
     text = "".join(text for _, path, text in outputs(device, [language]) if "made_up" in path)
     assert set(re.findall(r"\w+", text)) >= {name for names in found.values() for name in names}
 
